@@ -1,0 +1,95 @@
+# How every target of Vantage is built: language level, warnings, sanitizers, and three helpers.
+#   vantage_library(NAME DEPENDS ...)      a static library of all *.cpp of the current folder
+#   vantage_registry(TARGET ...)           gathers backends by file name, so that adding one touches no other file
+#   vantage_unit_test(NAME DEPENDS ...)    one GoogleTest program of all *_test.cpp of the current folder
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  # base_dir lets several checkouts of Vantage share one cache.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=true ${CCACHE_PROGRAM})
+endif()
+
+add_library(vantage_options INTERFACE)
+target_include_directories(vantage_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Woverloaded-virtual $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # False alarms of GCC's flow analysis inside the standard library and OpenCV at -O2.
+  target_compile_options(vantage_options INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow
+    -Wno-array-bounds -Wno-restrict -Wno-dangling-reference)
+endif()
+if(VANTAGE_SANITIZE)
+  add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${VANTAGE_SANITIZE})
+endif()
+if(VANTAGE_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
+function(vantage_library name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
+  target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
+endfunction()
+
+# vantage_registry(TARGET vantage_rig_stereo TYPE MatcherEntry FUNCTION matcher_entries
+#                  HEADER rig_firmware/stereo/matcher.h SUFFIX matcher FILES a_matcher.cpp b_matcher.cpp)
+# Every file x_SUFFIX.cpp defines `TYPE x_SUFFIX_entry();` in namespace vantage; the generated FUNCTION
+# returns all of them in the order of their file names. Static self-registration would be dropped by the linker.
+function(vantage_registry)
+  cmake_parse_arguments(ARG "" "TARGET;TYPE;FUNCTION;HEADER;SUFFIX" "FILES" ${ARGN})
+  set(declarations "")
+  set(calls "")
+  list(SORT ARG_FILES)
+  foreach(file ${ARG_FILES})
+    get_filename_component(stem ${file} NAME_WE)
+    if(stem MATCHES "_${ARG_SUFFIX}$")
+      string(APPEND declarations "${ARG_TYPE} ${stem}_entry();\n")
+      string(APPEND calls "    entries.push_back(${stem}_entry());\n")
+    endif()
+  endforeach()
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/${ARG_FUNCTION}.cpp)
+  file(CONFIGURE OUTPUT ${generated} CONTENT
+"#include \"${ARG_HEADER}\"
+
+#include <vector>
+
+namespace vantage {
+${declarations}
+std::vector<${ARG_TYPE}> ${ARG_FUNCTION}() {
+    std::vector<${ARG_TYPE}> entries;
+${calls}    return entries;
+}
+}  // namespace vantage
+")
+  target_sources(${ARG_TARGET} PRIVATE ${generated})
+endfunction()
+
+function(vantage_unit_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "DEPENDS" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} vantage_test_support GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+endfunction()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace vantage {
+
+/// Writes beside the target and renames over it once everything is on disk, so that an existing
+/// file is either untouched or whole. Throws Error with the path and the system's reason.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Reads a whole file. Throws Error if it is missing, unreadable or larger than max_bytes.
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t max_bytes);
+
+}  // namespace vantage

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace vantage {
+
+/// A queue between two threads that never grows past its capacity: when it is full, push drops the
+/// OLDEST item and counts it. close() wakes the reader; items pushed before it can still be popped.
+template <class T>
+class BoundedQueue {
+  public:
+    explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
+
+    /// Returns the item that had to make room, if any.
+    std::optional<T> push(T item) {
+        std::optional<T> dropped;
+        {
+            const std::lock_guard lock(mutex_);
+            if (closed_) return item;
+            if (items_.size() == capacity_) {
+                dropped = std::move(items_.front());
+                items_.pop_front();
+                ++dropped_count_;
+            }
+            items_.push_back(std::move(item));
+        }
+        ready_.notify_one();
+        return dropped;
+    }
+
+    /// Waits for an item; empty once the time is up, or once the queue is closed and drained.
+    std::optional<T> pop_for(std::chrono::nanoseconds timeout) {
+        std::unique_lock lock(mutex_);
+        ready_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
+        if (items_.empty()) return std::nullopt;
+        T item = std::move(items_.front());
+        items_.pop_front();
+        return item;
+    }
+
+    void close() {
+        {
+            const std::lock_guard lock(mutex_);
+            closed_ = true;
+        }
+        ready_.notify_all();
+    }
+
+    bool closed() const {
+        const std::lock_guard lock(mutex_);
+        return closed_;
+    }
+    std::size_t size() const {
+        const std::lock_guard lock(mutex_);
+        return items_.size();
+    }
+    std::uint64_t dropped_count() const {
+        const std::lock_guard lock(mutex_);
+        return dropped_count_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::condition_variable ready_;
+    std::deque<T> items_;
+    std::size_t capacity_;
+    std::uint64_t dropped_count_ = 0;
+    bool closed_ = false;
+};
+
+}  // namespace vantage

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vantage {
+
+enum class LogLevel { debug, info, warning, error };
+
+/// Writes one line to stderr, "name: level: text"; one write(2) a line, so lines of several threads
+/// and processes never mix. Results go to stdout, everything else through here.
+void log_line(LogLevel level, std::string_view text);
+
+/// Lines below this level are not written. The default is info; the environment variable
+/// VANTAGE_LOG=debug|info|warning|error sets it at start.
+LogLevel log_threshold();
+
+template <class... Args>
+void log_debug(fmt::format_string<Args...> format, Args&&... args) {
+    if (log_threshold() <= LogLevel::debug)
+        log_line(LogLevel::debug, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void log_info(fmt::format_string<Args...> format, Args&&... args) {
+    if (log_threshold() <= LogLevel::info)
+        log_line(LogLevel::info, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void log_warning(fmt::format_string<Args...> format, Args&&... args) {
+    if (log_threshold() <= LogLevel::warning)
+        log_line(LogLevel::warning, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void log_error(fmt::format_string<Args...> format, Args&&... args) {
+    log_line(LogLevel::error, fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace vantage

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace vantage {
+
+/// A point in time is an int64 count of nanoseconds that carries its clock in its type, so that
+/// readings of different clocks cannot be compared or subtracted by mistake.
+template <class Clock>
+using TimePoint = std::chrono::time_point<Clock, std::chrono::nanoseconds>;
+
+/// CLOCK_TAI: the stage's common clock, disciplined by PTP. Epoch 1970-01-01T00:00:00 TAI (as SMPTE
+/// ST 2059).
+struct TaiClock {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = TimePoint<TaiClock>;
+    static constexpr bool is_steady = false;
+    static time_point now();
+};
+
+/// CLOCK_MONOTONIC of this computer: for durations, and the domain of V4L2 and libcamera sensor
+/// timestamps.
+struct MonotonicClock {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = TimePoint<MonotonicClock>;
+    static constexpr bool is_steady = true;
+    static time_point now();
+};
+
+using TaiTime = TimePoint<TaiClock>;
+using MonotonicTime = TimePoint<MonotonicClock>;
+
+template <class Clock>
+std::int64_t to_ns(TimePoint<Clock> t) {
+    return t.time_since_epoch().count();
+}
+inline TaiTime tai_from_ns(std::int64_t ns) { return TaiTime(std::chrono::nanoseconds(ns)); }
+inline MonotonicTime monotonic_from_ns(std::int64_t ns) {
+    return MonotonicTime(std::chrono::nanoseconds(ns));
+}
+
+/// Sleeps until the absolute time on CLOCK_TAI (clock_nanosleep, TIMER_ABSTIME); returns at once if
+/// it has passed.
+void sleep_until(TaiTime deadline);
+
+}  // namespace vantage

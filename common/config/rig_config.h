@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// What one rig computer is told (rig.toml). Every key is documented in hw_config/rig.toml; unknown
+/// keys, wrong types and values out of range are refused with file, line and the nearest known key.
+struct RigConfig {
+    std::string name;  ///< of this rig, unique on the stage: letters, digits, '-', '_'
+
+    struct Source {
+        std::string kind = "virtual";  ///< virtual | files | v4l2
+        double rate_hz = 30;           ///< pulses of the stage's clock per second
+        // virtual
+        int width_px = 320, height_px = 240;
+        std::uint64_t seed = 1;  ///< of sensor noise
+        double noise_sigma = 0;  ///< sensor noise, 8-bit grey levels
+        // files
+        std::string left,
+            right;  ///< single pictures, or patterns with one %d / %04d; right empty: side by side
+        int first = 0;  ///< first number of a pattern
+        bool loop = true;
+        // v4l2
+        std::string left_device, right_device;  ///< right empty: one side-by-side device
+        std::string pixel_format;               ///< fourcc, empty: the best of those known
+        std::map<std::string, int> controls;    ///< by the driver's control name
+    } source;
+
+    std::filesystem::path
+        calibration;  ///< YAML; may be empty for the virtual source (its own ideal rig)
+
+    /// Of the virtual source: where the rig stands on the virtual stage.
+    struct VirtualRig {
+        double azimuth_deg = 0, elevation_deg = 10, distance_m = 4.5, baseline_m = 0.12,
+               field_of_view_deg = 50;
+    } virtual_rig;
+
+    struct Match {
+        std::string
+            matcher;  ///< empty: the preset's default; "exact": the virtual stage's own depth
+        std::string preset = "balanced";
+        int disparities = 64;
+        bool fill = true;
+    } match;
+
+    struct Stream {
+        std::string bind = "tcp://127.0.0.1:5600";
+        int jpeg_quality = 85;  ///< 1..100; 0: lossless colour
+        int queue_frames =
+            4;  ///< frames the socket may hold for one host before it drops the oldest
+        std::filesystem::path key_file;  ///< this rig's CURVE key pair; needed beyond loopback
+        std::filesystem::path
+            authorized_hosts;  ///< public keys of the hosts it talks to, one a line
+    } stream;
+};
+
+/// Throws Error with file and line for whatever does not fit.
+RigConfig load_rig_config(const std::filesystem::path& path);
+
+}  // namespace vantage

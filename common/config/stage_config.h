@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// What the host is told (stage.toml; documented key by key in hw_config/stage.toml).
+struct StageConfig {
+    struct Rig {
+        std::string name;
+        std::string endpoint;    ///< tcp://host:port of the rig's publisher
+        std::string public_key;  ///< the rig's CURVE public key, Z85; needed beyond loopback
+    };
+    std::vector<Rig> rigs;
+    std::filesystem::path key_file;  ///< this host's CURVE key pair
+
+    double rate_hz = 30;  ///< of the stage's clock
+    double latency_budget_ms =
+        200;  ///< a rig whose frame of pulse k is later than this is left out of set k
+
+    struct View {
+        int width_px = 1280, height_px = 720;
+        double field_of_view_deg = 45;     ///< horizontal
+        double target_m[3] = {0, 1.0, 0};  ///< pivot of the orbit, world
+        double distance_m = 4.5;
+        double azimuth_deg = 0, elevation_deg = 10;
+        std::string synthesiser = "mesh";
+    } view;
+};
+
+/// Throws Error with file and line for whatever does not fit.
+StageConfig load_stage_config(const std::filesystem::path& path);
+
+}  // namespace vantage

@@ -1,0 +1,54 @@
+#include "common/geometry/rectification_map.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/geometry/opencv_bridge.h"
+
+namespace vantage {
+
+cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side) {
+    const bool is_left = side == Side::left;
+    const CameraModel& camera = is_left ? calibration.left : calibration.right;
+    const Eigen::Matrix3d& rotation =
+        is_left ? calibration.rectified_from_left : calibration.rectified_from_right;
+    const RectifiedStereo& rectified = calibration.rectified;
+    const cv::Matx33d new_K(rectified.f_px, 0,
+                            is_left ? rectified.cx_left_px : rectified.cx_right_px, 0,
+                            rectified.f_px, rectified.cy_px, 0, 0, 1);
+    const cv::Size size(rectified.width_px, rectified.height_px);
+    // OpenCV knows no skew: it gets unit intrinsics, and the matrix with skew is applied to its
+    // result.
+    const cv::Matx33d unit = cv::Matx33d::eye();
+    cv::Mat map, unused;
+    if (camera.lens == LensModel::fisheye)
+        cv::fisheye::initUndistortRectifyMap(
+            unit, camera.distortion.empty() ? std::vector<double>(4, 0.0) : camera.distortion,
+            to_cv(rotation), new_K, size, CV_32FC2, map, unused);
+    else
+        cv::initUndistortRectifyMap(unit, camera.distortion, to_cv(rotation), new_K, size, CV_32FC2,
+                                    map, unused);
+    cv::Mat2f positions = map;
+    for (auto& p : positions) {
+        const double x = p[0], y = p[1];
+        p[0] = static_cast<float>(camera.fx_px * x + camera.skew_px * y + camera.cx_px);
+        p[1] = static_cast<float>(camera.fy_px * y + camera.cy_px);
+    }
+    return positions;
+}
+
+bool is_identity(const StereoCalibration& calibration, Side side) {
+    const bool is_left = side == Side::left;
+    const CameraModel& camera = is_left ? calibration.left : calibration.right;
+    const Eigen::Matrix3d& rotation =
+        is_left ? calibration.rectified_from_left : calibration.rectified_from_right;
+    const RectifiedStereo& r = calibration.rectified;
+    for (const double k : camera.distortion)
+        if (k != 0) return false;
+    return camera.lens == LensModel::pinhole && rotation.isIdentity(0) && camera.skew_px == 0 &&
+           camera.width_px == r.width_px && camera.height_px == r.height_px &&
+           camera.fx_px == r.f_px && camera.fy_px == r.f_px && camera.cy_px == r.cy_px &&
+           camera.cx_px == (is_left ? r.cx_left_px : r.cx_right_px);
+}
+
+}  // namespace vantage

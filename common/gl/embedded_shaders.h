@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace vantage {
+
+struct EmbeddedShader {
+    std::string_view name;
+    std::string_view source;
+};
+
+/// Every file of shaders/, put into the program by the build (shaders/CMakeLists.txt).
+std::span<const EmbeddedShader> embedded_shaders();
+
+}  // namespace vantage

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <utility>
+
+#include <GLES3/gl31.h>
+
+namespace vantage {
+
+/// Owns one GL object name; deletes it with Delete. Move-only. The context that made it must be
+/// current at destruction.
+template <auto Delete>
+class GlHandle {
+  public:
+    GlHandle() = default;
+    explicit GlHandle(GLuint name) : name_(name) {}
+    GlHandle(GlHandle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    GlHandle& operator=(GlHandle&& other) noexcept {
+        if (this != &other) {
+            reset();
+            name_ = std::exchange(other.name_, 0);
+        }
+        return *this;
+    }
+    ~GlHandle() { reset(); }
+
+    GLuint name() const { return name_; }
+
+  private:
+    void reset() {
+        if (name_ != 0) Delete(name_);
+        name_ = 0;
+    }
+    GLuint name_ = 0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,71 @@
+#include <GLES3/gl31.h>
+// The extension header needs the core one before it.
+#include <EGL/egl.h>
+#include <GLES2/gl2ext.h>
+
+#include "common/gl/gpu_timer.h"
+#include "common/gl/limits.h"
+
+namespace vantage {
+namespace {
+
+template <class Function>
+Function load(const char* name) {
+    return reinterpret_cast<Function>(eglGetProcAddress(name));
+}
+
+}  // namespace
+
+void delete_timer_query(GLuint name) { glDeleteQueries(1, &name); }
+
+GpuTimer::GpuTimer() : uses_queries_(has_gl_extension("GL_EXT_disjoint_timer_query")) {
+    if (!uses_queries_) return;
+    GLuint name = 0;
+    glGenQueries(1, &name);
+    query_ = GlHandle<delete_timer_query>(name);
+}
+
+void GpuTimer::begin() {
+    if (uses_queries_) {
+        glBeginQuery(GL_TIME_ELAPSED_EXT, query_.name());
+    } else {
+        glFinish();
+        begin_time_ = std::chrono::steady_clock::now();
+    }
+}
+
+void GpuTimer::end() {
+    if (uses_queries_) {
+        glEndQuery(GL_TIME_ELAPSED_EXT);
+    } else {
+        glFinish();
+        last_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() -
+                                                             begin_time_)
+                       .count();
+    }
+    pending_ = true;
+}
+
+double GpuTimer::wait_ms() {
+    if (pending_ && uses_queries_) {
+        static const auto get_result =
+            load<PFNGLGETQUERYOBJECTUI64VEXTPROC>("glGetQueryObjectui64vEXT");
+        GLuint64 ns = 0;
+        get_result(query_.name(), GL_QUERY_RESULT, &ns);
+        last_ms_ = static_cast<double>(ns) * 1e-6;
+    }
+    pending_ = false;
+    return last_ms_;
+}
+
+std::optional<double> GpuTimer::poll_ms() {
+    if (!pending_) return std::nullopt;
+    if (uses_queries_) {
+        GLuint available = 0;
+        glGetQueryObjectuiv(query_.name(), GL_QUERY_RESULT_AVAILABLE, &available);
+        if (!available) return std::nullopt;
+    }
+    return wait_ms();
+}
+
+}  // namespace vantage

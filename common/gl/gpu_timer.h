@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include <GLES3/gl31.h>
+
+#include "common/gl/gl_handle.h"
+
+namespace vantage {
+
+void delete_timer_query(GLuint name);
+
+/// Times GPU work between begin() and end() with EXT_disjoint_timer_query where the driver has it,
+/// else by waiting for the GPU at both ends and reading the clock. One timer times one span at a
+/// time; spans of several timers must not nest (the extension allows one at a time).
+class GpuTimer {
+  public:
+    GpuTimer();
+
+    void begin();
+    void end();
+    /// Milliseconds of the last span; waits until the GPU has finished it.
+    double wait_ms();
+    /// The same without waiting: empty while the GPU is still at it (or before any span).
+    std::optional<double> poll_ms();
+
+  private:
+    bool uses_queries_;
+    bool pending_ = false;
+    GlHandle<delete_timer_query> query_;
+    std::chrono::steady_clock::time_point begin_time_{};
+    double last_ms_ = 0;
+};
+
+}  // namespace vantage

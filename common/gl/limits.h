@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include <GLES3/gl31.h>
+
+namespace vantage {
+
+/// What Vantage's shaders may count on: the limits of a Raspberry Pi 4 (V3D 4.2, Mesa). Looser ones
+/// of the computer at hand are not used, so that what runs here runs there; Program and Framebuffer
+/// enforce them.
+struct PiLimits {
+    static constexpr int max_workgroup_invocations = 256;
+    static constexpr int max_colour_targets = 4;
+    static constexpr int max_image_side_px = 4096;
+    static constexpr int max_shared_bytes = 16 * 1024;
+};
+
+/// What the current context offers.
+struct GlInfo {
+    std::string vendor, renderer, version;
+    int max_texture_side_px = 0;
+    int max_colour_targets = 0;
+    int max_workgroup_invocations = 0;
+    int max_shared_bytes = 0;
+    bool has_timer_queries = false;
+    bool is_software = false;  ///< llvmpipe or softpipe
+
+    static GlInfo query();
+    /// Throws Error naming the first limit that is below what Vantage needs.
+    void require_vantage_minimum() const;
+};
+
+bool has_gl_extension(const char* name);
+
+/// Throws Error with `doing` if GL has an error flag set (a fault of driver or memory at this
+/// point).
+void check_gl(const char* doing);
+
+}  // namespace vantage

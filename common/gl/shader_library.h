@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vantage {
+
+/// Preprocessor definitions put before a shader, e.g. {"LANES", "16"}.
+using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
+/// The shaders of shaders/, by file name ("census.comp"). They are embedded at build time; with the
+/// environment variable VANTAGE_SHADERS set to a folder, files found there win, and poll() notices
+/// when they change, so that running programs take up an edited shader (see Program). Shader files:
+/// no #version line (this class writes `#version 310 es` and the default precisions), `#include
+/// "x.glsl"` of files in the same folder, and `#ifndef X / #define X default` for every define they
+/// take, so that each file compiles alone and is validated at build.
+class ShaderLibrary {
+  public:
+    ShaderLibrary();
+    explicit ShaderLibrary(std::filesystem::path override_folder);
+
+    /// Complete source for glShaderSource. Throws Error if there is no such shader or include.
+    std::string source(std::string_view file, const ShaderDefines& defines = {}) const;
+
+    /// Looks at the override folder; true if something changed since the last look. At most a stat
+    /// per file.
+    bool poll();
+    /// Grows with every change that poll() saw.
+    std::uint64_t generation() const { return generation_; }
+
+    std::vector<std::string> embedded_names() const;
+
+  private:
+    std::string read(std::string_view file) const;
+    void expand(std::string_view file, std::string& out, int depth) const;
+
+    std::filesystem::path override_folder_;
+    std::map<std::filesystem::path, std::filesystem::file_time_type> seen_;
+    std::uint64_t generation_ = 0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// Reads any 8-bit picture OpenCV's codecs know (PNG, JPEG, TIFF, ...) as RGBA. Throws Error naming
+/// the file and what is wrong with it: missing, not a picture, or wider or higher than
+/// max_image_side_px.
+ColourImage read_colour_image(const std::filesystem::path& path);
+
+/// Reads a one-channel picture of 8 or 16 bits without scaling its values (for disparity and depth
+/// codes); a colour file with equal channels is taken as grey.
+cv::Mat1w read_code_image(const std::filesystem::path& path);
+
+/// Writes PNG or JPEG by the path's extension, whole or not at all.
+void write_colour_image(const std::filesystem::path& path, const ColourImage& image);
+void write_grey_image(const std::filesystem::path& path, const cv::Mat& one_channel_8_or_16_bit);
+
+/// RGBA to luma with the weights of ITU-R BT.601, rounded, as the shaders do it.
+GreyImage to_grey(const ColourImage& image);
+
+inline constexpr int max_image_side_px = 16384;
+
+}  // namespace vantage

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/gl/shader_library.h"
+#include "common/gl/texture.h"
+#include "host_app/fusion/depth_view.h"
+
+namespace vantage {
+
+/// The camera that is rendered: a pinhole with any intrinsics.
+struct VirtualView {
+    int width_px = 0, height_px = 0;
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    Pose world_from_camera = Pose::Identity();
+};
+
+/// Renders one view from several rigs' depth views, on the GPU. The context that was current at
+/// construction must be current at every call.
+class Synthesiser {
+  public:
+    virtual ~Synthesiser() = default;
+
+    /// Takes the newest instant; uploads what changed. Views may differ in size, lack depth, or be
+    /// one or none.
+    virtual void set_views(std::span<const DepthView> views) = 0;
+
+    /// Renders. The result is an rgba8 texture of the view's size, top row first, owned by the
+    /// synthesiser and valid until the next call. Alpha is 255 where a rig saw the surface, and
+    /// below 128 where the pixel was filled in or stayed empty (this is what `coverage` counts).
+    virtual const Texture& render(const VirtualView& view) = 0;
+};
+
+/// One registered synthesiser: host_app/fusion/synthesisers/NAME_synthesiser.cpp defines
+/// NAME_synthesiser_entry().
+struct SynthesiserEntry {
+    std::string name;
+    std::string summary;
+    std::function<std::unique_ptr<Synthesiser>(const ShaderLibrary&)> make;
+};
+std::vector<SynthesiserEntry> synthesiser_entries();
+
+/// Throws Error that lists the known names if `name` is none of them.
+std::unique_ptr<Synthesiser> make_synthesiser(const std::string& name,
+                                              const ShaderLibrary& library);
+
+}  // namespace vantage

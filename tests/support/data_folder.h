@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+
+/// The folder with real stereo data: $VANTAGE_DATA, else shared/data beside the checkout; empty
+/// where there is none.
+std::optional<std::filesystem::path> data_folder();
+
+/// A fresh folder of this test, removed at destruction.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace vantage
+
+/// At the top of a test that needs real data: skips, with the reason, where there is none.
+#define VANTAGE_REQUIRE_DATA(variable)                                                          \
+    const auto variable##_optional = ::vantage::data_folder();                                  \
+    if (!variable##_optional)                                                                   \
+        GTEST_SKIP() << "SKIPPED: no stereo data (set VANTAGE_DATA to the folder that has it)"; \
+    const std::filesystem::path& variable = *variable##_optional
