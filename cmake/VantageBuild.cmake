@@ -37,7 +37,8 @@ if(VANTAGE_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
+# Lets a library stand before its first source file does.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cpp CONTENT "")
 function(vantage_library name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "common/geometry/pose.h"
+#include "common/gl/shader_library.h"
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// A pinhole camera on the virtual stage. Any K (skew too) with positive focal lengths.
+struct StageCamera {
+    int width_px = 0, height_px = 0;
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    Pose world_from_camera = Pose::Identity();
+};
+
+struct StageRendering {
+    ColourImage colour;  ///< anti-aliased, sRGB-coded
+    DepthImage depth_m;  ///< exact z at every pixel's centre; never 0: the set surrounds the stage
+};
+
+/// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
+/// glossy and untextured parts. World: right-handed, metres, y up, floor at y = 0; the performers
+/// move around the origin within a circle of about 1.5 m radius. The same time always gives the
+/// same picture.
+class VirtualStage {
+  public:
+    /// The show: the set the demo films.
+    explicit VirtualStage(const ShaderLibrary& library);
+    /// Another set, made from a seed: other shapes, textures, lights and depths; for tests and
+    /// tuning.
+    VirtualStage(const ShaderLibrary& library, std::uint64_t seed);
+    ~VirtualStage();
+    VirtualStage(VirtualStage&&) noexcept;
+    VirtualStage& operator=(VirtualStage&&) noexcept;
+
+    StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/percentiles.h"
+#include "common/config/stage_config.h"
+#include "host_app/receive/frame_set.h"
+
+namespace vantage {
+
+/// What the host knows of one rig's stream.
+struct RigStatus {
+    std::string rig;
+    bool connected = false;      ///< a frame or heartbeat within the last second
+    std::string refused;         ///< a sentence, when the rig turned this host's key down
+    std::uint64_t received = 0;  ///< frames decoded
+    std::uint64_t undecodable =
+        0;                      ///< messages refused by the decoder; the last reason in last_error
+    std::uint64_t in_sets = 0;  ///< frames that met their set
+    std::uint64_t late = 0;     ///< frames that came after their set was closed
+    std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy
+    RigCounters rig_counters;         ///< as the rig last reported
+    RigStageTimes rig_times;
+    Percentiles latency_ms;  ///< exposure to decoded
+    std::string last_error;
+};
+
+struct ReceiverStatus {
+    std::vector<RigStatus> rigs;
+    std::uint64_t sets = 0;           ///< closed, with at least one rig
+    std::uint64_t complete_sets = 0;  ///< with all rigs
+    std::uint64_t sets_dropped =
+        0;  ///< closed and not taken by next() before newer ones pushed them out
+};
+
+/// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them by
+/// trigger index. Rigs may come, go and come back at any time. Thread-safe.
+class StageReceiver {
+  public:
+    /// Throws Error if a key or an endpoint is unusable.
+    explicit StageReceiver(const StageConfig& stage);
+    ~StageReceiver();
+
+    /// The next closed set, oldest first, within bounded memory; empty when the time is up.
+    std::optional<FrameSet> next(std::chrono::nanoseconds timeout);
+    ReceiverStatus status() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage

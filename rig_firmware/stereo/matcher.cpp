@@ -1,0 +1,26 @@
+#include "rig_firmware/stereo/matcher.h"
+
+#include "common/base/error.h"
+
+namespace vantage {
+
+std::unique_ptr<Matcher> make_matcher(const std::string& name, const ShaderLibrary& library,
+                                      const MatchSettings& settings) {
+    std::string known;
+    for (const MatcherEntry& entry : matcher_entries()) {
+        if (entry.name == name) return entry.make(library, settings);
+        known += (known.empty() ? "" : ", ") + entry.name;
+    }
+    fail("there is no matcher named '{}'; the ones there are: {}", name, known);
+}
+
+MatchPreset parse_preset(const std::string& name) {
+    if (name == "fast") return MatchPreset::fast;
+    if (name == "balanced") return MatchPreset::balanced;
+    if (name == "quality") return MatchPreset::quality;
+    fail("there is no preset named '{}'; the ones there are: fast, balanced, quality", name);
+}
+
+std::string default_matcher(MatchPreset) { return "gradient"; }
+
+}  // namespace vantage
