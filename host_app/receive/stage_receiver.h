@@ -26,6 +26,8 @@ struct RigStatus {
     RigCounters rig_counters;         ///< as the rig last reported
     RigStageTimes rig_times;
     Percentiles latency_ms;  ///< exposure to decoded
+    Percentiles network_ms;  ///< published by the rig to received here, on the stage's clock
+    Percentiles decode_ms;   ///< of one message
     std::string last_error;
 };
 
