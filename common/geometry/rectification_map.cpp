@@ -20,19 +20,20 @@ cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side
     // OpenCV knows no skew: it gets unit intrinsics, and the matrix with skew is applied to its
     // result.
     const cv::Matx33d unit = cv::Matx33d::eye();
-    cv::Mat map, unused;
+    cv::Mat x, y;
     if (camera.lens == LensModel::fisheye)
         cv::fisheye::initUndistortRectifyMap(
             unit, camera.distortion.empty() ? std::vector<double>(4, 0.0) : camera.distortion,
-            to_cv(rotation), new_K, size, CV_32FC2, map, unused);
+            to_cv(rotation), new_K, size, CV_32F, x, y);
     else
-        cv::initUndistortRectifyMap(unit, camera.distortion, to_cv(rotation), new_K, size, CV_32FC2,
-                                    map, unused);
-    cv::Mat2f positions = map;
+        cv::initUndistortRectifyMap(unit, camera.distortion, to_cv(rotation), new_K, size, CV_32F,
+                                    x, y);
+    cv::Mat2f positions;
+    cv::merge(std::vector<cv::Mat>{x, y}, positions);
     for (auto& p : positions) {
-        const double x = p[0], y = p[1];
-        p[0] = static_cast<float>(camera.fx_px * x + camera.skew_px * y + camera.cx_px);
-        p[1] = static_cast<float>(camera.fy_px * y + camera.cy_px);
+        const double u = p[0], v = p[1];
+        p[0] = static_cast<float>(camera.fx_px * u + camera.skew_px * v + camera.cx_px);
+        p[1] = static_cast<float>(camera.fy_px * v + camera.cy_px);
     }
     return positions;
 }

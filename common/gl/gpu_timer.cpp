@@ -18,7 +18,11 @@ Function load(const char* name) {
 
 void delete_timer_query(GLuint name) { glDeleteQueries(1, &name); }
 
-GpuTimer::GpuTimer() : uses_queries_(has_gl_extension("GL_EXT_disjoint_timer_query")) {
+// Mesa's software renderers list the extension, and their queries time the recording of commands:
+// some microseconds for any compute work, and garbage for the first span.
+GpuTimer::GpuTimer()
+    : uses_queries_(has_gl_extension("GL_EXT_disjoint_timer_query") &&
+                    !GlInfo::query().is_software) {
     if (!uses_queries_) return;
     GLuint name = 0;
     glGenQueries(1, &name);

@@ -11,9 +11,9 @@ namespace vantage {
 
 void delete_timer_query(GLuint name);
 
-/// Times GPU work between begin() and end() with EXT_disjoint_timer_query where the driver has it,
-/// else by waiting for the GPU at both ends and reading the clock. One timer times one span at a
-/// time; spans of several timers must not nest (the extension allows one at a time).
+/// Times GPU work between begin() and end() with EXT_disjoint_timer_query where a GPU's driver has
+/// it, else by waiting for the GPU at both ends and reading the clock. One timer times one span at
+/// a time; spans of several timers must not nest (the extension allows one at a time).
 class GpuTimer {
   public:
     GpuTimer();

@@ -20,9 +20,10 @@ struct MatchSettings {
     bool fill = true;  ///< dense output; false leaves unknown as 0
 };
 
-/// One GPU pass of the last match(), for --explain.
+/// One kind of GPU pass of the last match(), for --explain; sums over all its runs.
 struct PassReport {
     std::string name;
+    int runs = 0;
     double gpu_ms = 0;
     std::size_t bytes_moved = 0;  ///< read + written, by the pass's own accounting
     double operations = 0;        ///< integer and float operations, likewise
@@ -35,8 +36,8 @@ class Matcher {
     virtual ~Matcher() = default;
 
     /// left, right: rgba8 textures of the settings' size. The result is an r16ui texture of the
-    /// same size that holds DisparityImage's values (1/32 px, 0 = unknown), owned by the matcher,
-    /// valid until the next call.
+    /// same size that holds DisparityImage's values (1/32 px, 0 = unknown; a point at infinity is
+    /// known and reads 1), owned by the matcher, valid until the next call.
     virtual const Texture& match(const Texture& left, const Texture& right) = 0;
 
     /// Times and traffic of the last match(); empty unless profiling was switched on before it.

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "common/geometry/rectification_map.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/fullscreen_pass.h"
+#include "common/gl/shader_library.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// Rectifies the raw pictures of one camera of a stereo rig on the GPU, for any lens that OpenCV's
+/// models describe. Built once for a calibration; every call reuses its GL objects. The context
+/// that was current at construction must be current at every call; `library` must outlive it.
+class RectifyPass {
+  public:
+    /// Throws Error if the raw or the rectified size is beyond the GPU's limits.
+    RectifyPass(const ShaderLibrary& library, const StereoCalibration& calibration, Side side);
+
+    /// raw: rgba8, of the size that the camera was calibrated for (Error naming both sizes if not).
+    /// The result is rgba8 of the calibration's rectified size, opaque black where the raw picture
+    /// shows nothing, owned by this pass and valid until the next call; if the calibration says
+    /// that the camera is rectified already, it is `raw` itself and costs nothing.
+    const Texture& rectify(const Texture& raw);
+
+    /// Read and written in one rectify(), and held, for the reports of times and memory.
+    std::size_t bytes_moved() const;
+    std::size_t gpu_bytes() const;
+
+  private:
+    std::string calibration_id_;
+    Side side_;
+    cv::Size raw_size_;
+    bool is_identity_;
+    Texture positions_, rectified_;
+    Framebuffer target_;
+    FullscreenPass pass_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,34 @@
+#include "common/gl/gpu_timer.h"
+
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/egl_context.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+namespace {
+
+TEST(GpuTimer, SaysMoreThanNothingAndNoMoreThanTheWallClockAround) {
+    const EglContext context;
+    const Texture texture(TextureFormat::rgba8, 1024, 1024);
+    const Framebuffer target({&texture});
+    GpuTimer timer;
+    for (int span = 0; span < 2; ++span) {
+        const auto before = std::chrono::steady_clock::now();
+        timer.begin();
+        target.bind();
+        glClear(GL_COLOR_BUFFER_BIT);
+        timer.end();
+        const double gpu_ms = timer.wait_ms();
+        const std::chrono::duration<double, std::milli> wall =
+            std::chrono::steady_clock::now() - before;
+        EXPECT_GT(gpu_ms, 0);
+        EXPECT_LE(gpu_ms, wall.count());
+    }
+}
+
+}  // namespace
+}  // namespace vantage
