@@ -1,6 +1,7 @@
 #include "common/base/percentiles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vantage {
 
