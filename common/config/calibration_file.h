@@ -20,7 +20,15 @@ struct CalibrationRecord {
     int views_used = 0;
 };
 
-/// Writes atomically; the file that stood there before is kept as PATH.last.
+/// The record of a calibration file; throws as load_calibration does.
+CalibrationRecord load_calibration_record(const std::filesystem::path& path);
+
+/// The name of a calibration: 16 hexadecimal digits of the checksum (FNV-1a, 64 bits) over its
+/// numbers in their order of the file. Calibrations with equal numbers have equal names.
+std::string calibration_checksum(const StereoCalibration& calibration);
+
+/// Writes atomically; the id is made from the content. A file that stood there before and is good
+/// is kept as PATH.last. Throws Error if the calibration is not valid, or the disk refuses.
 void save_calibration(const std::filesystem::path& path, StereoCalibration calibration,
                       const CalibrationRecord& record);
 

@@ -33,12 +33,15 @@ struct RigConfig {
     } source;
 
     std::filesystem::path
-        calibration;  ///< YAML; may be empty for the virtual source (its own ideal rig)
+        calibration;  ///< YAML; may be empty for the virtual source and for rectified files
 
-    /// Of the virtual source: where the rig stands on the virtual stage.
+    /// An ideal, already rectified rig: the one the virtual source films with where no calibration
+    /// is given, and the one that the files source takes rectified pictures without a calibration
+    /// to come from.
     struct VirtualRig {
         double azimuth_deg = 0, elevation_deg = 10, distance_m = 4.5, baseline_m = 0.12,
                field_of_view_deg = 50;
+        double doffs_px = 0;  ///< cx_right - cx_left; files only
     } virtual_rig;
 
     struct Match {

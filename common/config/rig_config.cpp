@@ -1,0 +1,76 @@
+#include "common/config/rig_config.h"
+
+#include "common/config/endpoint.h"
+#include "common/config/stream_name.h"
+#include "common/config/toml_reader.h"
+
+namespace vantage {
+namespace {
+
+constexpr int rig_config_version = 1;
+
+void read_source(TomlTable& table, RigConfig::Source& source) {
+    table.read("kind", source.kind);
+    table.read("rate_hz", source.rate_hz, {0.01, 1000});
+    table.read("width_px", source.width_px, {16, 4096});
+    table.read("height_px", source.height_px, {16, 4096});
+    table.read("seed", source.seed);
+    table.read("noise_sigma", source.noise_sigma, {0, 255});
+    std::filesystem::path left = source.left, right = source.right;
+    table.read("left", left);
+    table.read("right", right);
+    source.left = left.string();
+    source.right = right.string();
+    table.read("first", source.first, {0});
+    table.read("loop", source.loop);
+    table.read("left_device", source.left_device);
+    table.read("right_device", source.right_device);
+    table.read("pixel_format", source.pixel_format);
+    if (!source.pixel_format.empty() && source.pixel_format.size() != 4)
+        table.refuse("pixel_format", "must be a code of four characters such as 'GREY' or 'MJPG'");
+    table.read("controls", source.controls);
+}
+
+void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
+    table.read("azimuth_deg", rig.azimuth_deg, {-360, 360});
+    table.read("elevation_deg", rig.elevation_deg, {-80, 80});
+    table.read("distance_m", rig.distance_m, {0.1, 1000});
+    table.read("baseline_m", rig.baseline_m, {0.001, 10});
+    table.read("field_of_view_deg", rig.field_of_view_deg, {1, 150});
+    table.read("doffs_px", rig.doffs_px, {-4096, 4096});
+}
+
+void read_match(TomlTable& table, RigConfig::Match& match) {
+    table.read("matcher", match.matcher);
+    table.read_choice("preset", match.preset, {"fast", "balanced", "quality"});
+    table.read("disparities", match.disparities, {1, 256});
+    table.read("fill", match.fill);
+}
+
+void read_stream(TomlTable& table, RigConfig::Stream& stream) {
+    table.read("bind", stream.bind);
+    const std::string fault = endpoint_fault(stream.bind, EndpointUse::bind);
+    if (!fault.empty()) table.refuse("bind", fault);
+    table.read("jpeg_quality", stream.jpeg_quality, {0, 100});
+    table.read("queue_frames", stream.queue_frames, {1, 64});
+    table.read("key_file", stream.key_file);
+    table.read("authorized_hosts", stream.authorized_hosts);
+}
+
+}  // namespace
+
+RigConfig load_rig_config(const std::filesystem::path& path) {
+    RigConfig config;
+    read_toml_file(path, rig_config_version, [&](TomlTable& top) {
+        read_stream_name(top, config.name);
+        top.read("calibration", config.calibration);
+        top.read_table("source", [&](TomlTable& t) { read_source(t, config.source); });
+        top.read_table("virtual_rig",
+                       [&](TomlTable& t) { read_virtual_rig(t, config.virtual_rig); });
+        top.read_table("match", [&](TomlTable& t) { read_match(t, config.match); });
+        top.read_table("stream", [&](TomlTable& t) { read_stream(t, config.stream); });
+    });
+    return config;
+}
+
+}  // namespace vantage

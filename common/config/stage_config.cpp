@@ -1,0 +1,65 @@
+#include "common/config/stage_config.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/config/endpoint.h"
+#include "common/config/stream_name.h"
+#include "common/config/toml_reader.h"
+
+namespace vantage {
+namespace {
+
+constexpr int stage_config_version = 1;
+
+void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
+    StageConfig::Rig rig;
+    read_stream_name(table, rig.name);
+    const auto same_name = [&](const StageConfig::Rig& other) { return other.name == rig.name; };
+    if (std::any_of(rigs.begin(), rigs.end(), same_name))
+        table.refuse("name",
+                     fmt::format("is '{}' a second time: every rig has its own name", rig.name));
+    table.require("endpoint");
+    table.read("endpoint", rig.endpoint);
+    if (table.has("endpoint")) {
+        const std::string fault = endpoint_fault(rig.endpoint, EndpointUse::connect);
+        if (!fault.empty()) table.refuse("endpoint", fault);
+    }
+    table.read("public_key", rig.public_key);
+    if (!rig.public_key.empty()) {
+        const std::string fault = z85_key_fault(rig.public_key);
+        if (!fault.empty()) table.refuse("public_key", fault);
+    }
+    rigs.push_back(std::move(rig));
+}
+
+void read_view(TomlTable& table, StageConfig::View& view) {
+    table.read("width_px", view.width_px, {16, 4096});
+    table.read("height_px", view.height_px, {16, 4096});
+    table.read("field_of_view_deg", view.field_of_view_deg, {1, 150});
+    table.read("target_m", view.target_m);
+    table.read("distance_m", view.distance_m, {0.05, 1000});
+    table.read("azimuth_deg", view.azimuth_deg, {-360, 360});
+    table.read("elevation_deg", view.elevation_deg, {-89, 89});
+    table.read("synthesiser", view.synthesiser);
+}
+
+}  // namespace
+
+StageConfig load_stage_config(const std::filesystem::path& path) {
+    StageConfig config;
+    read_toml_file(path, stage_config_version, [&](TomlTable& top) {
+        top.require("rigs");
+        top.read_tables("rigs", [&](TomlTable& t) { read_rig(t, config.rigs); });
+        if (top.has("rigs") && config.rigs.empty())
+            top.refuse("rigs", "is empty: a stage has at least one rig");
+        top.read("key_file", config.key_file);
+        top.read("rate_hz", config.rate_hz, {0.01, 1000});
+        top.read("latency_budget_ms", config.latency_budget_ms, {1, 60000});
+        top.read_table("view", [&](TomlTable& t) { read_view(t, config.view); });
+    });
+    return config;
+}
+
+}  // namespace vantage

@@ -1,0 +1,24 @@
+#include "common/config/stream_name.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace vantage {
+
+void read_stream_name(TomlTable& table, std::string& name) {
+    constexpr std::size_t max_length = 64;
+    table.require("name");
+    table.read("name", name);
+    if (!table.has("name")) return;
+    const bool fits = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '-' || c == '_';
+    });
+    if (!fits || name.empty() || name.size() > max_length)
+        table.refuse("name",
+                     fmt::format("is '{}', and it must be 1 to {} letters, digits, '-' and '_'",
+                                 name, max_length));
+}
+
+}  // namespace vantage

@@ -1,0 +1,230 @@
+#include "common/config/calibration_file.h"
+
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+StereoCalibration odd_calibration() {
+    StereoCalibration c;
+    c.left = {.width_px = 641,
+              .height_px = 479,
+              .fx_px = 533.1 / 3,
+              .fy_px = 532.7,
+              .cx_px = 320.4,
+              .cy_px = 239.9,
+              .skew_px = 0.01,
+              .distortion = {-0.29, 0.1, 1e-4, -2.0 / 3e5, 0.05}};
+    c.right = c.left;
+    c.right.cx_px += std::numbers::pi;
+    c.right.distortion = {};
+    c.right_from_left.translation() = Eigen::Vector3d(-0.1, 0.001, 1.0 / 3000);
+    c.right_from_left.linear() =
+        Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    c.rectified = {.width_px = 641,
+                   .height_px = 479,
+                   .f_px = 500.25,
+                   .cx_left_px = 300,
+                   .cx_right_px = 301.5,
+                   .cy_px = 240,
+                   .baseline_m = 0.1};
+    c.rectified_from_left = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    c.world_from_left.translation() = Eigen::Vector3d(1, 2, -3);
+    c.world_from_left.linear() = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    return c;
+}
+
+class CalibrationFileTest : public testing::Test {
+  protected:
+    std::string text() const {
+        std::ostringstream out;
+        out << std::ifstream(file_).rdbuf();
+        return out.str();
+    }
+    void replace(const std::string& from, const std::string& to) {
+        std::string content = text();
+        const std::size_t at = content.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        content.replace(at, from.size(), to);
+        std::ofstream(file_) << content;
+    }
+    std::string fault() const {
+        std::string sentence = thrown_sentence([&] { load_calibration(file_); });
+        const std::string prefix = file_.string() + ": ";
+        if (sentence.starts_with(prefix)) sentence.erase(0, prefix.size());
+        return sentence;
+    }
+    void save(const StereoCalibration& c = odd_calibration()) {
+        save_calibration(file_, c, record_);
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "calib.yaml";
+    CalibrationRecord record_ = {.date = "2026-01-02T03:04:05Z",
+                                 .tool = "vantage-calib \"stereo\" 1",
+                                 .rms_px = 0.21,
+                                 .row_rms_px = 0.14,
+                                 .views_used = 13};
+};
+
+TEST_F(CalibrationFileTest, GivesBackEveryBit) {
+    const StereoCalibration saved = odd_calibration();
+    save(saved);
+    const StereoCalibration loaded = load_calibration(file_);
+    EXPECT_EQ(loaded.left.K(), saved.left.K());
+    EXPECT_EQ(loaded.right.K(), saved.right.K());
+    EXPECT_EQ(loaded.left.width_px, 641);
+    EXPECT_EQ(loaded.left.height_px, 479);
+    EXPECT_EQ(loaded.left.distortion, saved.left.distortion);
+    EXPECT_TRUE(loaded.right.distortion.empty());
+    EXPECT_EQ(loaded.right_from_left.matrix(), saved.right_from_left.matrix());
+    EXPECT_EQ(loaded.world_from_left.matrix(), saved.world_from_left.matrix());
+    EXPECT_EQ(loaded.rectified_from_left, saved.rectified_from_left);
+    EXPECT_EQ(loaded.rectified_from_right, saved.rectified_from_right);
+    EXPECT_EQ(loaded.rectified.width_px, 641);
+    EXPECT_EQ(loaded.rectified.height_px, 479);
+    EXPECT_EQ(loaded.rectified.f_px, saved.rectified.f_px);
+    EXPECT_EQ(loaded.rectified.doffs_px(), 1.5);
+    EXPECT_EQ(loaded.rectified.cy_px, saved.rectified.cy_px);
+    EXPECT_EQ(loaded.rectified.baseline_m, saved.rectified.baseline_m);
+    EXPECT_EQ(loaded.id, calibration_checksum(saved));
+    EXPECT_EQ(loaded.id.size(), 16u);
+}
+
+TEST_F(CalibrationFileTest, GivesBackItsRecordAndAFisheyeLens) {
+    StereoCalibration c = odd_calibration();
+    c.left.lens = c.right.lens = LensModel::fisheye;
+    c.left.distortion = {0.1, 0.2, 0.3, 0.4};
+    save(c);
+    EXPECT_EQ(load_calibration(file_).left.lens, LensModel::fisheye);
+    const CalibrationRecord record = load_calibration_record(file_);
+    EXPECT_EQ(record.date, record_.date);
+    EXPECT_EQ(record.tool, record_.tool);
+    EXPECT_EQ(record.rms_px, record_.rms_px);
+    EXPECT_EQ(record.row_rms_px, record_.row_rms_px);
+    EXPECT_EQ(record.views_used, record_.views_used);
+}
+
+TEST_F(CalibrationFileTest, IsReadByOpenCvAlone) {
+    save();
+    const cv::FileStorage file(file_.string(), cv::FileStorage::READ);
+    cv::Mat K, distortion;
+    file["left"]["K"] >> K;
+    file["left"]["distortion"] >> distortion;
+    EXPECT_EQ(K.at<double>(0, 0), 533.1 / 3);
+    EXPECT_EQ(distortion.total(), 5u);
+    EXPECT_NE(static_cast<std::string>(file["units"]).find("metres"), std::string::npos);
+}
+
+TEST(CalibrationChecksum, DependsOnEveryNumberAndOnNothingElse) {
+    const StereoCalibration c = odd_calibration();
+    StereoCalibration renamed = c;
+    renamed.id = "other";
+    EXPECT_EQ(calibration_checksum(c), calibration_checksum(renamed));
+    std::vector<StereoCalibration> changed(8, c);
+    changed[0].left.fx_px += 1e-9;
+    changed[1].right.distortion = {0, 0, 0, 0};
+    changed[2].right_from_left.translation().x() -= 1e-12;
+    changed[3].rectified_from_right(0, 1) += 1e-15;
+    changed[4].world_from_left.translation().z() += 1e-9;
+    changed[5].rectified.cx_right_px += 1e-9;
+    changed[6].left.height_px += 1;
+    changed[7].left.lens = LensModel::fisheye;
+    for (const StereoCalibration& other : changed)
+        EXPECT_NE(calibration_checksum(c), calibration_checksum(other));
+}
+
+TEST_F(CalibrationFileTest, KeepsTheLastGoodFile) {
+    save();
+    const std::string first_id = load_calibration(file_).id;
+    StereoCalibration second = odd_calibration();
+    second.left.fx_px = 600;
+    save(second);
+    const std::filesystem::path last = file_.string() + ".last";
+    EXPECT_EQ(load_calibration(last).id, first_id);
+    std::ofstream(file_) << "damaged";
+    save(second);
+    EXPECT_EQ(load_calibration(last).id, first_id) << "a damaged file must not replace a good one";
+    EXPECT_EQ(load_calibration(file_).id, calibration_checksum(second));
+}
+
+TEST_F(CalibrationFileTest, WritesNothingThatCannotBe) {
+    save();
+    const std::string before = text();
+    StereoCalibration bad = odd_calibration();
+    bad.rectified.baseline_m = -0.1;
+    EXPECT_THROW(save(bad), Error);
+    EXPECT_EQ(text(), before);
+    EXPECT_THROW(save_calibration(folder_.path() / "none" / "c.yaml", odd_calibration(), record_),
+                 Error);
+}
+
+TEST_F(CalibrationFileTest, RefusesAChangedNumber) {
+    save();
+    replace("width_px: 641", "width_px: 642");
+    EXPECT_TRUE(fault().starts_with("the checksum does not fit the numbers")) << fault();
+}
+
+TEST_F(CalibrationFileTest, RefusesAnotherVersionOrKind) {
+    save();
+    replace("version: 1", "version: 2");
+    EXPECT_EQ(fault(), "it is of version 2, and this program reads version 1");
+    replace("version: 2", "version: 1");
+    replace("vantage stereo calibration", "shopping list");
+    EXPECT_EQ(fault(), "this is not a calibration of Vantage");
+}
+
+TEST_F(CalibrationFileTest, NamesWhatIsMissingOrOfAnotherType) {
+    save();
+    replace("baseline_m:", "baseline:");
+    EXPECT_EQ(fault(), "'rectified.baseline_m' is missing");
+    save();
+    replace("f_px: ", "f_px: about ");
+    EXPECT_EQ(fault(), "'rectified.f_px' must be a number");
+    save();
+    replace("height_px: 479", "height_px: 479.5");
+    EXPECT_EQ(fault(), "'left.height_px' must be an integer");
+    save();
+    replace("lens: pinhole", "lens: mirror");
+    EXPECT_EQ(fault(), "'left.lens' is 'mirror', and it must be pinhole or fisheye");
+    save();
+    replace("rows: 3", "rows: 2000000000");
+    EXPECT_EQ(fault(), "'left.K' is 2000000000x3 and holds 9 numbers");
+}
+
+TEST_F(CalibrationFileTest, RefusesNumbersThatCannotBe) {
+    save();
+    replace("baseline_m: ", "baseline_m: -");
+    EXPECT_TRUE(fault().starts_with("baseline -0.1 m must be above 0")) << fault();
+    save();
+    replace("width_px: 641", "width_px: 0");
+    EXPECT_TRUE(fault().starts_with("camera size 0x479")) << fault();
+}
+
+TEST_F(CalibrationFileTest, RefusesWhatIsNoYamlAtAll) {
+    EXPECT_NE(fault(), "") << "a missing file";
+    for (const std::string& content :
+         {std::string(), std::string("\0\x01\x02", 3), std::string("%YAML:1.0\n---\n{{{{"),
+          std::string("<?xml version=\"1.0\"?><a/>"), std::string("{\"kind\": 3}"),
+          std::string("%YAML:1.0\n---\n- 1\n- 2\n"), std::string(2 << 20, 'x')}) {
+        std::ofstream(file_, std::ios::binary) << content;
+        EXPECT_NE(fault(), "") << content.substr(0, 30);
+    }
+    save();
+    const std::string whole = text();
+    for (std::size_t length = 0; length < whole.size() - 200; length += 97) {
+        std::ofstream(file_, std::ios::binary) << whole.substr(0, length);
+        EXPECT_NE(fault(), "") << "truncated to " << length;
+    }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,84 @@
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "common/config/rig_config.h"
+#include "common/config/stage_config.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+/// The keys that a loader knows in a table, from what it says of one that it does not know.
+std::vector<std::string> known_keys(const std::string& sentence) {
+    const std::string list_starts = "the ones there are: ";
+    const std::size_t at = sentence.find(list_starts);
+    std::vector<std::string> keys;
+    std::istringstream list(at == std::string::npos ? ""
+                                                    : sentence.substr(at + list_starts.size()));
+    for (std::string key; list >> key;) keys.push_back(key.substr(0, key.find(',')));
+    return keys;
+}
+
+/// Keys of a table that the example has neither set nor shown behind a '#'.
+std::vector<std::string> undocumented(const std::filesystem::path& example,
+                                      const std::vector<std::string>& keys) {
+    std::ostringstream text;
+    text << std::ifstream(example).rdbuf();
+    const std::string content = text.str();
+    std::vector<std::string> missing;
+    for (const std::string& key : keys)
+        if (!std::regex_search(
+                content, std::regex("(^|\n)(# |\\[|\\[\\[|\\[source\\.)?" + key + "(\\]| = )")))
+            missing.push_back(key);
+    return missing;
+}
+
+TEST(ExampleFiles, LoadAndShowTheDefaults) {
+    const RigConfig rig = load_rig_config(source_folder() / "hw_config/rig.toml");
+    const RigConfig defaults;
+    EXPECT_EQ(rig.source.rate_hz, defaults.source.rate_hz);
+    EXPECT_EQ(rig.source.width_px, defaults.source.width_px);
+    EXPECT_EQ(rig.virtual_rig.distance_m, defaults.virtual_rig.distance_m);
+    EXPECT_EQ(rig.virtual_rig.baseline_m, defaults.virtual_rig.baseline_m);
+    EXPECT_EQ(rig.match.disparities, defaults.match.disparities);
+    EXPECT_EQ(rig.match.preset, defaults.match.preset);
+    EXPECT_EQ(rig.stream.bind, defaults.stream.bind);
+    EXPECT_EQ(rig.stream.jpeg_quality, defaults.stream.jpeg_quality);
+    EXPECT_EQ(rig.stream.queue_frames, defaults.stream.queue_frames);
+    const StageConfig stage = load_stage_config(source_folder() / "hw_config/stage.toml");
+    const StageConfig stage_defaults;
+    EXPECT_EQ(stage.rigs.size(), 2u);
+    EXPECT_EQ(stage.latency_budget_ms, stage_defaults.latency_budget_ms);
+    EXPECT_EQ(stage.view.width_px, stage_defaults.view.width_px);
+    EXPECT_EQ(stage.view.field_of_view_deg, stage_defaults.view.field_of_view_deg);
+}
+
+TEST(ExampleFiles, ShowEveryKeyThatIsRead) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "x.toml";
+    const std::string unknown = "xxxxxxxxxxxxxxxx = 1\n";
+    for (const char* table : {"", "[source]\n", "[virtual_rig]\n", "[match]\n", "[stream]\n"}) {
+        std::ofstream(file) << "version = 1\nname = 'a'\n" << table << unknown;
+        const auto keys = known_keys(thrown_sentence([&] { load_rig_config(file); }));
+        ASSERT_GE(keys.size(), 4u) << table;
+        EXPECT_EQ(undocumented(source_folder() / "hw_config/rig.toml", keys),
+                  std::vector<std::string>())
+            << table;
+    }
+    for (const char* table : {"", "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n", "[view]\n"}) {
+        std::ofstream(file) << "version = 1\n" << table << unknown;
+        const auto keys = known_keys(thrown_sentence([&] { load_stage_config(file); }));
+        ASSERT_GE(keys.size(), 3u) << table;
+        EXPECT_EQ(undocumented(source_folder() / "hw_config/stage.toml", keys),
+                  std::vector<std::string>())
+            << table;
+    }
+}
+
+}  // namespace
+}  // namespace vantage
