@@ -2,7 +2,8 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio aruco mcc)
+find_package(Ceres REQUIRED)
 find_package(Protobuf REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
@@ -22,7 +23,14 @@ pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 
+find_path(HPDF_INCLUDE_DIR hpdf.h REQUIRED)
+find_library(HPDF_LIBRARY hpdf REQUIRED)
+
 # Interfaces under the names the rest of the build uses, so that a dependency reads as what it is for.
 add_library(vantage_opencv INTERFACE)
 target_link_libraries(vantage_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
 target_include_directories(vantage_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+
+add_library(vantage_hpdf INTERFACE)
+target_link_libraries(vantage_hpdf INTERFACE ${HPDF_LIBRARY})
+target_include_directories(vantage_hpdf SYSTEM INTERFACE ${HPDF_INCLUDE_DIR})
