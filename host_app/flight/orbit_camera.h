@@ -1,0 +1,39 @@
+#pragma once
+
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+
+/// The virtual camera in an operator's hands. Inputs move a goal, within the limits; advance() lets
+/// the camera follow it smoothly and no faster than the limits allow, so that a jerk of the hand
+/// does not reach the picture.
+class OrbitCamera {
+  public:
+    explicit OrbitCamera(const OrbitView& start, const FlightLimits& limits = {});
+
+    /// Around the pivot: to the right and up, as seen by the camera.
+    void orbit(double azimuth_rad, double elevation_rad);
+    /// Shifts pivot and camera in the picture's plane: to the right and up, in picture widths at
+    /// the pivot's distance (what a drag across the whole picture moves).
+    void pan(double right_widths, double up_widths);
+    /// Nearer by a factor of e for every 1 (and back for -1).
+    void dolly(double nearer);
+    /// Narrower by a factor of e for every 1.
+    void zoom(double narrower);
+    /// Flies to a view, the shorter way round.
+    void fly_to(const OrbitView& view);
+    /// Is there at once.
+    void jump_to(const OrbitView& view);
+
+    /// Lets dt_s seconds pass. Precondition: dt_s >= 0.
+    void advance(double dt_s);
+
+    const OrbitView& view() const { return current_; }
+    const OrbitView& goal() const { return goal_; }
+
+  private:
+    OrbitView goal_, current_;
+    FlightLimits limits_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,99 @@
+#include "host_app/flight/orbit_camera.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+void settle(OrbitCamera& camera) {
+    for (int i = 0; i < 1000; ++i) camera.advance(0.02);
+}
+
+TEST(OrbitCamera, SettlesOnItsGoal) {
+    OrbitCamera camera{OrbitView()};
+    camera.orbit(1.0, 0.5);
+    camera.dolly(0.4);
+    settle(camera);
+    EXPECT_NEAR(camera.view().azimuth_rad, 1.0, 1e-9);
+    EXPECT_NEAR(camera.view().elevation_rad, 0.5, 1e-9);
+    EXPECT_NEAR(camera.view().distance_m, 4.5 * std::exp(-0.4), 1e-9);
+}
+
+TEST(OrbitCamera, DragsAPointAtThePivotByTheWholePicture) {
+    OrbitView start;
+    start.azimuth_rad = 0.5;
+    start.elevation_rad = 0.3;
+    OrbitCamera camera{start};
+    camera.pan(1, 0);
+    settle(camera);
+    // The old pivot, which was in the middle, is now at the left edge's half picture further on.
+    const OrbitView& view = camera.view();
+    const Eigen::Vector3d old_pivot = view.world_from_camera().inverse() * start.pivot_m;
+    const double half_width = std::tan(0.5 * view.field_of_view_rad);
+    EXPECT_NEAR(old_pivot.x() / old_pivot.z(), -2 * half_width, 1e-9);
+    EXPECT_NEAR(old_pivot.y(), 0, 1e-9);
+}
+
+TEST(OrbitCamera, TurnsNoFasterThanTheLimit) {
+    const FlightLimits limits;
+    OrbitCamera camera{OrbitView()};
+    camera.orbit(20, 0);
+    for (int i = 0; i < 50; ++i) {
+        const double before = camera.view().azimuth_rad;
+        camera.advance(0.04);
+        EXPECT_LE(camera.view().azimuth_rad - before, limits.max_turn_rad_s * 0.04 + 1e-12);
+    }
+    EXPECT_NEAR(camera.view().azimuth_rad, 50 * 0.04 * limits.max_turn_rad_s, 1e-9);
+}
+
+TEST(OrbitCamera, MovesThePivotNoFasterThanTheLimit) {
+    const FlightLimits limits;
+    OrbitCamera camera{OrbitView()};
+    OrbitView far;
+    far.pivot_m = {20, 15, -20};
+    camera.fly_to(far);
+    const Eigen::Vector3d before = camera.view().pivot_m;
+    camera.advance(0.1);
+    EXPECT_NEAR((camera.view().pivot_m - before).norm(), 0.1 * limits.max_speed_m_s, 1e-9);
+}
+
+TEST(OrbitCamera, StaysAboveTheFloorOnItsWay) {
+    const FlightLimits limits;
+    OrbitView start;
+    start.pivot_m.y() = 5;
+    start.elevation_rad = -0.5;
+    OrbitCamera camera(start, limits);
+    OrbitView low;
+    low.pivot_m.y() = 0.1;
+    low.distance_m = 12;
+    camera.fly_to(low);
+    for (int i = 0; i < 300; ++i) {
+        camera.advance(0.02);
+        EXPECT_GE(camera.view().eye_m().y(), limits.min_eye_height_m - 1e-12);
+    }
+}
+
+TEST(OrbitCamera, FliesTheShorterWayRound) {
+    OrbitView start;
+    start.azimuth_rad = 3.0;
+    OrbitCamera camera{start};
+    OrbitView goal;
+    goal.azimuth_rad = -3.0;
+    camera.fly_to(goal);
+    camera.advance(0.1);
+    EXPECT_GT(camera.view().azimuth_rad, 3.0);
+    settle(camera);
+    EXPECT_NEAR(std::remainder(camera.view().azimuth_rad + 3.0, 2 * M_PI), 0, 1e-9);
+}
+
+TEST(OrbitCamera, StandsStillWhileNoTimePasses) {
+    OrbitCamera camera{OrbitView()};
+    camera.orbit(1, 0);
+    camera.advance(0);
+    EXPECT_EQ(camera.view().azimuth_rad, 0);
+}
+
+}  // namespace
+}  // namespace vantage
