@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/gl/buffer.h"
+#include "common/gl/texture.h"
+#include "host_app/fusion/depth_view.h"
+
+namespace vantage {
+
+/// One depth view on the GPU. Textures stay while the sizes stay.
+class GpuView {
+  public:
+    /// Precondition: the view has depth.
+    void upload(const DepthView& view);
+
+    /// Camera, name and sizes as in the last upload; its pictures are empty.
+    const DepthView& camera() const { return camera_; }
+    const Texture& colour() const { return *colour_; }  ///< rgba8, trilinear
+    const Texture& depth() const { return *depth_; }    ///< r32f, metres, 0 = unknown
+    /// Index buffer of the depth map's triangles: two a quad of four neighbouring pixels.
+    const Buffer& triangles() const { return *triangles_; }
+    Eigen::Matrix3d K_depth() const;
+    int triangle_indices() const;
+
+    /// A few known surface points in world coordinates, evenly over the picture.
+    std::span<const Eigen::Vector3d> sample_points_m() const { return sample_points_m_; }
+    double median_depth_m() const { return median_depth_m_; }
+
+  private:
+    void take_samples(const DepthImage& depth_m);
+
+    DepthView camera_;
+    std::optional<Texture> colour_, depth_;
+    std::optional<Buffer> triangles_;
+    std::vector<Eigen::Vector3d> sample_points_m_;
+    double median_depth_m_ = 0;
+};
+
+/// Uploads those views that have depth, in order, reusing what is there.
+void upload_views(std::span<const DepthView> views, std::vector<std::unique_ptr<GpuView>>& on_gpu);
+
+}  // namespace vantage

@@ -1,0 +1,183 @@
+#include "host_app/fusion/synthesiser.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/error.h"
+#include "common/gl/egl_context.h"
+#include "common/image/image_file.h"
+#include "host_app/fusion/image_metrics.h"
+#include "host_app/fusion/view_set.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+Eigen::Matrix3d intrinsics(double f_px, double width_px, double height_px) {
+    Eigen::Matrix3d K;
+    K << f_px, 0, 0.5 * (width_px - 1), 0, f_px, 0.5 * (height_px - 1), 0, 0, 1;
+    return K;
+}
+
+/// A wall at z = 4 m with a colour gradient, and a red square of 1 m before it at z = 2 m; seen
+/// from (x, 0, 0) along z.
+DepthView wall_and_square(double x_m, int width_px, int height_px) {
+    DepthView view;
+    view.name = "at " + std::to_string(x_m);
+    view.K = intrinsics(0.8 * width_px, width_px, height_px);
+    view.world_from_camera.translation().x() = x_m;
+    view.colour.create(height_px, width_px);
+    view.depth_m.create(height_px, width_px);
+    for (int v = 0; v < height_px; ++v)
+        for (int u = 0; u < width_px; ++u) {
+            const double dx = (u - view.K(0, 2)) / view.K(0, 0);
+            const double dy = (v - view.K(1, 2)) / view.K(1, 1);
+            const bool square = std::abs(x_m + 2 * dx) < 0.5 && std::abs(2 * dy) < 0.5;
+            const double wall_x = x_m + 4 * dx, wall_y = 4 * dy;
+            view.depth_m(v, u) = square ? 2.0f : 4.0f;
+            view.colour(v, u) = square
+                                    ? cv::Vec4b(220, 30, 30, 255)
+                                    : cv::Vec4b(20, cv::saturate_cast<uchar>(128 + 30 * wall_x),
+                                                cv::saturate_cast<uchar>(128 + 30 * wall_y), 255);
+        }
+    return view;
+}
+
+VirtualView target_of(const DepthView& view) {
+    return {view.colour.cols, view.colour.rows, view.K, view.world_from_camera};
+}
+
+class SynthesiserTest : public testing::TestWithParam<std::string> {
+  protected:
+    ColourImage render(std::span<const DepthView> views, const VirtualView& target) {
+        synthesiser_->set_views(views);
+        return synthesiser_->render(target).download();
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    std::unique_ptr<Synthesiser> synthesiser_ = make_synthesiser(GetParam(), shaders_);
+};
+
+TEST_P(SynthesiserTest, GivesBackTheOnlyViewFromWhereItWasTaken) {
+    const DepthView view = wall_and_square(0, 61, 47);
+    const ColourImage picture = render({&view, 1}, target_of(view));
+    EXPECT_GT(psnr_db(picture, view.colour, covered_mask(picture)), 32);
+    EXPECT_GT(coverage(picture), 0.8);
+}
+
+TEST_P(SynthesiserTest, MeetsTheTruthBetweenTwoViews) {
+    const DepthView views[] = {wall_and_square(-0.2, 121, 91), wall_and_square(0.2, 121, 91)};
+    const DepthView truth = wall_and_square(0.03, 121, 91);
+    const ColourImage picture = render(views, target_of(truth));
+    EXPECT_GT(psnr_db(picture, truth.colour, covered_mask(picture)), 27);
+    EXPECT_GT(coverage(picture), 0.85);
+    // The middle is the square, and the square hides the wall.
+    EXPECT_NEAR(picture(45, 60)[0], 220, 4);
+}
+
+TEST_P(SynthesiserTest, TakesViewsOfDifferentSizesAndSomeWithoutDepth) {
+    DepthView small_map = wall_and_square(0.2, 120, 90);
+    cv::resize(small_map.depth_m, small_map.depth_m, {60, 45}, 0, 0, cv::INTER_NEAREST);
+    DepthView without_depth = wall_and_square(0, 77, 51);
+    without_depth.depth_m.release();
+    const DepthView views[] = {wall_and_square(-0.2, 91, 67), without_depth, small_map};
+    const DepthView truth = wall_and_square(0, 121, 91);
+    const ColourImage picture = render(views, target_of(truth));
+    EXPECT_GT(psnr_db(picture, truth.colour, covered_mask(picture)), 24);
+    EXPECT_GT(coverage(picture), 0.85);
+}
+
+TEST_P(SynthesiserTest, IsBlackAndUncoveredWithoutViews) {
+    const VirtualView target = target_of(wall_and_square(0, 31, 21));
+    EXPECT_EQ(coverage(render({}, target)), 0);
+    DepthView nothing = wall_and_square(0, 31, 21);
+    nothing.depth_m.setTo(0);
+    const ColourImage picture = render({&nothing, 1}, target);
+    EXPECT_EQ(coverage(picture), 0);
+    EXPECT_EQ(cv::norm(picture, cv::NORM_INF), 0);
+}
+
+TEST_P(SynthesiserTest, ClaimsNothingFromBehindTheScene) {
+    const DepthView views[] = {wall_and_square(-0.2, 61, 47), wall_and_square(0.2, 61, 47)};
+    VirtualView behind = target_of(views[0]);
+    behind.world_from_camera = look_at({0, 0, 8}, {0, 0, 0}, {0, -1, 0});
+    EXPECT_LT(coverage(render(views, behind)), 0.02);
+    VirtualView away = target_of(views[0]);
+    away.world_from_camera = look_at({0, 0, 0}, {0, 0, -8}, {0, -1, 0});
+    EXPECT_EQ(coverage(render(views, away)), 0);
+}
+
+TEST_P(SynthesiserTest, ShowsASceneFromTheSideWithoutStretchingTheSquare) {
+    const DepthView view = wall_and_square(0, 121, 91);
+    VirtualView side = target_of(view);
+    side.world_from_camera = look_at({2, 0, 0.5}, {0, 0, 3}, {0, -1, 0});
+    const ColourImage picture = render({&view, 1}, side);
+    const double covered = coverage(picture);
+    EXPECT_GT(covered, 0.2);
+    EXPECT_LT(covered, 0.98);
+}
+
+TEST_P(SynthesiserTest, FollowsChangesOfSizeAndCount) {
+    const DepthView large = wall_and_square(0, 121, 91), small = wall_and_square(0, 31, 23);
+    const DepthView many[] = {wall_and_square(-0.4, 61, 47), wall_and_square(-0.2, 61, 47),
+                              wall_and_square(0, 61, 47),    wall_and_square(0.2, 61, 47),
+                              wall_and_square(0.4, 61, 47),  wall_and_square(0.6, 61, 47)};
+    for (const DepthView* truth : {&large, &small, &large}) {
+        const ColourImage picture = render(many, target_of(*truth));
+        EXPECT_EQ(picture.size(), truth->colour.size());
+        EXPECT_GT(psnr_db(picture, truth->colour, covered_mask(picture)), 20);
+        const ColourImage alone = render({truth, 1}, target_of(*truth));
+        EXPECT_GT(psnr_db(alone, truth->colour, covered_mask(alone)), 28);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SynthesiserTest, testing::ValuesIn([] {
+                             std::vector<std::string> names;
+                             for (const SynthesiserEntry& entry : synthesiser_entries())
+                                 names.push_back(entry.name);
+                             return names;
+                         }()),
+                         [](const auto& test) { return test.param; });
+
+struct HeldOut {
+    const char *synthesiser, *views, *name;
+    double least_psnr_db;
+};
+void PrintTo(const HeldOut& held_out, std::ostream* out) {
+    *out << held_out.synthesiser << " on " << held_out.views << " " << held_out.name;
+}
+
+class HeldOutViewTest : public testing::TestWithParam<HeldOut> {};
+
+TEST_P(HeldOutViewTest, IsMetByTheOthers) {
+    VANTAGE_REQUIRE_DATA(data);
+    ViewSet set = load_view_set(data / "viewsets" / GetParam().views);
+    const std::size_t index = set.index_of(GetParam().name);
+    const DepthView truth = set.views[index];
+    set.views.erase(set.views.begin() + static_cast<std::ptrdiff_t>(index));
+    const EglContext context;
+    const ShaderLibrary shaders;
+    const auto synthesiser = make_synthesiser(GetParam().synthesiser, shaders);
+    synthesiser->set_views(set.views);
+    const ColourImage picture = synthesiser->render(target_of(truth)).download();
+    EXPECT_GE(psnr_db(picture, truth.colour), GetParam().least_psnr_db);
+}
+
+INSTANTIATE_TEST_SUITE_P(RealViews, HeldOutViewTest,
+                         testing::Values(HeldOut{"mesh", "aloe_half", "view3", 30.0},
+                                         HeldOut{"mesh", "teddy", "im4", 28.0}));
+
+TEST(MakeSynthesiser, NamesTheKnownOnesWhenAskedForAnother) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    try {
+        make_synthesiser("magic", shaders);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("mesh"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace vantage
