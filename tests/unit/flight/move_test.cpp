@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -123,12 +124,7 @@ class MoveFile : public testing::Test {
     }
     /// The sentence with which the file is refused; empty if it is taken.
     std::string refusal(const std::string& text) {
-        try {
-            Move::load(write(text));
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return thrown_sentence([&] { Move::load(write(text)); });
     }
 
   private:
@@ -208,7 +204,7 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
 }
 
 TEST_F(MoveFile, TheDemoMoveIsTaken) {
-    const Move move = Move::load(std::filesystem::path(VANTAGE_MOVES) / "demo.toml");
+    const Move move = Move::load(source_folder() / "hw_config/moves/demo.toml");
     EXPECT_GT(move.duration_s(), 5);
 }
 

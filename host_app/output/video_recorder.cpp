@@ -1,0 +1,51 @@
+#include "host_app/output/video_recorder.h"
+
+namespace vantage {
+namespace {
+
+/// Rides out a stutter of the encoder; at 1280x720 a picture is 3.7 MB.
+constexpr std::size_t waiting_pictures = 8;
+
+}  // namespace
+
+VideoRecorder::VideoRecorder(const std::filesystem::path& path, const VideoSettings& settings)
+    : writer_(path, settings), queue_(waiting_pictures), thread_([this] { write(); }) {}
+
+VideoRecorder::~VideoRecorder() {
+    queue_.close();
+    if (thread_.joinable()) thread_.join();
+}
+
+void VideoRecorder::add(const ColourImage& picture, std::chrono::nanoseconds time) {
+    if (failed_) std::rethrow_exception(failure_);
+    queue_.push({picture, time});
+}
+
+void VideoRecorder::finish() {
+    queue_.close();
+    thread_.join();
+    if (failed_) std::rethrow_exception(failure_);
+    writer_.finish();
+}
+
+void VideoRecorder::write() {
+    try {
+        for (;;) {
+            const std::optional<Picture> picture = queue_.pop_for(std::chrono::seconds(1));
+            if (!picture) {
+                if (queue_.closed() && queue_.size() == 0) return;
+                continue;
+            }
+            const auto start = std::chrono::steady_clock::now();
+            writer_.add(picture->image, picture->time);
+            encode_ms_.add(
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                    .count());
+        }
+    } catch (...) {
+        failure_ = std::current_exception();
+        failed_ = true;
+    }
+}
+
+}  // namespace vantage

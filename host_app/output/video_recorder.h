@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <thread>
+
+#include "common/base/bounded_queue.h"
+#include "common/base/percentiles.h"
+#include "host_app/output/video_writer.h"
+
+namespace vantage {
+
+/// Writes a film on a thread of its own, so that the encoder never holds up the picture. When the
+/// encoder cannot follow, the oldest waiting picture is left out of the film and counted; the
+/// others keep their times.
+class VideoRecorder {
+  public:
+    /// Throws Error as VideoWriter does.
+    VideoRecorder(const std::filesystem::path& path, const VideoSettings& settings);
+    ~VideoRecorder();
+
+    /// Shares the picture, which must not be changed afterwards. Throws Error if the writing thread
+    /// has failed.
+    void add(const ColourImage& picture, std::chrono::nanoseconds time);
+
+    /// Writes what waits, ends the film. Throws Error if anything failed.
+    void finish();
+
+    std::uint64_t dropped() const { return queue_.dropped_count(); }
+    /// After finish().
+    std::uint64_t frames() const { return writer_.frames(); }
+    Percentiles encode_ms() const { return encode_ms_.summary(); }
+
+  private:
+    struct Picture {
+        ColourImage image;
+        std::chrono::nanoseconds time{};
+    };
+    void write();
+
+    VideoWriter writer_;
+    BoundedQueue<Picture> queue_;
+    PercentileRecorder encode_ms_;
+    std::exception_ptr failure_;  ///< read by others only once failed_ is set
+    std::atomic<bool> failed_ = false;
+    std::thread thread_;
+};
+
+}  // namespace vantage
