@@ -1,0 +1,58 @@
+#include "common/base/stop_signal.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+sigset_t stop_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    return signals;
+}
+
+void set_blocked(bool blocked) {
+    const sigset_t signals = stop_signals();
+    pthread_sigmask(blocked ? SIG_BLOCK : SIG_UNBLOCK, &signals, nullptr);
+}
+
+}  // namespace
+
+StopSignal::StopSignal() {
+    const sigset_t signals = stop_signals();
+    fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (fd_ < 0) fail("this system gives no signal descriptor: {}", std::strerror(errno));
+    set_blocked(true);
+}
+
+StopSignal::~StopSignal() {
+    ::close(fd_);
+    set_blocked(false);
+}
+
+bool StopSignal::wait_for(std::chrono::nanoseconds time) {
+    if (requested_) return true;
+    const auto ns = std::max<std::chrono::nanoseconds::rep>(time.count(), 0);
+    const timespec timeout{ns / 1'000'000'000, ns % 1'000'000'000};
+    pollfd descriptor{fd_, POLLIN, 0};
+    if (ppoll(&descriptor, 1, &timeout, nullptr) <= 0) return false;
+    signalfd_siginfo taken;
+    if (::read(fd_, &taken, sizeof taken) != static_cast<ssize_t>(sizeof taken)) return false;
+    requested_ = true;
+    // From here on the signals do what they do by themselves, should the orderly end hang.
+    set_blocked(false);
+    return true;
+}
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+
+namespace vantage {
+
+/// Turns SIGINT and SIGTERM into a question that a loop asks, so that a program ends in order:
+/// files finished, sockets closed, the summary printed. To be made before any other thread is
+/// started, since threads inherit the blocked signals. A second signal ends the program at once.
+class StopSignal {
+  public:
+    /// Throws Error if the system gives no descriptor for it.
+    StopSignal();
+    ~StopSignal();
+    StopSignal(const StopSignal&) = delete;
+    StopSignal& operator=(const StopSignal&) = delete;
+
+    bool requested() { return wait_for(std::chrono::nanoseconds(0)); }
+    /// Sleeps; returns at once, and true, when the program is asked to stop.
+    bool wait_for(std::chrono::nanoseconds time);
+
+  private:
+    int fd_;
+    bool requested_ = false;
+};
+
+}  // namespace vantage
