@@ -29,6 +29,7 @@ class Framebuffer {
     void read(int target, cv::Mat& image) const;
 
     cv::Size size() const { return size_; }
+    GLuint name() const { return handle_.name(); }
 
   private:
     GlHandle<delete_framebuffer> handle_;

@@ -123,6 +123,10 @@ void Program::set(std::string_view name, const Eigen::Matrix3f& value) {
 void Program::set(std::string_view name, const Eigen::Matrix4f& value) {
     glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }
+void Program::set(std::string_view name, std::span<const Eigen::Vector4f> values) {
+    if (values.empty()) return;
+    glUniform4fv(location(name), static_cast<GLsizei>(values.size()), values.front().data());
+}
 
 void Program::dispatch_over(int width, int height, int depth) const {
     const auto groups = [](int invocations, int size) {

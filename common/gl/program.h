@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -39,6 +40,8 @@ class Program {
     void set(std::string_view name, const Eigen::Vector4f& value);
     void set(std::string_view name, const Eigen::Matrix3f& value);
     void set(std::string_view name, const Eigen::Matrix4f& value);
+    /// An array of vec4 from its first element on.
+    void set(std::string_view name, std::span<const Eigen::Vector4f> values);
 
     /// Launches enough workgroups to cover `width x height x depth` invocations; for compute
     /// programs in use.

@@ -20,10 +20,11 @@ struct VirtualRigPlacement {
 };
 
 /// The calibration of an ideal (already rectified) rig standing there, world_from_left included.
+/// Throws Error for a placement that cannot be.
 StereoCalibration ideal_virtual_rig(const VirtualRigPlacement& placement);
 
-/// Additive sensor noise: Gaussian, sigma in 8-bit grey levels, other values for every seed, side
-/// and frame, the same for the same ones.
+/// Additive sensor noise: Gaussian, sigma in 8-bit grey levels, independent for every pixel and
+/// colour; other values for every seed, side and frame, the same for the same ones.
 struct SensorNoise {
     double sigma = 0;
     std::uint64_t seed = 1;
@@ -35,10 +36,45 @@ struct VirtualStereoFrame {
     DisparityImage exact_disparity;  ///< of the rectified left picture, from exact depth
 };
 
-/// What the two sensors of a rig see at a time. For calibrations with distortion or rotation the
-/// ideal view is rendered wide enough and resampled through the lens model.
+/// A stereo rig that films the virtual stage: an ideal one directly; for lenses with distortion a
+/// pinhole picture is rendered wide enough and twice as fine, and resampled through the lens model.
+/// What a lens needs is worked out once, here.
+class VirtualRig {
+  public:
+    /// Throws Error for an impossible calibration, and for lenses that see further than about 75
+    /// degrees off their axis, which no pinhole picture holds.
+    VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise);
+
+    /// What the two sensors see at a time.
+    VirtualStereoFrame render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
+                              std::uint64_t frame_index) const;
+
+  private:
+    struct Sensor {
+        StageCamera camera;   ///< the pinhole camera to render
+        cv::Mat2f positions;  ///< in its picture, for 2 x 2 points of every pixel; empty: none
+        cv::Size size;        ///< of the sensor's picture
+    };
+    static Sensor make_sensor(const CameraModel& model, const Pose& world_from_camera);
+    static ColourImage see(const Sensor& sensor, const ColourImage& pinhole);
+
+    Sensor left_, right_;
+    StageCamera rectified_left_;
+    RectifiedStereo rectified_;
+    bool left_is_rectified_;
+    SensorNoise noise_;
+};
+
+/// One frame of a VirtualRig made for it.
 VirtualStereoFrame render_virtual_rig(VirtualStage& stage, const StereoCalibration& calibration,
                                       std::chrono::nanoseconds stage_time,
                                       std::uint64_t frame_index, const SensorNoise& noise);
+
+/// The noise by itself; `side` 0 is left, 1 right.
+void add_sensor_noise(ColourImage& picture, const SensorNoise& noise, int side,
+                      std::uint64_t frame_index);
+
+/// Disparity on the wire from depth: rounded to its steps, 0 where it is unknown or not positive.
+DisparityImage disparity_from_depth(const DepthImage& depth_m, const RectifiedStereo& geometry);
 
 }  // namespace vantage

@@ -24,6 +24,9 @@ struct StageRendering {
     DepthImage depth_m;  ///< exact z at every pixel's centre; never 0: the set surrounds the stage
 };
 
+/// What render() draws; the other picture stays empty.
+enum class StagePictures { colour, depth, both };
+
 /// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
 /// glossy and untextured parts. World: right-handed, metres, y up, floor at y = 0; the performers
 /// move around the origin within a circle of about 1.5 m radius. The same time always gives the
@@ -39,7 +42,10 @@ class VirtualStage {
     VirtualStage(VirtualStage&&) noexcept;
     VirtualStage& operator=(VirtualStage&&) noexcept;
 
-    StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time);
+    /// Throws Error for a size the GPU cannot draw, or for a K or pose that cannot be. Waits for
+    /// the GPU. The context that made the stage must be current.
+    StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time,
+                          StagePictures wanted = StagePictures::both);
 
   private:
     struct Impl;

@@ -1,0 +1,42 @@
+#include "common/virtual_stage/stage_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+
+StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float texture_per_m) {
+    StageMaterial material;
+    material.texture_layer = texture_layer;
+    material.tint = tint;
+    material.texture_per_m = texture_per_m;
+    return material;
+}
+
+void add_performers(StageScene& scene) {
+    int bone = 1;
+    for (const PerformerStyle& performer : scene.performers) {
+        scene.mesh.begin_chunk(false, true);
+        add_performer(scene.mesh, performer, bone);
+        scene.mesh.end_chunk();
+        bone += bones_of_performer;
+    }
+}
+
+void add_sky(StageMeshBuilder& mesh, const Eigen::Vector3f& tint) {
+    constexpr float radius_m = 40;
+    StageMaterial material = matte(0, tint, 0.2f);
+    material.glow = 0.5f;
+    mesh.begin_chunk(false, false, false);
+    mesh.set_material(material);
+    constexpr float pi = std::numbers::pi_v<float>;
+    mesh.patch(32, 16, [&](float s, float t) {
+        const float azimuth = 2 * pi * s, polar = pi * t;
+        const Eigen::Vector3f out(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                  std::sin(polar) * std::cos(azimuth));
+        return SurfacePoint{radius_m * out, -out, Eigen::Vector2f(16 * s, 8 * t)};
+    });
+    mesh.end_chunk();
+}
+
+}  // namespace vantage

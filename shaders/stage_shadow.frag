@@ -1,0 +1,2 @@
+// The shadow map needs depth alone.
+void main() {}
