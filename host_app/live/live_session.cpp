@@ -1,0 +1,246 @@
+#include "host_app/live/live_session.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/gl/limits.h"
+#include "common/image/colour_map.h"
+#include "common/image/image_file.h"
+#include "host_app/live/depth_views.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t sheet_moments = 5;
+constexpr int sheet_cell_px = 480;
+
+double ms_since(MonotonicTime start) {
+    return std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
+}
+
+/// The states of the rigs that are not in the set; of all, without one.
+std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
+    std::string text;
+    for (const RigStatus& rig : status.rigs) {
+        if (set &&
+            std::any_of(set->slots.begin(), set->slots.end(), [&](const FrameSet::Slot& slot) {
+                return slot.frame && slot.rig == rig.rig;
+            }))
+            continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, state_of(rig));
+        if (!rig.last_error.empty() && rig.refused.empty())
+            text += fmt::format(" ({})", rig.last_error);
+    }
+    return text;
+}
+
+ColourImage disparity_picture(const RigFrame& frame) {
+    const cv::Mat1f px = to_float_px(frame.disparity);
+    const float most = frame.max_disparity_px > 0 ? frame.max_disparity_px : 64;
+    return colour_map_disparity(px, 0, most);
+}
+
+Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
+    Percentiles most;
+    for (const RigStatus& rig : status.rigs)
+        if ((rig.*times).count > 0 && (rig.*times).p95 >= most.p95) most = rig.*times;
+    return most;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed)
+    : settings_(settings),
+      shaders_(&shaders),
+      newest_(std::move(feed)),
+      synthesiser_(make_synthesiser(settings.synthesiser, shaders)),
+      moments_(sheet_moments) {
+    if (!settings.film.empty())
+        recorder_.emplace(settings.film, VideoSettings{.width_px = settings.width_px,
+                                                       .height_px = settings.height_px,
+                                                       .rate_hz = settings.rate_hz});
+    refresh_status();
+}
+
+const ReceiverStatus& LiveSession::refresh_status() {
+    status_ = newest_.status();
+    return status_;
+}
+
+bool LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
+    const MonotonicTime deadline = MonotonicClock::now() + limit;
+    while (MonotonicClock::now() < deadline) {
+        if (stop.requested()) return false;
+        if (std::optional<FrameSet> set = newest_.take(std::chrono::milliseconds(50))) {
+            const bool all = set->present() == static_cast<int>(set->slots.size());
+            show(std::move(*set));
+            if (all) return true;
+        }
+        refresh_status();
+        if (!status_.rigs.empty() &&
+            std::all_of(status_.rigs.begin(), status_.rigs.end(),
+                        [](const RigStatus& rig) { return !rig.refused.empty(); }))
+            fail("every rig refuses this host: {}", states_of_missing(status_, shown()));
+    }
+    const double limit_s = std::chrono::duration<double>(limit).count();
+    if (!shown_)
+        fail("no frame of any rig came within {:g} s; are the rigs running? ({})", limit_s,
+             states_of_missing(status_, shown()));
+    log_warning("after {:g} s these rigs are missing: {}", limit_s,
+                states_of_missing(status_, shown()));
+    return true;
+}
+
+void LiveSession::show(FrameSet set) {
+    std::vector<DepthView> views;
+    const MonotonicTime start = MonotonicClock::now();
+    for (const FrameSet::Slot& slot : set.slots) {
+        if (!slot.frame) continue;
+        views.push_back(depth_view_of(*slot.frame));
+        times_.add(Stage::capture, slot.frame->times.capture_ms);
+        times_.add(Stage::rectify, slot.frame->times.rectify_ms);
+        times_.add(Stage::match, slot.frame->times.match_ms);
+        times_.add(Stage::pack, slot.frame->times.pack_ms);
+    }
+    synthesiser_->set_views(views);
+    times_.add(Stage::upload, ms_since(start));
+    count_frames(set, fused_);
+    ++sets_fused_;
+    shown_ = std::move(set);
+    is_new_ = true;
+}
+
+const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nanoseconds time) {
+    if (!frozen_)
+        if (std::optional<FrameSet> set = newest_.take()) show(std::move(*set));
+    const MonotonicTime start = MonotonicClock::now();
+    if (!first_picture_) first_picture_ = start;
+    const Texture& texture = synthesiser_->render({settings_.width_px, settings_.height_px,
+                                                   view.K(settings_.width_px, settings_.height_px),
+                                                   view.world_from_camera()});
+    glFinish();
+    times_.add(Stage::render, ms_since(start));
+    check_gl("rendering the virtual view");
+    if (is_new_) {
+        std::optional<TaiTime> exposure;
+        for (const FrameSet::Slot& slot : shown_->slots)
+            if (slot.frame && (!exposure || slot.frame->exposure < *exposure))
+                exposure = slot.frame->exposure;
+        if (exposure) {
+            latest_latency_ms_ =
+                std::chrono::duration<double, std::milli>(TaiClock::now() - *exposure).count();
+            latency_ms_.add(latest_latency_ms_);
+        }
+        is_new_ = false;
+    }
+
+    const bool for_sheet = !settings_.contact_sheet.empty() && shown_ && moments_.wants(pictures_);
+    if (recorder_ || for_sheet) {
+        const MonotonicTime read_start = MonotonicClock::now();
+        const ColourImage picture = texture.download();
+        times_.add(Stage::readback, ms_since(read_start));
+        if (for_sheet) keep_moment(view, time, picture);
+        if (recorder_) recorder_->add(picture, time);
+    }
+    last_texture_ = &texture;
+    ++pictures_;
+    last_picture_ = MonotonicClock::now();
+    return texture;
+}
+
+void LiveSession::keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
+                              const ColourImage& picture) {
+    constexpr double deg = 180 / std::numbers::pi;
+    SheetMoment moment;
+    moment.title = fmt::format(
+        "{:.1f} s   pulse {}   {} of {} rigs   camera at azimuth {:.0f}, elevation {:.0f} degrees, "
+        "{:.1f} m",
+        std::chrono::duration<double>(time).count(), shown_->trigger_index, shown_->present(),
+        shown_->slots.size(), view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m);
+    moment.stills.push_back({picture, "virtual view"});
+    std::vector<const RigFrame*> frames;
+    for (const FrameSet::Slot& slot : shown_->slots)
+        if (slot.frame) frames.push_back(slot.frame.get());
+    if (!frames.empty()) {
+        // Every row shows another rig.
+        const RigFrame& frame = *frames[moments_taken_++ % frames.size()];
+        moment.stills.push_back({frame.colour, fmt::format("rig {}: colour", frame.rig)});
+        moment.stills.push_back(
+            {disparity_picture(frame), fmt::format("rig {}: disparity, 0 (blue) to {:.0f} px (red)",
+                                                   frame.rig, frame.max_disparity_px)});
+    }
+    moments_.add(std::move(moment));
+}
+
+void LiveSession::next_synthesiser() {
+    const std::vector<SynthesiserEntry> entries = synthesiser_entries();
+    const auto current = std::find_if(
+        entries.begin(), entries.end(),
+        [&](const SynthesiserEntry& entry) { return entry.name == settings_.synthesiser; });
+    const SynthesiserEntry& next =
+        current == entries.end() || current + 1 == entries.end() ? entries.front() : *(current + 1);
+    if (next.name == settings_.synthesiser) return;
+    synthesiser_ = next.make(*shaders_);
+    settings_.synthesiser = next.name;
+    if (!shown_) return;
+    std::vector<DepthView> views;
+    for (const FrameSet::Slot& slot : shown_->slots)
+        if (slot.frame) views.push_back(depth_view_of(*slot.frame));
+    synthesiser_->set_views(views);
+}
+
+LiveReport LiveSession::report() const {
+    LiveReport report;
+    report.width_px = settings_.width_px;
+    report.height_px = settings_.height_px;
+    report.rate_hz = settings_.rate_hz;
+    report.synthesiser = settings_.synthesiser;
+    report.renderer = GlInfo::query().renderer;
+    if (first_picture_)
+        report.duration_s = std::chrono::duration<double>(last_picture_ - *first_picture_).count();
+    report.pictures = pictures_;
+
+    const NewestSet::Superseded superseded = newest_.superseded();
+    const ReceiverStatus status = newest_.status();
+    report.sets_closed = status.sets;
+    report.sets_complete = status.complete_sets;
+    report.sets_dropped = status.sets_dropped;
+    report.sets_fused = sets_fused_;
+    report.sets_superseded = superseded.sets;
+    const auto count_of = [](const RigCounts& counts, const std::string& rig) {
+        const auto found = counts.find(rig);
+        return found == counts.end() ? 0 : found->second;
+    };
+    for (const RigStatus& rig : status.rigs)
+        report.rigs.push_back(
+            {rig, count_of(fused_, rig.rig), count_of(superseded.frames, rig.rig)});
+
+    report.stages = times_.summary();
+    const auto put = [&](Stage stage, const Percentiles& ms) {
+        report.stages[static_cast<std::size_t>(stage)].ms = ms;
+    };
+    put(Stage::network, worst(status, &RigStatus::network_ms));
+    put(Stage::decode, worst(status, &RigStatus::decode_ms));
+    if (recorder_) {
+        put(Stage::encode, recorder_->encode_ms());
+        report.film = settings_.film.string();
+        report.film_pictures = recorder_->frames();
+        report.film_dropped = recorder_->dropped();
+    }
+    report.latency_ms = latency_ms_.summary();
+    return report;
+}
+
+void LiveSession::finish() {
+    if (pictures_ == 0) return;
+    if (recorder_) recorder_->finish();
+    const std::vector<SheetMoment> moments = moments_.chosen();
+    if (!settings_.contact_sheet.empty() && !moments.empty())
+        write_colour_image(
+            settings_.contact_sheet,
+            compose_contact_sheet("Vantage: flight of the virtual camera", moments, sheet_cell_px));
+}
+
+}  // namespace vantage

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/base/stop_signal.h"
+#include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/synthesiser.h"
+#include "host_app/live/live_report.h"
+#include "host_app/live/moment_collector.h"
+#include "host_app/live/newest_set.h"
+#include "host_app/live/stage_times.h"
+#include "host_app/output/video_recorder.h"
+
+namespace vantage {
+
+struct LiveSettings {
+    int width_px = 1280, height_px = 720;  ///< of the virtual view
+    double rate_hz = 30;                   ///< of the output
+    std::string synthesiser = "mesh";
+    std::filesystem::path film, contact_sheet;  ///< empty: none
+};
+
+/// From frame sets to pictures of the virtual camera: takes the newest set, renders, hands the
+/// picture to the film and the contact sheet, and keeps the books. Lives on the thread of the GL
+/// context, which must be current.
+class LiveSession {
+  public:
+    /// Throws Error if the synthesiser is unknown or the film cannot be opened.
+    LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed);
+
+    /// Waits until a set with all rigs has come; at the limit, goes on with those that are there
+    /// and says which are missing. Returns false if the program was asked to stop meanwhile. Throws
+    /// Error, with every rig's state, if none came, and at once if all rigs refuse this host.
+    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+
+    /// Renders the newest set from `view`, for the moment `time` after the start of the output;
+    /// times must grow. The texture is valid until the next call. Throws Error if the film fails.
+    const Texture& make_picture(const OrbitView& view, std::chrono::nanoseconds time);
+
+    /// Frozen, the set that is shown stays; the camera may still fly.
+    void set_frozen(bool frozen) { frozen_ = frozen; }
+    bool frozen() const { return frozen_; }
+
+    /// The picture that was made last, read back. Precondition: there is one.
+    ColourImage last_picture() const { return last_texture_->download(); }
+
+    /// Changes to the registered synthesiser after the current one.
+    void next_synthesiser();
+    const std::string& synthesiser() const { return settings_.synthesiser; }
+
+    /// The set that is shown; null before the first.
+    const FrameSet* shown() const { return shown_ ? &*shown_ : nullptr; }
+    /// Grows with every set that is shown.
+    std::uint64_t sets_shown() const { return sets_fused_; }
+    const StageTimes& stage_times() const { return times_; }
+    /// Of the set that was shown last, from exposure to picture.
+    double latest_latency_ms() const { return latest_latency_ms_; }
+    const ReceiverStatus& refresh_status();
+
+    /// Ends the film and writes the contact sheet; without a picture there is neither. Throws Error
+    /// if a file cannot be written.
+    void finish();
+
+    /// After finish().
+    LiveReport report() const;
+
+  private:
+    void show(FrameSet set);
+    void keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
+                     const ColourImage& picture);
+
+    LiveSettings settings_;
+    const ShaderLibrary* shaders_;
+    NewestSet newest_;
+    ReceiverStatus status_;
+    std::unique_ptr<Synthesiser> synthesiser_;
+    std::optional<VideoRecorder> recorder_;
+    MomentCollector moments_;
+    std::uint64_t moments_taken_ = 0;
+
+    const Texture* last_texture_ = nullptr;
+    std::optional<FrameSet> shown_;
+    bool is_new_ = false;  ///< shown_ was in no picture yet
+    bool frozen_ = false;
+
+    StageTimes times_;
+    PercentileRecorder latency_ms_;
+    double latest_latency_ms_ = 0;
+    RigCounts fused_;
+    std::uint64_t sets_fused_ = 0, pictures_ = 0;
+    std::optional<MonotonicTime> first_picture_;
+    MonotonicTime last_picture_{};
+};
+
+}  // namespace vantage

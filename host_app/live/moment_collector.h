@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host_app/output/contact_sheet.h"
+
+namespace vantage {
+
+/// Picks moments evenly over a flight whose length nobody knows yet, within bounded memory: it
+/// keeps every 1st, then every 2nd, every 4th ... picture.
+class MomentCollector {
+  public:
+    /// Precondition: wanted >= 2.
+    explicit MomentCollector(std::size_t wanted) : wanted_(wanted) {}
+
+    /// Pictures are counted from 0.
+    bool wants(std::uint64_t picture) const { return picture % stride_ == 0; }
+    /// Precondition: wants(picture), and all wanted ones before it were added.
+    void add(SheetMoment moment);
+
+    /// At most `wanted` moments, evenly spread, the first and the newest one kept included.
+    std::vector<SheetMoment> chosen() const;
+
+  private:
+    std::size_t wanted_;
+    std::uint64_t stride_ = 1;
+    std::vector<SheetMoment> kept_;
+};
+
+}  // namespace vantage

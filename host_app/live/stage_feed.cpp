@@ -1,0 +1,10 @@
+#include "host_app/live/stage_feed.h"
+
+namespace vantage {
+
+StageFeed feed_of(StageReceiver& receiver) {
+    return {[&receiver](std::chrono::nanoseconds timeout) { return receiver.next(timeout); },
+            [&receiver] { return receiver.status(); }};
+}
+
+}  // namespace vantage

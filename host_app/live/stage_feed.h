@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "host_app/receive/stage_receiver.h"
+
+namespace vantage {
+
+/// Where frame sets come from: a StageReceiver, or something that stands for one.
+struct StageFeed {
+    std::function<std::optional<FrameSet>(std::chrono::nanoseconds)> next;
+    std::function<ReceiverStatus()> status;
+};
+/// The receiver must outlive the feed.
+StageFeed feed_of(StageReceiver& receiver);
+
+}  // namespace vantage

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+namespace vantage {
+
+/// Throws Error if a picture could not be written there later: a wrong extension, or a folder that
+/// is missing or closed. So that a flight does not end with nowhere to put its picture.
+void require_picture_target(const std::filesystem::path& path);
+
+}  // namespace vantage

@@ -1,0 +1,178 @@
+#include "host_app/live/live_session.h"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/gl/egl_context.h"
+#include "common/image/image_file.h"
+#include "host_app/live/headless_flight.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+#include "tests/unit/live/scripted_feed.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+class LiveSessionTest : public testing::Test {
+  protected:
+    LiveSessionTest() {
+        // At the rigs' own place, which sees the wall through and through.
+        view_.distance_m = 4.5;
+        view_.field_of_view_rad = 1.0;
+    }
+    LiveSession session() { return LiveSession(settings_, shaders_, feed_.feed()); }
+    static cv::Vec4b middle(const ColourImage& picture) {
+        return picture(picture.rows / 2, picture.cols / 2);
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    StopSignal stop_;
+    TemporaryFolder folder_;
+    ScriptedFeed feed_{{"north", "south"}};
+    LiveSettings settings_{
+        .width_px = 64, .height_px = 48, .rate_hz = 50, .film = {}, .contact_sheet = {}};
+    OrbitView view_;
+};
+
+TEST_F(LiveSessionTest, ShowsTheNewestSet) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}, {200, 100, 50, 255}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.make_picture(view_, 0ns);
+    EXPECT_NEAR(middle(session.last_picture())[0], 200, 2);
+    feed_.push(feed_.set(2, {"north", "south"}, {20, 100, 50, 255}));
+    for (int i = 1; session.sets_shown() < 2 && i < 1000; ++i) session.make_picture(view_, i * 1ms);
+    EXPECT_EQ(session.shown()->trigger_index, 2u);
+    EXPECT_NEAR(middle(session.last_picture())[0], 20, 2);
+}
+
+TEST_F(LiveSessionTest, FreezesTheInstantAndNotTheFlight) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.set_frozen(true);
+    feed_.push(feed_.set(2, {"north", "south"}));
+    while (!feed_.drained()) std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(20ms);
+    session.make_picture(view_, 0ns);
+    const ColourImage before = session.last_picture();
+    view_.azimuth_rad = 0.4;
+    session.make_picture(view_, 1ms);
+    EXPECT_EQ(session.shown()->trigger_index, 1u);
+    EXPECT_GT(cv::norm(before, session.last_picture(), cv::NORM_INF), 20);
+    session.set_frozen(false);
+    session.make_picture(view_, 2ms);
+    EXPECT_EQ(session.shown()->trigger_index, 2u);
+}
+
+TEST_F(LiveSessionTest, GoesOnWithTheRigsThatCame) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"south"}));
+    EXPECT_TRUE(session.wait_for_rigs(300ms, stop_));
+    EXPECT_EQ(session.shown()->present(), 1);
+}
+
+TEST_F(LiveSessionTest, SaysWhichRigsHaveNotCome) {
+    LiveSession session = this->session();
+    const std::string sentence = thrown_sentence([&] { session.wait_for_rigs(100ms, stop_); });
+    EXPECT_NE(sentence.find("north connected; south connected"), std::string::npos) << sentence;
+}
+
+TEST_F(LiveSessionTest, GivesUpAtOnceWhenEveryRigRefuses) {
+    feed_.set_refused("the key is not in its authorized_hosts");
+    LiveSession session = this->session();
+    const std::string sentence = thrown_sentence([&] { session.wait_for_rigs(1h, stop_); });
+    EXPECT_NE(sentence.find("authorized_hosts"), std::string::npos) << sentence;
+}
+
+TEST_F(LiveSessionTest, RefusesAnUnknownSynthesiserByName) {
+    settings_.synthesiser = "hologram";
+    const std::string sentence = thrown_sentence([&] { session(); });
+    EXPECT_NE(sentence.find("hologram"), std::string::npos);
+    EXPECT_NE(sentence.find("mesh"), std::string::npos);
+}
+
+TEST_F(LiveSessionTest, KeepsBooksThatAddUp) {
+    LiveSession session = this->session();
+    for (std::uint64_t k = 0; k < 12; ++k)
+        feed_.push(feed_.set(k, k % 3 ? std::vector<std::string>{"north", "south"}
+                                      : std::vector<std::string>{"north"}));
+    session.wait_for_rigs(10s, stop_);
+    for (int i = 0; !session.shown() || session.shown()->trigger_index < 11; ++i) {
+        ASSERT_LT(i, 1000);
+        session.make_picture(view_, i * 1ms);
+    }
+    session.make_picture(view_, 2s);
+    session.finish();
+    const LiveReport report = session.report();
+    EXPECT_EQ(report.sets_closed, 12u);
+    EXPECT_EQ(report.sets_complete, 8u);
+    EXPECT_EQ(report.sets_fused + report.sets_superseded, 12u);
+    ASSERT_EQ(report.rigs.size(), 2u);
+    EXPECT_EQ(report.rigs[0].fused + report.rigs[0].superseded, 12u);
+    EXPECT_EQ(report.rigs[1].fused + report.rigs[1].superseded, 8u);
+    EXPECT_GE(report.latency_ms.count, 1u);
+    EXPECT_EQ(report.stages[2].stage, "match");
+    EXPECT_EQ(report.stages[2].ms.p50, 3);
+
+    const nlohmann::ordered_json json = to_json(report);
+    EXPECT_EQ(json["sets"]["partial"], 4);
+    EXPECT_EQ(json["rigs"][0]["name"], "north");
+    EXPECT_EQ(json["stages_ms"]["match"]["p95"], 3);
+    EXPECT_FALSE(json["stages_ms"].contains("encode")) << "no film was written";
+    const std::string text = to_text(report);
+    EXPECT_NE(text.find("12 frame sets, 8 complete and 4 partial"), std::string::npos) << text;
+    EXPECT_NE(text.find("superseded"), std::string::npos);
+}
+
+TEST_F(LiveSessionTest, WritesFilmAndContactSheetOfAFlight) {
+    settings_.film = folder_.path() / "flight.mkv";
+    settings_.contact_sheet = folder_.path() / "sheet.png";
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    HeadlessFlight flight{.start = view_, .move = {}, .frames = 12};
+    fly_headless(session, flight, settings_.rate_hz, stop_);
+    session.finish();
+    const LiveReport report = session.report();
+    EXPECT_EQ(report.pictures, 12u);
+    EXPECT_EQ(report.film_pictures + report.film_dropped, 12u);
+    EXPECT_TRUE(std::filesystem::exists(settings_.film));
+    // Title, five moments of three stills each.
+    const ColourImage sheet = read_colour_image(settings_.contact_sheet);
+    EXPECT_GT(sheet.cols, 3 * 480);
+    EXPECT_GT(sheet.rows, 5 * 360);
+}
+
+TEST_F(LiveSessionTest, EndsWithAMoveThatDoesNotLoop) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    OrbitView end = view_;
+    end.azimuth_rad = 0.3;
+    const Move move({{0, view_, Easing::linear}, {0.2, end, Easing::linear}}, false);
+    const std::uint64_t skipped =
+        fly_headless(session, {.start = view_, .move = move, .frames = {}}, 50, stop_);
+    session.finish();
+    const std::uint64_t pictures = session.report().pictures;
+    EXPECT_LE(pictures, 11u) << "ticks 0 to 10 of 20 ms, both included";
+    EXPECT_GE(pictures + skipped, 11u);
+}
+
+TEST_F(LiveSessionTest, StopsWhenAsked) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    kill(getpid(), SIGTERM);
+    fly_headless(session, {.start = view_, .move = {}, .frames = {}}, 50, stop_);
+    session.finish();
+    EXPECT_LE(session.report().pictures, 1u);
+}
+
+}  // namespace
+}  // namespace vantage
