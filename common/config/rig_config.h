@@ -22,14 +22,14 @@ struct RigConfig {
         std::uint64_t seed = 1;  ///< of sensor noise
         double noise_sigma = 0;  ///< sensor noise, 8-bit grey levels
         // files
-        std::string left,
-            right;  ///< single pictures, or patterns with one %d / %04d; right empty: side by side
-        int first = 0;  ///< first number of a pattern
+        std::string left = "", right = "";  ///< single pictures, or patterns with one %d / %04d;
+                                            ///< right empty: side by side
+        int first = 0;                      ///< first number of a pattern
         bool loop = true;
         // v4l2
-        std::string left_device, right_device;  ///< right empty: one side-by-side device
-        std::string pixel_format;               ///< fourcc, empty: the best of those known
-        std::map<std::string, int> controls;    ///< by the driver's control name
+        std::string left_device = "", right_device = "";  ///< right empty: one side-by-side device
+        std::string pixel_format = "";             ///< fourcc, empty: the best of those known
+        std::map<std::string, int> controls = {};  ///< by the driver's control name
     } source;
 
     std::filesystem::path

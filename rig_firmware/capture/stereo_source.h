@@ -25,18 +25,31 @@ struct StereoFrame {
                                      ///< source, else empty
 };
 
-/// Where a rig's pictures come from: the virtual stage, files, V4L2, libcamera.
+/// Something a source counts besides the instants it missed, e.g. "unpaired".
+struct SourceCounter {
+    std::string name;
+    std::uint64_t count = 0;
+};
+
+/// Where a rig's pictures come from: the virtual stage, files, V4L2, libcamera. Made, used and
+/// destroyed on one thread.
 class StereoSource {
   public:
     virtual ~StereoSource() = default;
 
-    /// Waits for the next instant; empty when the time is up. Throws Error when the source is at
-    /// its end or broken beyond recovery.
+    /// Of each picture of every frame, before rectification.
+    virtual cv::Size size() const = 0;
+
+    /// Waits for the next instant; empty when the time is up, or at the end of the material. Throws
+    /// Error when the source is broken beyond recovery.
     virtual std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) = 0;
 
-    /// Instants that should have come and did not (sequence gaps, missed pulses), since
-    /// construction.
+    /// True once there is nothing more to come: recorded material has an end, sensors have none.
+    virtual bool ended() const { return false; }
+
+    /// Pulses since the first frame for which none came (late, sequence gaps, unplugged).
     virtual std::uint64_t missed() const = 0;
+    virtual std::vector<SourceCounter> counters() const { return {}; }
 
     /// Lines for the start-up report: device, mode, import path, locked controls.
     virtual std::vector<std::string> report() const = 0;
@@ -46,11 +59,17 @@ class StereoSource {
 /// KIND_source_entry().
 struct SourceEntry {
     std::string kind;
+    /// Without a calibration file its pictures are taken to come from the ideal rig of
+    /// [virtual_rig].
+    bool takes_ideal_rig = false;
     std::function<std::unique_ptr<StereoSource>(const RigConfig&)> make;
 };
 std::vector<SourceEntry> source_entries();
 
-/// Throws Error that lists the known kinds if the config names none of them.
+/// The entry of the config's kind; throws Error that lists the known kinds if it is none of them.
+SourceEntry find_source(const RigConfig& config);
+
+/// Throws Error also if the source cannot be had as the config wants it.
 std::unique_ptr<StereoSource> make_source(const RigConfig& config);
 
 }  // namespace vantage

@@ -1,0 +1,64 @@
+#include "common/base/error.h"
+#include "common/config/rig_config.h"
+#include "rig_firmware/capture/pulse_pacer.h"
+#include "rig_firmware/capture/stereo_material.h"
+#include "rig_firmware/capture/stereo_source.h"
+
+namespace vantage {
+namespace {
+
+/// Plays recorded stereo pictures on the pulses of the stage's clock.
+class FilesSource final : public StereoSource {
+  public:
+    explicit FilesSource(const RigConfig& config)
+        : material_(open_material(config.source)),
+          pacer_(PulseGrid(config.source.rate_hz)),
+          rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {}
+
+    cv::Size size() const override { return material_->size(); }
+
+    std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
+        if (ended_) return std::nullopt;
+        const std::optional<Pulse> pulse = pacer_.wait_next(timeout);
+        if (!pulse) return std::nullopt;
+        std::optional<StereoPair> pair = material_->pair_of(pulse->index);
+        if (!pair) {
+            ended_ = true;
+            return std::nullopt;
+        }
+        missed_ = pacer_.missed();
+        return StereoFrame{.trigger_index = pulse->index,
+                           .synchronized = true,
+                           .exposure = pulse->time,
+                           .left = std::move(pair->left),
+                           .right = std::move(pair->right),
+                           .exact_disparity = {}};
+    }
+
+    bool ended() const override { return ended_; }
+    std::uint64_t missed() const override { return missed_; }
+    std::vector<SourceCounter> counters() const override {
+        return {{"clock_steps", pacer_.clock_steps()}};
+    }
+    std::vector<std::string> report() const override {
+        return {fmt::format("{}, {}x{} at {} Hz", material_->describe(), size().width,
+                            size().height, rate_hz_)};
+    }
+
+  private:
+    std::unique_ptr<StereoMaterial> material_;
+    PulsePacer pacer_;
+    double rate_hz_;
+    bool ended_ = false;
+    std::uint64_t missed_ = 0;  ///< up to the last frame: after the end there is nothing to miss
+};
+
+}  // namespace
+
+SourceEntry files_source_entry() {
+    return {.kind = "files", .takes_ideal_rig = true, .make = [](const RigConfig& config) {
+                return std::make_unique<FilesSource>(config);
+            }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,76 @@
+#include "common/base/error.h"
+#include "common/config/rig_config.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/shader_library.h"
+#include "common/virtual_stage/virtual_rig.h"
+#include "common/virtual_stage/virtual_stage.h"
+#include "rig_firmware/capture/pulse_pacer.h"
+#include "rig_firmware/capture/rig_calibration.h"
+#include "rig_firmware/capture/stereo_source.h"
+
+namespace vantage {
+namespace {
+
+/// Films the virtual stage: pulse k shows it at the time of pulse k since 1970 TAI, so that the
+/// rigs of a stage, each a process of its own, see the same instants.
+class VirtualSource final : public StereoSource {
+  public:
+    explicit VirtualSource(const RigConfig& config)
+        : calibration_(rig_calibration(config, {config.source.width_px, config.source.height_px})),
+          noise_{config.source.noise_sigma, config.source.seed},
+          stage_(shaders_),
+          pacer_(PulseGrid(config.source.rate_hz)),
+          rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
+        if (config.virtual_rig.doffs_px != 0)
+            fail(
+                "'doffs_px' in [virtual_rig] is {}, and the virtual source films with parallel "
+                "cameras only: leave it 0",
+                config.virtual_rig.doffs_px);
+    }
+
+    cv::Size size() const override {
+        return {calibration_.left.width_px, calibration_.left.height_px};
+    }
+
+    std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
+        const std::optional<Pulse> pulse = pacer_.wait_next(timeout);
+        if (!pulse) return std::nullopt;
+        VirtualStereoFrame picture = render_virtual_rig(
+            stage_, calibration_, pulse->time.time_since_epoch(), pulse->index, noise_);
+        return StereoFrame{.trigger_index = pulse->index,
+                           .synchronized = true,
+                           .exposure = pulse->time,
+                           .left = std::move(picture.left),
+                           .right = std::move(picture.right),
+                           .exact_disparity = std::move(picture.exact_disparity)};
+    }
+
+    std::uint64_t missed() const override { return pacer_.missed(); }
+    std::vector<SourceCounter> counters() const override {
+        return {{"clock_steps", pacer_.clock_steps()}};
+    }
+
+    std::vector<std::string> report() const override {
+        return {fmt::format("virtual stage, two {}x{} cameras at {} Hz, noise of {} grey levels",
+                            size().width, size().height, rate_hz_, noise_.sigma)};
+    }
+
+  private:
+    EglContext context_;
+    ShaderLibrary shaders_;
+    StereoCalibration calibration_;
+    SensorNoise noise_;
+    VirtualStage stage_;
+    PulsePacer pacer_;
+    double rate_hz_;
+};
+
+}  // namespace
+
+SourceEntry virtual_source_entry() {
+    return {.kind = "virtual", .takes_ideal_rig = true, .make = [](const RigConfig& config) {
+                return std::make_unique<VirtualSource>(config);
+            }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include "common/base/pulse_grid.h"
+#include "common/config/calibration_file.h"
+#include "common/config/rig_config.h"
+#include "common/image/image_file.h"
+#include "rig_firmware/capture/rig_calibration.h"
+#include "rig_firmware/capture/stereo_source.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+RigConfig small_virtual_rig() {
+    RigConfig config;
+    config.name = "test";
+    config.source.width_px = 61;
+    config.source.height_px = 47;
+    config.source.rate_hz = 20;
+    return config;
+}
+
+std::optional<StereoFrame> next_frame(StereoSource& source) {
+    for (int tries = 0; tries < 1000 && !source.ended(); ++tries)
+        if (auto frame = source.next(50ms)) return frame;
+    return std::nullopt;
+}
+
+TEST(VirtualSource, FilmsThePulsesOfTheStageInOrder) {
+    const auto source = make_source(small_virtual_rig());
+    EXPECT_EQ(source->size(), cv::Size(61, 47));
+    EXPECT_FALSE(source->report().empty());
+    const PulseGrid grid(20);
+    const auto first = next_frame(*source), second = next_frame(*source);
+    ASSERT_TRUE(first && second);
+    EXPECT_TRUE(first->synchronized);
+    EXPECT_EQ(first->exposure, grid.time_of(first->trigger_index));
+    EXPECT_EQ(second->exposure, grid.time_of(second->trigger_index));
+    EXPECT_EQ(second->trigger_index, first->trigger_index + 1 + source->missed());
+    EXPECT_EQ(first->left.size(), source->size());
+    EXPECT_EQ(first->right.size(), source->size());
+    EXPECT_EQ(first->exact_disparity.size(), source->size());
+    EXPECT_GT(cv::countNonZero(first->exact_disparity), 61 * 47 / 2);
+    EXPECT_GT(cv::norm(first->left, first->right, cv::NORM_L1), 0);
+}
+
+TEST(VirtualSource, RefusesCamerasThatItCannotFilmWith) {
+    RigConfig config = small_virtual_rig();
+    config.virtual_rig.doffs_px = 3;
+    EXPECT_NE(thrown_sentence([&] { make_source(config); }).find("'doffs_px'"), std::string::npos);
+}
+
+TEST(FilesSource, EndsCleanlyWhereTheMaterialDoes) {
+    const TemporaryFolder folder;
+    RigConfig config;
+    config.source.kind = "files";
+    config.source.rate_hz = 100;
+    config.source.loop = false;
+    config.source.left = (folder.path() / "l%d.png").string();
+    config.source.right = (folder.path() / "r%d.png").string();
+    for (int i = 0; i < 3; ++i) {
+        write_colour_image(folder.path() / fmt::format("l{}.png", i), ColourImage(5, 7));
+        write_colour_image(folder.path() / fmt::format("r{}.png", i), ColourImage(5, 7));
+    }
+    const auto source = make_source(config);
+    EXPECT_EQ(source->size(), cv::Size(7, 5));
+    std::uint64_t frames = 0;
+    while (next_frame(*source)) ++frames;
+    EXPECT_TRUE(source->ended());
+    EXPECT_EQ(frames + source->missed(), 3u);
+    EXPECT_FALSE(source->next(1ms));
+}
+
+TEST(Source, IsOneOfThoseThereAre) {
+    RigConfig config;
+    config.source.kind = "virtul";
+    EXPECT_EQ(thrown_sentence([&] { make_source(config); }),
+              "there is no source kind 'virtul'; the nearest is 'virtual'");
+}
+
+TEST(RigCalibration, IsTheIdealRigWhereNoneIsGiven) {
+    RigConfig config = small_virtual_rig();
+    config.virtual_rig.doffs_px = 2;
+    const StereoCalibration ideal = rig_calibration(config, {61, 47});
+    EXPECT_EQ(ideal.rectified.width_px, 61);
+    EXPECT_DOUBLE_EQ(ideal.rectified.baseline_m, config.virtual_rig.baseline_m);
+    EXPECT_DOUBLE_EQ(ideal.rectified.doffs_px(), 2);
+    EXPECT_EQ(ideal.id.size(), 16u);
+    EXPECT_NO_THROW(ideal.validate());
+}
+
+TEST(RigCalibration, IsRefusedForPicturesOfAnotherSize) {
+    const TemporaryFolder folder;
+    RigConfig config = small_virtual_rig();
+    config.calibration = folder.path() / "c.yaml";
+    save_calibration(config.calibration, ideal_rig(config, {64, 48}), {});
+    EXPECT_EQ(rig_calibration(config, {64, 48}).rectified.width_px, 64);
+    const std::string sentence = thrown_sentence([&] { make_source(config); });
+    EXPECT_NE(sentence.find("is for left pictures of 64x48"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("delivers 61x47"), std::string::npos) << sentence;
+}
+
+}  // namespace
+}  // namespace vantage
