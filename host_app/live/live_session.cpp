@@ -6,9 +6,9 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/gl/limits.h"
-#include "common/image/colour_map.h"
 #include "common/image/image_file.h"
 #include "host_app/live/depth_views.h"
+#include "host_app/live/disparity_picture.h"
 
 namespace vantage {
 namespace {
@@ -34,12 +34,6 @@ std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set)
             text += fmt::format(" ({})", rig.last_error);
     }
     return text;
-}
-
-ColourImage disparity_picture(const RigFrame& frame) {
-    const cv::Mat1f px = to_float_px(frame.disparity);
-    const float most = frame.max_disparity_px > 0 ? frame.max_disparity_px : 64;
-    return colour_map_disparity(px, 0, most);
 }
 
 Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
@@ -191,7 +185,14 @@ void LiveSession::next_synthesiser() {
     synthesiser_->set_views(views);
 }
 
-LiveReport LiveSession::report() const {
+std::vector<StageTime> LiveSession::stage_summary() const {
+    std::vector<StageTime> times = times_.summary();
+    times[static_cast<std::size_t>(Stage::network)].ms = worst(status_, &RigStatus::network_ms);
+    times[static_cast<std::size_t>(Stage::decode)].ms = worst(status_, &RigStatus::decode_ms);
+    return times;
+}
+
+LiveReport LiveSession::report() {
     LiveReport report;
     report.width_px = settings_.width_px;
     report.height_px = settings_.height_px;
@@ -203,7 +204,7 @@ LiveReport LiveSession::report() const {
     report.pictures = pictures_;
 
     const NewestSet::Superseded superseded = newest_.superseded();
-    const ReceiverStatus status = newest_.status();
+    const ReceiverStatus& status = refresh_status();
     report.sets_closed = status.sets;
     report.sets_complete = status.complete_sets;
     report.sets_dropped = status.sets_dropped;
@@ -217,14 +218,9 @@ LiveReport LiveSession::report() const {
         report.rigs.push_back(
             {rig, count_of(fused_, rig.rig), count_of(superseded.frames, rig.rig)});
 
-    report.stages = times_.summary();
-    const auto put = [&](Stage stage, const Percentiles& ms) {
-        report.stages[static_cast<std::size_t>(stage)].ms = ms;
-    };
-    put(Stage::network, worst(status, &RigStatus::network_ms));
-    put(Stage::decode, worst(status, &RigStatus::decode_ms));
+    report.stages = stage_summary();
     if (recorder_) {
-        put(Stage::encode, recorder_->encode_ms());
+        report.stages[static_cast<std::size_t>(Stage::encode)].ms = recorder_->encode_ms();
         report.film = settings_.film.string();
         report.film_pictures = recorder_->frames();
         report.film_dropped = recorder_->dropped();

@@ -56,7 +56,8 @@ class LiveSession {
     const FrameSet* shown() const { return shown_ ? &*shown_ : nullptr; }
     /// Grows with every set that is shown.
     std::uint64_t sets_shown() const { return sets_fused_; }
-    const StageTimes& stage_times() const { return times_; }
+    /// All stages but the encoder's; network and decode as of the last refresh_status().
+    std::vector<StageTime> stage_summary() const;
     /// Of the set that was shown last, from exposure to picture.
     double latest_latency_ms() const { return latest_latency_ms_; }
     const ReceiverStatus& refresh_status();
@@ -66,7 +67,7 @@ class LiveSession {
     void finish();
 
     /// After finish().
-    LiveReport report() const;
+    LiveReport report();
 
   private:
     void show(FrameSet set);

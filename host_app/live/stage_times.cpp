@@ -10,8 +10,7 @@ const char* stage_name(Stage stage) {
 }
 
 void StageTimes::add(Stage stage, double ms) {
-    recorders_[index(stage)].add(ms);
-    latest_ms_[index(stage)] = ms;
+    recorders_[static_cast<std::size_t>(stage)].add(ms);
 }
 
 std::vector<StageTime> StageTimes::summary() const {

@@ -1,0 +1,107 @@
+#include "host_app/live/panel_feed.h"
+
+#include <algorithm>
+
+#include "common/gl/limits.h"
+#include "host_app/live/disparity_picture.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds refresh_period{250};
+constexpr std::size_t latency_samples = 240;
+
+RigState state_in(const FrameSet* set, const RigStatus& status) {
+    if (!status.refused.empty()) return RigState::refused;
+    if (!status.connected) return RigState::disconnected;
+    if (!set) return RigState::late;
+    for (const FrameSet::Slot& slot : set->slots) {
+        if (slot.rig != status.rig) continue;
+        if (slot.frame) return RigState::present;
+        if (slot.absence == Absence::missed_by_rig) return RigState::missed;
+        if (slot.absence == Absence::disconnected) return RigState::disconnected;
+    }
+    return RigState::late;
+}
+
+}  // namespace
+
+PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
+    PanelRig rig;
+    rig.name = status.rig;
+    rig.state = state_in(set, status);
+    if (const auto rate = rig_rates_.find(status.rig); rate != rig_rates_.end())
+        rig.rate_hz = rate->second.per_second();
+    rig.latency_ms = status.latency_ms.p50;
+    rig.lost = status.rig_counters.missed + status.rig_counters.late +
+               status.rig_counters.send_dropped + status.undecodable + status.late +
+               status.queue_dropped;
+    if (const auto picture = disparities_.find(status.rig); picture != disparities_.end())
+        rig.disparity = &picture->second;
+    return rig;
+}
+
+void PanelFeed::refresh_disparities(const FrameSet& set) {
+    for (const FrameSet::Slot& slot : set.slots) {
+        if (!slot.frame || slot.frame->disparity.empty()) continue;
+        const ColourImage picture = disparity_picture(*slot.frame);
+        const auto old = disparities_.find(slot.rig);
+        if (old != disparities_.end() && old->second.size() != picture.size())
+            disparities_.erase(old);
+        disparities_.try_emplace(slot.rig, TextureFormat::rgba8, picture.cols, picture.rows)
+            .first->second.upload(picture);
+    }
+}
+
+void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now) {
+    picture_rate_.add(pictures, now);
+    const ReceiverStatus& status = session.refresh_status();
+    for (const RigStatus& rig : status.rigs) rig_rates_[rig.rig].add(rig.received, now);
+    if (session.shown()) refresh_disparities(*session.shown());
+
+    state_.rigs.clear();
+    for (const RigStatus& rig : status.rigs) state_.rigs.push_back(rig_of(rig, session.shown()));
+    state_.stages.clear();
+    for (const StageTime& time : session.stage_summary()) {
+        if (time.ms.count == 0) continue;
+        const bool at_rig =
+            time.stage == stage_name(Stage::capture) || time.stage == stage_name(Stage::rectify) ||
+            time.stage == stage_name(Stage::match) || time.stage == stage_name(Stage::pack);
+        state_.stages.push_back({time.stage, time.ms.p50, at_rig});
+    }
+    state_.picture_rate_hz = picture_rate_.per_second();
+    state_.latency_ms = session.latest_latency_ms();
+}
+
+PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const OrbitView& view,
+                            std::optional<double> move_progress, bool recording,
+                            std::uint64_t pictures) {
+    const MonotonicTime now = MonotonicClock::now();
+    if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
+    if (session.sets_shown() != last_set_ && session.latest_latency_ms() > 0) {
+        last_set_ = session.sets_shown();
+        latencies_ms_.push_back(static_cast<float>(session.latest_latency_ms()));
+        if (latencies_ms_.size() > latency_samples) latencies_ms_.pop_front();
+    }
+    if (!refreshed_ || now - *refreshed_ >= refresh_period) {
+        refreshed_ = now;
+        refresh(session, pictures, now);
+    }
+    state_.picture = &picture;
+    state_.waiting = session.shown() == nullptr;
+    if (const FrameSet* set = session.shown()) {
+        state_.pulse = set->trigger_index;
+        for (const FrameSet::Slot& slot : set->slots)
+            if (slot.frame) state_.timecode = slot.frame->timecode;
+    }
+    state_.frozen = session.frozen();
+    state_.recording = recording;
+    state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
+    state_.synthesiser = session.synthesiser();
+    state_.renderer = renderer_;
+    state_.view = view;
+    state_.move_progress = move_progress;
+    return state_;
+}
+
+}  // namespace vantage

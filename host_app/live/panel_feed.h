@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "host_app/live/live_session.h"
+#include "host_app/live/rate_meter.h"
+#include "host_app/ui/operator_panel.h"
+
+namespace vantage {
+
+/// Puts together what the operator's screen tells, from the session's books. Rates, latencies and
+/// the disparity pictures are looked at a few times a second, so that numbers can be read.
+class PanelFeed {
+  public:
+    PanelState state(LiveSession& session, const Texture& picture, const OrbitView& view,
+                     std::optional<double> move_progress, bool recording, std::uint64_t pictures);
+
+  private:
+    void refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now);
+    void refresh_disparities(const FrameSet& set);
+    PanelRig rig_of(const RigStatus& status, const FrameSet* set) const;
+
+    std::optional<MonotonicTime> refreshed_;
+    RateMeter picture_rate_;
+    std::map<std::string, RateMeter> rig_rates_;
+    std::map<std::string, Texture> disparities_;
+    std::deque<float> latencies_ms_;
+    std::uint64_t last_set_ = 0;  ///< sets shown when the latency was noted last
+    std::string renderer_;
+    PanelState state_;
+};
+
+}  // namespace vantage

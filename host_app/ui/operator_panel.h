@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/gl/texture.h"
+#include "host_app/flight/orbit_view.h"
+#include "host_app/ui/style.h"
+
+namespace vantage {
+
+enum class RigState { present, late, missed, disconnected, refused };
+
+struct PanelRig {
+    std::string name;
+    RigState state = RigState::disconnected;
+    double rate_hz = 0;                  ///< frames received a second
+    double latency_ms = 0;               ///< exposure to decoded, median
+    std::uint64_t lost = 0;              ///< frames that met no set, wherever they were lost
+    const Texture* disparity = nullptr;  ///< colour-mapped; null: none yet
+};
+
+struct PanelStage {
+    std::string name;
+    double ms = 0;
+    bool at_rig = false;
+};
+
+/// All that the operator's screen tells.
+struct PanelState {
+    const Texture* picture = nullptr;  ///< the virtual view
+    std::string timecode;
+    std::uint64_t pulse = 0;
+    bool waiting = true;  ///< no set has come yet
+    bool frozen = false, recording = false;
+    double picture_rate_hz = 0, latency_ms = 0;
+    std::vector<float> latency_history_ms;  ///< oldest first
+    std::string synthesiser, renderer;
+    std::vector<PanelStage> stages;
+    std::vector<PanelRig> rigs;
+    OrbitView view;
+    std::optional<double> move_progress;  ///< 0..1 while a planned move plays
+    bool show_panels = true, show_help = false;
+};
+
+/// Lays out the whole screen in the current ImGui frame: the picture, letterboxed, with the panels
+/// around its edges.
+void draw_operator_screen(const PanelState& state, const UiFonts& fonts);
+
+}  // namespace vantage

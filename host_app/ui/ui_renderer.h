@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include <imgui.h>
+
+#include "common/gl/buffer.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/program.h"
+#include "common/gl/texture.h"
+#include "common/gl/vertex_array.h"
+
+namespace vantage {
+
+inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
+
+/// How a picture is named to ImGui::Image: the texture must live until the frame is drawn.
+inline ImTextureID ui_texture(const Texture& texture) {
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
+}
+
+/// Draws Dear ImGui with OpenGL ES 3.1. (The backend that comes with the library as Debian builds
+/// it looks for desktop OpenGL.) Pictures are drawn opaque and filtered.
+class UiRenderer {
+  public:
+    /// Takes the fonts of the current ImGui context to the GPU; they must be loaded by then.
+    explicit UiRenderer(const ShaderLibrary& shaders);
+
+    /// Draws over what the target shows.
+    void draw(const ImDrawData& data, const Framebuffer& target);
+
+  private:
+    void upload(const ImDrawList& list);
+
+    Program program_;
+    Texture glyphs_;
+    GlHandle<delete_sampler> filtered_;
+    VertexArray vertex_array_;
+    std::optional<Buffer> vertices_, indices_;
+};
+
+}  // namespace vantage
