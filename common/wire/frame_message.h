@@ -15,14 +15,26 @@ struct RigStageTimes {
     float capture_ms = 0, rectify_ms = 0, match_ms = 0, pack_ms = 0;
 };
 
-/// What happened to the frames of a rig since its daemon started. Every frame that was triggered is
-/// in exactly one of: published, missed, late, send_dropped.
+/// What happened to the frames of a rig since its daemon started. Every pulse is in exactly one of
+/// captured and missed; every captured frame ends in exactly one of late and published. What became
+/// of a published frame on its way to one host is in that host's LinkCounters.
 struct RigCounters {
     std::uint64_t captured = 0;      ///< delivered by the source
     std::uint64_t missed = 0;        ///< pulses or sequence numbers for which no frame came
     std::uint64_t late = 0;          ///< dropped because a stage was still busy
-    std::uint64_t published = 0;     ///< handed to the socket
-    std::uint64_t send_dropped = 0;  ///< refused by the socket's bounded queue
+    std::uint64_t published = 0;     ///< handed to the publisher (which fills this in)
+    std::uint64_t send_dropped = 0;  ///< dropped for slow hosts, all hosts together (likewise)
+};
+
+/// What happened to the published frames on their way to one host, counted by the rig. Every
+/// offered frame is in exactly one of sent, send_dropped, thinned, or still in the host's bounded
+/// queue.
+struct LinkCounters {
+    std::uint64_t offered = 0;       ///< published while the host was attached
+    std::uint64_t sent = 0;          ///< handed to the socket
+    std::uint64_t send_dropped = 0;  ///< pushed out of the queue by newer ones, or left in it when
+                                     ///< the host went away
+    std::uint64_t thinned = 0;       ///< left out as the host asked
 };
 
 /// One published instant of one rig, decoded: what the host gets, what the rig packs.
@@ -33,11 +45,11 @@ struct RigFrame {
     std::uint64_t trigger_index = 0;
     TaiTime exposure{};  ///< centre of exposure
     TaiTime published{};
-    std::string timecode;  ///< SMPTE 12M "hh:mm:ss:ff"
+    std::string timecode;  ///< SMPTE 12M "hh:mm:ss:ff", or empty
     std::string calibration_id;
     RectifiedStereo geometry;                   ///< of the colour picture
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left
-    ColourImage colour;                         ///< rectified left picture
+    ColourImage colour;                         ///< rectified left picture; may be empty
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)
     float max_disparity_px = 0;

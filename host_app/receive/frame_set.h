@@ -11,7 +11,15 @@
 namespace vantage {
 
 /// Why a rig is not in a set.
-enum class Absence { none, late, missed_by_rig, disconnected };
+enum class Absence {
+    none,
+    late,            ///< nothing of this pulse, or of a later one, came within the latency budget
+    missed_by_rig,   ///< the rig went on to later pulses without this one
+    disconnected,    ///< no sign of life from the rig
+    unsynchronized,  ///< the rig's frames name no pulse of the stage, so they are fused with no
+                     ///< other
+    out_of_step,     ///< the rig counts pulses differently from the rest of the stage
+};
 
 /// All rigs' views of the same instant: those that came within the latency budget.
 struct FrameSet {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,18 +13,28 @@
 
 namespace vantage {
 
-/// What the host knows of one rig's stream.
+/// What the host knows of one rig's stream. The books balance at any moment:
+///   arrived = received + undecodable (frames) + queue_dropped + being decoded
+///   received = in_sets + late + duplicate + unsynchronized + out_of_step + in open sets
+///   link.offered = link.sent + link.send_dropped + link.thinned + queued at the rig
+///   link.sent = arrived + lost + under way          (of the present link)
 struct RigStatus {
     std::string rig;
     bool connected = false;      ///< a frame or heartbeat within the last second
-    std::string refused;         ///< a sentence, when the rig turned this host's key down
+    std::string refused;         ///< a sentence, when the rig turned this host down
     std::uint64_t received = 0;  ///< frames decoded
     std::uint64_t undecodable =
         0;                      ///< messages refused by the decoder; the last reason in last_error
-    std::uint64_t in_sets = 0;  ///< frames that met their set
+    std::uint64_t lost = 0;     ///< sent by the rig, never came: the connection broke
+    std::uint64_t in_sets = 0;  ///< frames that met their set, and that set is closed
     std::uint64_t late = 0;     ///< frames that came after their set was closed
+    std::uint64_t duplicate = 0;       ///< frames of a pulse this rig had delivered already
+    std::uint64_t unsynchronized = 0;  ///< frames that name no pulse of the stage
+    std::uint64_t out_of_step =
+        0;  ///< frames of a rig that counts pulses differently from the rest
     std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy
-    RigCounters rig_counters;         ///< as the rig last reported
+    LinkCounters link;         ///< of the frames on their way to this host, as the rig counts
+    RigCounters rig_counters;  ///< as the rig last reported
     RigStageTimes rig_times;
     Percentiles latency_ms;  ///< exposure to decoded
     Percentiles network_ms;  ///< published by the rig to received here, on the stage's clock
@@ -40,7 +51,8 @@ struct ReceiverStatus {
 };
 
 /// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them by
-/// trigger index. Rigs may come, go and come back at any time. Thread-safe.
+/// trigger index. Rigs may come, go and come back at any time. A host that is slower than its rigs
+/// makes them drop, oldest first, before anything crosses the network. Thread-safe.
 class StageReceiver {
   public:
     /// Throws Error if a key or an endpoint is unusable.
@@ -50,6 +62,10 @@ class StageReceiver {
     /// The next closed set, oldest first, within bounded memory; empty when the time is up.
     std::optional<FrameSet> next(std::chrono::nanoseconds timeout);
     ReceiverStatus status() const;
+
+    /// Asks a rig to send nothing (streaming = false), or only every rate_divisor-th pulse. Throws
+    /// Error for a rig that is not of the stage or a divisor outside 1..max_rate_divisor.
+    void ask(std::string_view rig, bool streaming, std::uint32_t rate_divisor);
 
   private:
     struct Impl;

@@ -1,0 +1,105 @@
+#include "common/wire/colour_codec.h"
+
+#include <new>
+
+#include <turbojpeg.h>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr int channels = 4;
+
+}  // namespace
+
+JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {
+    if (!compressor_) throw std::bad_alloc();
+}
+
+JpegEncoder::~JpegEncoder() { tjDestroy(compressor_); }
+
+std::vector<std::byte> JpegEncoder::encode(const ColourImage& colour, int quality) {
+    std::vector<std::byte> payload(tjBufSize(colour.cols, colour.rows, TJSAMP_420));
+    auto* data = reinterpret_cast<unsigned char*>(payload.data());
+    unsigned long size = payload.size();
+    if (tjCompress2(compressor_, colour.data, colour.cols, static_cast<int>(colour.step),
+                    colour.rows, TJPF_RGBA, &data, &size, TJSAMP_420, quality,
+                    TJFLAG_NOREALLOC) != 0)
+        fail("a colour picture of {}x{} cannot be packed as JPEG: {}", colour.cols, colour.rows,
+             tjGetErrorStr2(compressor_));
+    payload.resize(size);
+    return payload;
+}
+
+JpegDecoder::JpegDecoder() : decompressor_(tjInitDecompress()) {
+    if (!decompressor_) throw std::bad_alloc();
+}
+
+JpegDecoder::~JpegDecoder() { tjDestroy(decompressor_); }
+
+ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px, int height_px) {
+    const auto* data = reinterpret_cast<const unsigned char*>(payload.data());
+    int width = 0;
+    int height = 0;
+    int subsampling = 0;
+    int colour_space = 0;
+    if (tjDecompressHeader3(decompressor_, data, payload.size(), &width, &height, &subsampling,
+                            &colour_space) != 0)
+        fail("the colour payload is not a JPEG picture: {}", tjGetErrorStr2(decompressor_));
+    if (width != width_px || height != height_px)
+        fail("the colour payload is a JPEG of {}x{} where its header promises {}x{}", width, height,
+             width_px, height_px);
+    if (colour_space != TJCS_YCbCr) fail("the colour payload is a JPEG, but not in YCbCr");
+    ColourImage colour(height_px, width_px);
+    // A damaged or truncated picture is only a warning to the library, which fills it up with grey;
+    // the scan limit keeps a progressive picture of endless scans from holding up the decoder.
+    if (tjDecompress2(decompressor_, data, payload.size(), colour.data, width_px,
+                      static_cast<int>(colour.step), height_px, TJPF_RGBA,
+                      TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0)
+        fail("the colour payload of {} bytes is damaged: {}", payload.size(),
+             tjGetErrorStr2(decompressor_));
+    return colour;
+}
+
+std::vector<std::byte> LosslessColourEncoder::encode(const ColourImage& colour) {
+    const std::size_t count = colour.total();
+    planes_.resize(channels * count);
+    for (int channel = 0; channel < channels; ++channel) {
+        std::byte* out = planes_.data() + static_cast<std::size_t>(channel) * count;
+        std::uint8_t above = 0;
+        for (int y = 0; y < colour.rows; ++y) {
+            const std::uint8_t* row = colour.ptr(y) + channel;
+            std::uint8_t predicted = above;
+            for (int x = 0; x < colour.cols; ++x) {
+                *out++ = static_cast<std::byte>(row[channels * x] - predicted);
+                predicted = row[channels * x];
+            }
+            above = row[0];
+        }
+    }
+    return compressor_.compress(planes_);
+}
+
+ColourImage LosslessColourDecoder::decode(std::span<const std::byte> payload, int width_px,
+                                          int height_px) {
+    const std::size_t count =
+        static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+    const std::byte* in = decompressor_.decompress(payload, channels * count, "colour").data();
+    ColourImage colour(height_px, width_px);
+    for (int channel = 0; channel < channels; ++channel) {
+        std::uint8_t above = 0;
+        for (int y = 0; y < height_px; ++y) {
+            std::uint8_t* row = colour.ptr(y) + channel;
+            std::uint8_t predicted = above;
+            for (int x = 0; x < width_px; ++x) {
+                predicted = static_cast<std::uint8_t>(predicted + std::to_integer<unsigned>(*in++));
+                row[channels * x] = predicted;
+            }
+            above = row[0];
+        }
+    }
+    return colour;
+}
+
+}  // namespace vantage

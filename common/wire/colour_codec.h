@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/image/image.h"
+#include "common/wire/payload_compression.h"
+
+namespace vantage {
+
+/// Lossy colour: JPEG of R, G and B; A comes back as 255. Not thread-safe.
+class JpegEncoder {
+  public:
+    JpegEncoder();
+    ~JpegEncoder();
+    JpegEncoder(const JpegEncoder&) = delete;
+    JpegEncoder& operator=(const JpegEncoder&) = delete;
+
+    /// quality 1..100.
+    std::vector<std::byte> encode(const ColourImage& colour, int quality);
+
+  private:
+    void* compressor_;
+};
+
+class JpegDecoder {
+  public:
+    JpegDecoder();
+    ~JpegDecoder();
+    JpegDecoder(const JpegDecoder&) = delete;
+    JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+    /// Throws Error unless the payload is one whole colour JPEG of exactly this size; its header is
+    /// checked before memory is taken.
+    ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
+
+  private:
+    void* decompressor_;
+};
+
+/// Lossless colour, all four channels: each channel's difference to its left neighbour (the first
+/// of a row: to the one above) in a plane of its own, then zstd. Not thread-safe.
+class LosslessColourEncoder {
+  public:
+    std::vector<std::byte> encode(const ColourImage& colour);
+
+  private:
+    PayloadCompressor compressor_;
+    std::vector<std::byte> planes_;
+};
+
+class LosslessColourDecoder {
+  public:
+    /// Throws Error unless the payload is exactly a picture of this size.
+    ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
+
+  private:
+    PayloadDecompressor decompressor_;
+};
+
+}  // namespace vantage

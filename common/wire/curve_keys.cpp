@@ -1,0 +1,130 @@
+#include "common/wire/curve_keys.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <toml++/toml.h>
+#include <unistd.h>
+#include <zmq.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t z85_chars = 40;
+constexpr std::size_t key_bytes = 32;
+constexpr std::size_t max_key_file_bytes = 64 * 1024;
+constexpr int key_file_version = 1;
+
+using Z85Buffer = std::array<char, z85_chars + 1>;
+
+std::string read_text(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = read_file(path, max_key_file_bytes);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void refuse_if_others_can_read(const std::filesystem::path& path) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0)
+        fail("cannot read key file {}: {}", path.string(), std::strerror(errno));
+    constexpr mode_t others = S_IRWXG | S_IRWXO;
+    if ((facts.st_mode & others) != 0)
+        fail("key file {} can be read by others (mode {:o}); chmod 600 {}", path.string(),
+             facts.st_mode & (S_IRWXU | others), path.string());
+}
+
+}  // namespace
+
+CurveKeys generate_curve_keys() {
+    Z85Buffer public_key{};
+    Z85Buffer secret_key{};
+    if (zmq_curve_keypair(public_key.data(), secret_key.data()) != 0)
+        fail("this computer's libzmq cannot make CURVE keys: {}", zmq_strerror(zmq_errno()));
+    return {public_key.data(), secret_key.data()};
+}
+
+void write_key_file(const std::filesystem::path& path, const CurveKeys& keys) {
+    const std::string text = fmt::format(
+        "# CURVE key pair of Vantage. The secret half stays on this computer; give the public half "
+        "to the other end.\n"
+        "version = {}\npublic = \"{}\"\nsecret = \"{}\"\n",
+        key_file_version, keys.public_key, keys.secret_key);
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (fd < 0 && errno == EEXIST)
+        fail("{} exists and is left as it is; remove it first if its key is to be given up",
+             path.string());
+    if (fd < 0) fail("cannot write {}: {}", path.string(), std::strerror(errno));
+    const bool whole = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                       ::fsync(fd) == 0;
+    const int reason = errno;
+    if (::close(fd) != 0 || !whole) {
+        ::unlink(path.c_str());
+        fail("cannot write {}: {}", path.string(), std::strerror(reason));
+    }
+}
+
+CurveKeys load_key_file(const std::filesystem::path& path) {
+    refuse_if_others_can_read(path);
+    toml::table table;
+    try {
+        table = toml::parse(read_text(path));
+    } catch (const toml::parse_error& error) {
+        fail("key file {} line {} is not TOML: {}", path.string(), error.source().begin.line,
+             error.description());
+    }
+    if (table["version"].value_or(0) != key_file_version)
+        fail("key file {} is not of version {}; make one with: keys new FILE", path.string(),
+             key_file_version);
+    CurveKeys keys;
+    keys.public_key = table["public"].value_or(std::string());
+    keys.secret_key = table["secret"].value_or(std::string());
+    if (!is_curve_key(keys.public_key))
+        fail("key file {} has no valid public key ({} characters of Z85)", path.string(),
+             z85_chars);
+    if (!is_curve_key(keys.secret_key))
+        fail("key file {} has no valid secret key ({} characters of Z85)", path.string(),
+             z85_chars);
+    Z85Buffer expected{};
+    if (zmq_curve_public(expected.data(), keys.secret_key.c_str()) != 0 ||
+        keys.public_key != expected.data())
+        fail("the two keys of {} do not belong together; make a new pair with: keys new FILE",
+             path.string());
+    return keys;
+}
+
+bool is_curve_key(std::string_view text) {
+    constexpr std::string_view alphabet =
+        "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&<>()[]{}@%$#";
+    if (text.size() != z85_chars || text.find_first_not_of(alphabet) != std::string_view::npos)
+        return false;
+    std::array<std::uint8_t, key_bytes> bytes{};
+    return zmq_z85_decode(bytes.data(), std::string(text).c_str()) != nullptr;
+}
+
+std::map<std::string, std::string> load_authorized_hosts(const std::filesystem::path& path) {
+    std::map<std::string, std::string> hosts;
+    std::istringstream text(read_text(path));
+    std::string line;
+    for (int number = 1; std::getline(text, line); ++number) {
+        std::istringstream words(line);
+        std::string key;
+        words >> key;
+        if (is_curve_key(key)) {
+            std::string name;
+            std::getline(words >> std::ws, name);
+            hosts[key] = name;
+        } else if (!key.empty() && key.front() != '#') {
+            fail("{} line {} does not begin with a public key of {} characters", path.string(),
+                 number, z85_chars);
+        }
+    }
+    return hosts;
+}
+
+}  // namespace vantage

@@ -1,0 +1,272 @@
+#include "common/wire/frame_codec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/base/error.h"
+#include "common/wire/colour_codec.h"
+#include "common/wire/disparity_codec.h"
+#include "common/wire/header_fields.h"
+#include "common/wire/limits.h"
+#include "frame.pb.h"
+
+namespace vantage {
+namespace {
+
+/// How far rows of a rotation may be from unit length and right angles: poses pass through text
+/// files.
+constexpr double rotation_tolerance = 1e-4;
+/// No stage is larger; a pose beyond it is a mistake in units.
+constexpr double max_distance_m = 1e5;
+constexpr double max_focal_length_px = 1e6;
+
+void check_size(std::string_view what, std::uint32_t width, std::uint32_t height) {
+    if (width < 1 || height < 1 || width > max_picture_side_px || height > max_picture_side_px)
+        fail("a {} size of {}x{} is outside 1x1..{}x{}", what, width, height, max_picture_side_px,
+             max_picture_side_px);
+}
+
+void check_range(std::string_view what, double value, double lowest, double highest) {
+    if (!std::isfinite(value) || value < lowest || value > highest)
+        fail("{} = {} is outside {}..{}", what, value, lowest, highest);
+}
+
+void check_geometry(const wire::Geometry& geometry) {
+    check_size("picture", geometry.width_px(), geometry.height_px());
+    check_range("geometry.f_px", geometry.f_px(), 1e-3, max_focal_length_px);
+    check_range("geometry.cx_left_px", geometry.cx_left_px(), -max_focal_length_px,
+                max_focal_length_px);
+    check_range("geometry.cx_right_px", geometry.cx_right_px(), -max_focal_length_px,
+                max_focal_length_px);
+    check_range("geometry.cy_px", geometry.cy_px(), -max_focal_length_px, max_focal_length_px);
+    check_range("geometry.baseline_m", geometry.baseline_m(), 1e-6, max_distance_m);
+    constexpr int pose_numbers = 12;
+    if (geometry.world_from_camera_size() != pose_numbers)
+        fail("geometry.world_from_camera has {} numbers instead of {}",
+             geometry.world_from_camera_size(), pose_numbers);
+    for (const double value : geometry.world_from_camera())
+        check_range("geometry.world_from_camera", value, -max_distance_m, max_distance_m);
+}
+
+Pose to_pose(const wire::Geometry& geometry) {
+    Pose pose = Pose::Identity();
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            pose.matrix()(row, column) = geometry.world_from_camera(4 * row + column);
+    const Eigen::Matrix3d rotation = pose.linear();
+    const double error =
+        (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    if (error > rotation_tolerance || rotation.determinant() < 0)
+        fail(
+            "geometry.world_from_camera is not a rotation and a translation: its rows are off by "
+            "{}",
+            error);
+    return pose;
+}
+
+void check_timecode(const std::string& timecode) {
+    if (timecode.empty()) return;
+    constexpr std::string_view form = "00:00:00:00";
+    bool fits = timecode.size() == form.size();
+    for (std::size_t i = 0; fits && i < form.size(); ++i) {
+        const bool drop_frame_mark = i == 8 && timecode[i] == ';';
+        fits = form[i] == '0' ? timecode[i] >= '0' && timecode[i] <= '9'
+                              : timecode[i] == ':' || drop_frame_mark;
+    }
+    if (!fits) fail("a timecode has to read hh:mm:ss:ff");
+}
+
+/// Everything that can be said about a header without the payloads; both directions go through it.
+Pose check_header(const wire::FrameHeader& header) {
+    check_schema_version("frame", header.schema_version());
+    check_name("rig", header.rig());
+    if (!header.calibration_id().empty()) check_name("calibration id", header.calibration_id());
+    check_timecode(header.timecode());
+    if (header.trigger_index() > max_trigger_index)
+        fail("trigger index {} is beyond {}", header.trigger_index(), max_trigger_index);
+    if (header.exposure_tai_ns() < 0 || header.published_tai_ns() < 0)
+        fail("a frame's times have to lie after 1970: exposed at {} ns, published at {} ns",
+             header.exposure_tai_ns(), header.published_tai_ns());
+    check_geometry(header.geometry());
+    if (header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE) {
+        check_size("disparity", header.disparity_width_px(), header.disparity_height_px());
+        if (header.disparity_width_px() > header.geometry().width_px() ||
+            header.disparity_height_px() > header.geometry().height_px())
+            fail("a disparity picture of {}x{} does not fit a colour picture of {}x{}",
+                 header.disparity_width_px(), header.disparity_height_px(),
+                 header.geometry().width_px(), header.geometry().height_px());
+    } else if (header.colour_codec() == wire::FrameHeader::COLOUR_NONE) {
+        fail("a frame without colour and without disparity carries nothing");
+    }
+    check_range("max_disparity_px", header.max_disparity_px(), 0, max_disparity_px);
+    constexpr double an_hour_ms = 3.6e6;
+    check_range("times.capture_ms", header.times().capture_ms(), 0, an_hour_ms);
+    check_range("times.rectify_ms", header.times().rectify_ms(), 0, an_hour_ms);
+    check_range("times.match_ms", header.times().match_ms(), 0, an_hour_ms);
+    check_range("times.pack_ms", header.times().pack_ms(), 0, an_hour_ms);
+    return to_pose(header.geometry());
+}
+
+/// A payload longer than the picture it holds is hostile; an empty one is expected without codec.
+void check_payload(std::string_view what, bool expected, std::size_t bytes, std::size_t raw_bytes) {
+    if (!expected && bytes > 0)
+        fail("a frame without {} carries a {} payload of {} bytes", what, what, bytes);
+    if (expected && bytes == 0) fail("the {} payload is empty", what);
+    if (expected && bytes > raw_bytes + payload_slack_bytes)
+        fail("the {} payload of {} bytes is beyond the limit of {} for its size", what, bytes,
+             raw_bytes + payload_slack_bytes);
+}
+
+}  // namespace
+
+struct FrameEncoder::Impl {
+    int jpeg_quality;
+    JpegEncoder jpeg;
+    LosslessColourEncoder lossless_colour;
+    DisparityEncoder disparity;
+};
+
+FrameEncoder::FrameEncoder(int jpeg_quality) : impl_(std::make_unique<Impl>()) {
+    if (jpeg_quality < 0 || jpeg_quality > 100)
+        fail("jpeg_quality = {} is outside 0..100; 0 is lossless colour", jpeg_quality);
+    impl_->jpeg_quality = jpeg_quality;
+}
+
+FrameEncoder::~FrameEncoder() = default;
+
+PackedFrame FrameEncoder::encode(RigFrame& frame) {
+    const MonotonicTime start = MonotonicClock::now();
+    wire::FrameHeader header;
+    header.set_schema_version(wire_schema_version);
+    header.set_rig(frame.rig);
+    header.set_session(frame.session);
+    header.set_synchronized(frame.synchronized);
+    header.set_trigger_index(frame.trigger_index);
+    header.set_exposure_tai_ns(to_ns(frame.exposure));
+    header.set_timecode(frame.timecode);
+    header.set_calibration_id(frame.calibration_id);
+    wire::Geometry& geometry = *header.mutable_geometry();
+    geometry.set_width_px(static_cast<std::uint32_t>(frame.geometry.width_px));
+    geometry.set_height_px(static_cast<std::uint32_t>(frame.geometry.height_px));
+    geometry.set_f_px(frame.geometry.f_px);
+    geometry.set_cx_left_px(frame.geometry.cx_left_px);
+    geometry.set_cx_right_px(frame.geometry.cx_right_px);
+    geometry.set_cy_px(frame.geometry.cy_px);
+    geometry.set_baseline_m(frame.geometry.baseline_m);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            geometry.add_world_from_camera(frame.world_from_camera.matrix()(row, column));
+    header.set_max_disparity_px(frame.max_disparity_px);
+    header.mutable_times()->set_capture_ms(frame.times.capture_ms);
+    header.mutable_times()->set_rectify_ms(frame.times.rectify_ms);
+    header.mutable_times()->set_match_ms(frame.times.match_ms);
+    to_wire(frame.counters, *header.mutable_counters());
+    if (!frame.colour.empty())
+        header.set_colour_codec(impl_->jpeg_quality == 0 ? wire::FrameHeader::COLOUR_ZSTD_RGBA
+                                                         : wire::FrameHeader::COLOUR_JPEG);
+    if (!frame.disparity.empty()) {
+        header.set_disparity_codec(wire::FrameHeader::DISPARITY_ZSTD_U16);
+        header.set_disparity_width_px(static_cast<std::uint32_t>(frame.disparity.cols));
+        header.set_disparity_height_px(static_cast<std::uint32_t>(frame.disparity.rows));
+    }
+    check_header(header);
+    if (!frame.colour.empty() && (frame.colour.cols != frame.geometry.width_px ||
+                                  frame.colour.rows != frame.geometry.height_px))
+        fail("a colour picture of {}x{} does not fit its geometry of {}x{}", frame.colour.cols,
+             frame.colour.rows, frame.geometry.width_px, frame.geometry.height_px);
+
+    PackedFrame packed;
+    packed.trigger_index = frame.trigger_index;
+    if (!frame.colour.empty())
+        packed.colour = impl_->jpeg_quality == 0
+                            ? impl_->lossless_colour.encode(frame.colour)
+                            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+    if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
+
+    const std::chrono::duration<float, std::milli> spent = MonotonicClock::now() - start;
+    frame.times.pack_ms = spent.count();
+    frame.published = TaiClock::now();
+    header.mutable_times()->set_pack_ms(frame.times.pack_ms);
+    header.set_published_tai_ns(to_ns(frame.published));
+    packed.header = serialise(header);
+    return packed;
+}
+
+struct FrameDecoder::Impl {
+    JpegDecoder jpeg;
+    LosslessColourDecoder lossless_colour;
+    DisparityDecoder disparity;
+};
+
+FrameDecoder::FrameDecoder() : impl_(std::make_unique<Impl>()) {}
+
+FrameDecoder::~FrameDecoder() = default;
+
+RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
+                              std::span<const std::byte> colour,
+                              std::span<const std::byte> disparity) {
+    wire::FrameHeader header;
+    parse(header_part, "frame header", header);
+    RigFrame frame;
+    frame.world_from_camera = check_header(header);
+    const auto width = static_cast<int>(header.geometry().width_px());
+    const auto height = static_cast<int>(header.geometry().height_px());
+    const auto disparity_width = static_cast<int>(header.disparity_width_px());
+    const auto disparity_height = static_cast<int>(header.disparity_height_px());
+    const auto bytes = [](int w, int h, std::size_t each) {
+        return static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * each;
+    };
+    check_payload("colour", header.colour_codec() != wire::FrameHeader::COLOUR_NONE, colour.size(),
+                  bytes(width, height, sizeof(cv::Vec4b)));
+    const bool has_disparity = header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE;
+    check_payload(
+        "disparity", has_disparity, disparity.size(),
+        has_disparity ? bytes(disparity_width, disparity_height, sizeof(std::uint16_t)) : 0);
+
+    frame.rig = header.rig();
+    frame.session = header.session();
+    frame.synchronized = header.synchronized();
+    frame.trigger_index = header.trigger_index();
+    frame.exposure = tai_from_ns(header.exposure_tai_ns());
+    frame.published = tai_from_ns(header.published_tai_ns());
+    frame.timecode = header.timecode();
+    frame.calibration_id = header.calibration_id();
+    frame.geometry.width_px = width;
+    frame.geometry.height_px = height;
+    frame.geometry.f_px = header.geometry().f_px();
+    frame.geometry.cx_left_px = header.geometry().cx_left_px();
+    frame.geometry.cx_right_px = header.geometry().cx_right_px();
+    frame.geometry.cy_px = header.geometry().cy_px();
+    frame.geometry.baseline_m = header.geometry().baseline_m();
+    frame.max_disparity_px = header.max_disparity_px();
+    frame.times = {header.times().capture_ms(), header.times().rectify_ms(),
+                   header.times().match_ms(), header.times().pack_ms()};
+    frame.counters = from_wire(header.counters());
+
+    switch (header.colour_codec()) {
+        case wire::FrameHeader::COLOUR_NONE:
+            break;
+        case wire::FrameHeader::COLOUR_JPEG:
+            frame.colour = impl_->jpeg.decode(colour, width, height);
+            break;
+        case wire::FrameHeader::COLOUR_ZSTD_RGBA:
+            frame.colour = impl_->lossless_colour.decode(colour, width, height);
+            break;
+        default:
+            fail("colour codec {} is not known here", static_cast<int>(header.colour_codec()));
+    }
+    switch (header.disparity_codec()) {
+        case wire::FrameHeader::DISPARITY_NONE:
+            break;
+        case wire::FrameHeader::DISPARITY_ZSTD_U16:
+            frame.disparity = impl_->disparity.decode(disparity, disparity_width, disparity_height);
+            break;
+        default:
+            fail("disparity codec {} is not known here",
+                 static_cast<int>(header.disparity_codec()));
+    }
+    return frame;
+}
+
+}  // namespace vantage

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/wire/frame_message.h"
+
+namespace vantage {
+
+/// A frame as it travels: the three parts that follow the RigMessage of its delivery.
+struct PackedFrame {
+    std::uint64_t trigger_index = 0;
+    std::vector<std::byte> header;     ///< FrameHeader of frame.proto
+    std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour
+    std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity
+};
+
+/// RigFrame to parts. Keeps its codecs between frames. Not thread-safe.
+class FrameEncoder {
+  public:
+    /// jpeg_quality 1..100, or 0 for lossless colour.
+    explicit FrameEncoder(int jpeg_quality);
+    ~FrameEncoder();
+
+    /// Fills in frame.times.pack_ms and frame.published. Throws Error naming the first value that
+    /// may not travel: what it packs, every decoder takes.
+    PackedFrame encode(RigFrame& frame);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Parts to RigFrame. Keeps its codecs between frames. Not thread-safe.
+class FrameDecoder {
+  public:
+    FrameDecoder();
+    ~FrameDecoder();
+
+    /// Takes nothing on trust: throws Error with one sentence for what is truncated, oversized, of
+    /// another schema version, of sizes that contradict each other, not finite or no rigid pose,
+    /// all before memory is taken for the pictures.
+    RigFrame decode(std::span<const std::byte> header, std::span<const std::byte> colour,
+                    std::span<const std::byte> disparity);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/wire/frame_message.h"
+
+namespace google::protobuf {
+class MessageLite;
+}
+
+namespace vantage {
+
+namespace wire {
+class Counters;
+}
+
+// What all messages of the wire have in common.
+
+/// Throws Error unless it is the version that this program speaks.
+void check_schema_version(std::string_view what, std::uint32_t version);
+
+/// Throws Error unless the name is 1..max_name_chars letters, digits, '-', '_', '.'.
+void check_name(std::string_view what, std::string_view name);
+
+std::vector<std::byte> serialise(const google::protobuf::MessageLite& message);
+
+/// Throws Error for parts beyond max_header_bytes and for bytes that are no such message.
+void parse(std::span<const std::byte> part, std::string_view what,
+           google::protobuf::MessageLite& message);
+
+void to_wire(const RigCounters& counters, wire::Counters& out);
+RigCounters from_wire(const wire::Counters& counters);
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/wire/frame_message.h"
+
+namespace vantage {
+
+/// What a host tells a rig: its complete wish, sent again on every change and as heartbeat.
+struct HostMessage {
+    std::uint64_t host_id = 0;        ///< random per receiver, not 0
+    std::uint64_t link = 0;           ///< the link that `handled` speaks of; 0: none yet
+    std::uint64_t handled = 0;        ///< frames of that link the host is done with
+    std::uint32_t credit_window = 1;  ///< 1..max_credit_window frames beyond those
+    bool streaming = true;
+    std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; only pulses whose index it divides
+
+    bool operator==(const HostMessage&) const = default;
+};
+
+/// What a rig tells a host: alone as heartbeat or refusal, and before each frame.
+struct RigMessage {
+    std::string rig;
+    std::uint64_t session = 0;
+    std::uint64_t link = 0;  ///< random per host that is taken on; 0 in a refusal
+    LinkCounters counters;   ///< of this link; `sent` numbers the frame that follows
+    RigCounters rig_counters;
+    std::string refusal;  ///< a sentence, when the rig does not serve this host; else empty
+};
+
+/// Decoders take nothing on trust: they throw Error with one sentence for what is truncated,
+/// oversized, of another schema version, or out of range.
+std::vector<std::byte> encode(const HostMessage& message);
+HostMessage decode_host_message(std::span<const std::byte> part);
+
+std::vector<std::byte> encode(const RigMessage& message);
+RigMessage decode_rig_message(std::span<const std::byte> part);
+
+/// Both ends send at least this often...
+inline constexpr std::chrono::milliseconds heartbeat_period{250};
+/// ...and an end that was silent this long counts as gone.
+inline constexpr std::chrono::milliseconds liveness_limit{1000};
+
+}  // namespace vantage

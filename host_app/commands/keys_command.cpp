@@ -1,0 +1,9 @@
+#include "common/wire/keys_command.h"
+
+#include "common/base/command.h"
+
+namespace vantage {
+
+CommandEntry keys_command_entry() { return {add_keys_command}; }
+
+}  // namespace vantage

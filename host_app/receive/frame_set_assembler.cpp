@@ -1,0 +1,110 @@
+#include "host_app/receive/frame_set_assembler.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::seconds silence_limit{1};
+/// A rig this far behind the others does not lag, it counts differently.
+constexpr std::chrono::seconds behind_limit{5};
+
+}  // namespace
+
+FrameSetAssembler::FrameSetAssembler(std::vector<std::string> rigs, const Options& options)
+    : options_(options),
+      step_(rigs.size(), {options.period, options.latency_budget, silence_limit, behind_limit}) {
+    for (std::string& name : rigs) {
+        rigs_.emplace_back();
+        rigs_.back().name = std::move(name);
+    }
+}
+
+FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const RigFrame> frame,
+                                 MonotonicTime arrival) {
+    assert(rig_number < rigs_.size());
+    Rig& rig = rigs_[rig_number];
+    rig.unsynchronized = !frame->synchronized && rigs_.size() > 1;
+    if (rig.unsynchronized) return FrameFate::unsynchronized;
+
+    const std::uint64_t index = frame->trigger_index;
+    const bool new_session = rig.session && *rig.session != frame->session;
+    rig.newest = index;
+    rig.session = frame->session;
+    const StageStep::Result step = step_.hear(rig_number, index, new_session, arrival);
+    if (step.began_anew) {
+        if (!open_.empty()) close_through(open_.rbegin()->first, arrival);
+        last_closed_.reset();
+    }
+    if (step.verdict == StageStep::Verdict::out_of_step) return FrameFate::out_of_step;
+    if (last_closed_ && index <= *last_closed_) return FrameFate::late;
+
+    auto [place, opened] = open_.try_emplace(index);
+    OpenSet& set = place->second;
+    if (opened) {
+        set.frames.resize(rigs_.size());
+        set.deadline = arrival + options_.latency_budget;
+    }
+    if (set.frames[rig_number]) return FrameFate::duplicate;
+    set.frames[rig_number] = std::move(frame);
+    if (open_.size() > max_open_sets) close_through(open_.begin()->first, arrival);
+    return FrameFate::in_set;
+}
+
+void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {
+    rigs_[rig].connected = connected;
+}
+
+std::vector<FrameSet> FrameSetAssembler::take_closed(MonotonicTime now) {
+    std::optional<std::uint64_t> through;
+    for (const auto& [index, set] : open_)
+        if (set.deadline <= now || everyone_accounted_for(index, set, now)) through = index;
+    if (through) close_through(*through, now);
+    return std::exchange(closed_, {});
+}
+
+std::optional<MonotonicTime> FrameSetAssembler::next_deadline() const {
+    std::optional<MonotonicTime> next;
+    for (const auto& [index, set] : open_)
+        next = next ? std::min(*next, set.deadline) : set.deadline;
+    return next;
+}
+
+bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSet& set,
+                                               MonotonicTime now) const {
+    for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
+        const bool in_play = !rigs_[rig].unsynchronized && step_.active(rig, now) &&
+                             step_.verdict(rig) == StageStep::Verdict::in_step;
+        const bool went_past = rigs_[rig].newest && *rigs_[rig].newest > index;
+        if (in_play && !set.frames[rig] && !went_past) return false;
+    }
+    return true;
+}
+
+Absence FrameSetAssembler::absence(std::size_t rig, std::uint64_t index) const {
+    if (!rigs_[rig].connected) return Absence::disconnected;
+    if (rigs_[rig].unsynchronized) return Absence::unsynchronized;
+    if (step_.verdict(rig) == StageStep::Verdict::out_of_step) return Absence::out_of_step;
+    if (rigs_[rig].newest && *rigs_[rig].newest > index) return Absence::missed_by_rig;
+    return Absence::late;
+}
+
+void FrameSetAssembler::close_through(std::uint64_t index, MonotonicTime now) {
+    while (!open_.empty() && open_.begin()->first <= index) {
+        auto node = open_.extract(open_.begin());
+        FrameSet set;
+        set.trigger_index = node.key();
+        set.complete = now;
+        for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
+            std::shared_ptr<const RigFrame>& frame = node.mapped().frames[rig];
+            const Absence why = frame ? Absence::none : absence(rig, set.trigger_index);
+            set.slots.push_back({rigs_[rig].name, std::move(frame), why});
+        }
+        last_closed_ = set.trigger_index;
+        closed_.push_back(std::move(set));
+    }
+}
+
+}  // namespace vantage

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/time.h"
+#include "host_app/receive/frame_set.h"
+#include "host_app/receive/stage_step.h"
+
+namespace vantage {
+
+/// What became of a frame that was handed to the assembler.
+enum class FrameFate {
+    in_set,     ///< joined the open set of its pulse
+    late,       ///< its set was closed
+    duplicate,  ///< its rig is in that set already
+    unsynchronized,
+    out_of_step,
+};
+
+/// Joins the rigs' frames by trigger index. A set opens with the first frame of its pulse and
+/// closes when every rig that is in play has delivered it or gone past it, or when the latency
+/// budget is up; the budget counts from that first frame, not from the exposure, so that it bounds
+/// what one rig can cost the others whatever the rigs' own latency is and however the host's clock
+/// is set. Sets close in the order of their pulses. A rig without frames for a second is not waited
+/// for.
+///
+/// Frames that name no pulse of the stage are never joined with another rig's; only on a stage of a
+/// single rig are they taken as they come.
+///
+/// Clocks come in as arguments. Not thread-safe.
+class FrameSetAssembler {
+  public:
+    struct Options {
+        std::chrono::nanoseconds period;
+        std::chrono::nanoseconds latency_budget;
+    };
+
+    /// Open sets at a time; one more closes the oldest.
+    static constexpr std::size_t max_open_sets = 32;
+
+    FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
+
+    FrameFate add(std::size_t rig, std::shared_ptr<const RigFrame> frame, MonotonicTime arrival);
+
+    /// Whether the rig gives signs of life; only says why a rig is absent.
+    void set_connected(std::size_t rig, bool connected);
+
+    /// The sets that are closed by now, oldest first.
+    std::vector<FrameSet> take_closed(MonotonicTime now);
+
+    /// When take_closed() has to be called again at the latest; empty while no set is open.
+    std::optional<MonotonicTime> next_deadline() const;
+
+    std::size_t open_sets() const { return open_.size(); }
+
+  private:
+    struct OpenSet {
+        std::vector<std::shared_ptr<const RigFrame>> frames;
+        MonotonicTime deadline{};
+    };
+    struct Rig {
+        std::string name;
+        bool connected = false;
+        bool unsynchronized = false;
+        std::optional<std::uint64_t> session;
+        std::optional<std::uint64_t> newest;  ///< index
+    };
+
+    bool everyone_accounted_for(std::uint64_t index, const OpenSet& set, MonotonicTime now) const;
+    Absence absence(std::size_t rig, std::uint64_t index) const;
+    void close_through(std::uint64_t index, MonotonicTime now);
+
+    std::vector<Rig> rigs_;
+    Options options_;
+    StageStep step_;
+    std::map<std::uint64_t, OpenSet> open_;
+    std::optional<std::uint64_t> last_closed_;
+    std::vector<FrameSet> closed_;
+};
+
+}  // namespace vantage

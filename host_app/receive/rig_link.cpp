@@ -1,0 +1,222 @@
+#include "host_app/receive/rig_link.h"
+
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+#include <zmq_addon.hpp>
+
+#include "common/base/error.h"
+#include "common/wire/endpoint.h"
+#include "common/wire/limits.h"
+#include "common/wire/random_id.h"
+
+namespace vantage {
+namespace {
+
+/// A link that was refused is tried again this often: the rig may have been told of this host
+/// since.
+constexpr std::chrono::seconds refusal_retry_period{2};
+constexpr std::chrono::milliseconds first_reconnect_wait{100};
+constexpr std::chrono::milliseconds longest_reconnect_wait{1000};
+constexpr std::chrono::seconds dead_connection_limit{3};
+constexpr int send_high_water_mark = 8;
+constexpr std::size_t frame_parts = 3;
+
+int as_ms(std::chrono::milliseconds duration) { return static_cast<int>(duration.count()); }
+
+std::span<const std::byte> bytes_of(const zmq::message_t& part) {
+    return {part.data<std::byte>(), part.size()};
+}
+
+}  // namespace
+
+RigLink::RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
+                 const std::optional<CurveKeys>& host_keys)
+    : context_(context), rig_(rig), host_keys_(host_keys), host_id_(random_id()) {
+    const Endpoint endpoint =
+        parse_endpoint(rig.endpoint, fmt::format("endpoint of rig {}", rig.name));
+    if (endpoint.host == "*" || endpoint.port == "*")
+        fail("endpoint of rig {} = \"{}\" has to name one host and one port", rig.name,
+             rig.endpoint);
+    if (rig.public_key.empty() && !endpoint.loopback)
+        fail(
+            "rig {} at {} is on another computer, which needs keys: set its public_key and the "
+            "stage's key_file",
+            rig.name, rig.endpoint);
+    if (!rig.public_key.empty() && !is_curve_key(rig.public_key))
+        fail(
+            "public_key of rig {} is not a CURVE key of 40 characters of Z85; the rig prints it "
+            "with: vantage-rig keys show FILE",
+            rig.name);
+    if (!rig.public_key.empty() && !host_keys)
+        fail(
+            "rig {} has a public_key, so this host needs a key of its own: set key_file (make one "
+            "with: vantage keys new FILE)",
+            rig.name);
+    open();
+}
+
+RigLink::~RigLink() { close(); }
+
+void RigLink::open() {
+    const Endpoint endpoint = parse_endpoint(rig_.endpoint, "endpoint");
+    socket_ = zmq::socket_t(context_, zmq::socket_type::dealer);
+    socket_.set(zmq::sockopt::linger, 0);
+    // Nothing is queued for a rig that is away: a wish is sent again when it is back.
+    socket_.set(zmq::sockopt::immediate, true);
+    socket_.set(zmq::sockopt::sndhwm, send_high_water_mark);
+    socket_.set(zmq::sockopt::rcvhwm, 2 * static_cast<int>(max_credit_window));
+    socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_part_bytes));
+    socket_.set(zmq::sockopt::reconnect_ivl, as_ms(first_reconnect_wait));
+    socket_.set(zmq::sockopt::reconnect_ivl_max, as_ms(longest_reconnect_wait));
+    socket_.set(zmq::sockopt::heartbeat_ivl, as_ms(liveness_limit));
+    socket_.set(zmq::sockopt::heartbeat_timeout, as_ms(dead_connection_limit));
+    socket_.set(zmq::sockopt::ipv6, endpoint.ipv6);
+    if (!rig_.public_key.empty()) {
+        socket_.set(zmq::sockopt::curve_serverkey, rig_.public_key);
+        socket_.set(zmq::sockopt::curve_publickey, host_keys_->public_key);
+        socket_.set(zmq::sockopt::curve_secretkey, host_keys_->secret_key);
+    }
+    const std::string events = fmt::format("inproc://events-{}", random_id());
+    if (zmq_socket_monitor(socket_.handle(), events.c_str(), ZMQ_EVENT_ALL) != 0)
+        fail("the link to rig {} cannot be watched: {}", rig_.name, zmq_strerror(zmq_errno()));
+    monitor_ = zmq::socket_t(context_, zmq::socket_type::pair);
+    monitor_.set(zmq::sockopt::linger, 0);
+    monitor_.connect(events);
+    try {
+        socket_.connect(endpoint.text());
+    } catch (const zmq::error_t& error) {
+        fail("endpoint of rig {} = \"{}\" cannot be connected to: {}", rig_.name, rig_.endpoint,
+             error.what());
+    }
+}
+
+void RigLink::close() {
+    if (socket_) zmq_socket_monitor(socket_.handle(), nullptr, 0);
+    monitor_.close();
+    socket_.close();
+}
+
+std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
+    while (true) {
+        std::vector<zmq::message_t> parts;
+        if (!zmq::recv_multipart(socket_, std::back_inserter(parts), zmq::recv_flags::dontwait))
+            return std::nullopt;
+        try {
+            Delivery delivery;
+            if (take_in(parts, now, delivery)) return delivery;
+        } catch (const Error& error) {
+            ++view_.malformed;
+            view_.last_error = error.what();
+        }
+    }
+}
+
+bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery) {
+    if (parts.size() != 1 && parts.size() != 1 + frame_parts)
+        fail("a message of {} parts came from rig {}", parts.size(), rig_.name);
+    RigMessage message = decode_rig_message(bytes_of(parts.front()));
+    if (!message.refusal.empty()) {
+        view_.refused = message.refusal;
+        return false;
+    }
+    if (message.rig != rig_.name) {
+        view_.refused = fmt::format(
+            "the rig at {} calls itself {}, the stage calls it {}; make name and endpoint agree",
+            rig_.endpoint, message.rig, rig_.name);
+        return false;
+    }
+    const bool with_frame = parts.size() > 1;
+    account_.hear(message, with_frame);
+    heard_ = now;
+    view_.refused.clear();
+    view_.lost = account_.lost();
+    view_.link = message.counters;
+    view_.rig_counters = message.rig_counters;
+    if (!with_frame) return false;
+    delivery.message = std::move(message);
+    std::move(parts.begin() + 1, parts.end(), delivery.parts.begin());
+    delivery.arrival = now;
+    delivery.arrival_tai = TaiClock::now();
+    return true;
+}
+
+void RigLink::watch(MonotonicTime now) {
+    while (true) {
+        std::vector<zmq::message_t> parts;
+        if (!zmq::recv_multipart(monitor_, std::back_inserter(parts), zmq::recv_flags::dontwait))
+            return;
+        std::uint16_t event = 0;
+        std::uint32_t value = 0;
+        if (parts.empty() || parts.front().size() != sizeof event + sizeof value) continue;
+        std::memcpy(&event, parts.front().data<std::byte>(), sizeof event);
+        std::memcpy(&value, parts.front().data<std::byte>() + sizeof event, sizeof value);
+        switch (event) {
+            case ZMQ_EVENT_CONNECT_RETRIED:
+                view_.last_error = fmt::format("no rig answers at {}", rig_.endpoint);
+                break;
+            case ZMQ_EVENT_DISCONNECTED:
+                view_.last_error = fmt::format("the connection to {} broke off", rig_.endpoint);
+                break;
+            case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
+                next_heartbeat_ = now;
+                break;
+            case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
+                refuse(fmt::format("rig {} at {} does not admit this host; add its public key {} "
+                                   "to the rig's authorized_hosts",
+                                   rig_.name, rig_.endpoint,
+                                   host_keys_ ? host_keys_->public_key : "(none)"),
+                       now);
+                break;
+            case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
+            case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
+                refuse(rig_.public_key.empty()
+                           ? fmt::format("rig {} at {} talks only to hosts with keys, or is no "
+                                         "rig; set its public_key and the stage's key_file",
+                                         rig_.name, rig_.endpoint)
+                           : fmt::format("rig {} at {} does not hold the key that the stage names "
+                                         "as its public_key; compare with: vantage-rig keys show "
+                                         "FILE",
+                                         rig_.name, rig_.endpoint),
+                       now);
+                break;
+            default:
+                break;
+        }
+    }
+}
+
+void RigLink::refuse(std::string sentence, MonotonicTime now) {
+    view_.refused = std::move(sentence);
+    if (!reopen_) reopen_ = now + refusal_retry_period;
+}
+
+void RigLink::tick(const Wish& wish, MonotonicTime now) {
+    if (reopen_ && now >= *reopen_) {
+        reopen_.reset();
+        close();
+        open();
+    }
+    HostMessage message;
+    message.host_id = host_id_;
+    message.link = account_.link();
+    message.handled = account_.known() - wish.unhandled;
+    message.credit_window = credit_window;
+    message.streaming = wish.streaming;
+    message.rate_divisor = wish.rate_divisor;
+    if (now < next_heartbeat_ && message == told_) return;
+    // Not taken while the rig is away; then the heartbeat tries again.
+    const std::vector<std::byte> bytes = encode(message);
+    if (socket_.send(zmq::buffer(bytes), zmq::send_flags::dontwait)) told_ = message;
+    next_heartbeat_ = now + heartbeat_period;
+}
+
+RigLink::View RigLink::view(MonotonicTime now) const {
+    View view = view_;
+    view.connected = heard_ && now - *heard_ <= liveness_limit;
+    return view;
+}
+
+}  // namespace vantage

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <zmq.hpp>
+
+#include "common/base/time.h"
+#include "common/config/stage_config.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/link_message.h"
+#include "host_app/receive/link_account.h"
+
+namespace vantage {
+
+/// The connection to one rig: opens it, opens it again after a refusal, keeps the rig informed of
+/// this host's wish and credit, and takes its messages in. Lives on one thread, which polls
+/// socket() and monitor().
+class RigLink {
+  public:
+    /// A frame as it came, not decoded yet.
+    struct Delivery {
+        RigMessage message;
+        std::array<zmq::message_t, 3> parts;  ///< header, colour, disparity
+        MonotonicTime arrival{};
+        TaiTime arrival_tai{};
+    };
+
+    /// What the host asks of the rig.
+    struct Wish {
+        bool streaming = true;
+        std::uint32_t rate_divisor = 1;
+        std::uint64_t unhandled = 0;  ///< frames that came and are not decoded yet
+        bool operator==(const Wish&) const = default;
+    };
+
+    struct View {
+        bool connected = false;
+        std::string refused;
+        std::string last_error;
+        std::uint64_t malformed = 0;  ///< messages that were no delivery, heartbeat or refusal
+        std::uint64_t lost = 0;
+        LinkCounters link;
+        RigCounters rig_counters;
+    };
+
+    /// Frames under way or waiting to be decoded.
+    static constexpr std::uint32_t credit_window = 4;
+
+    /// Throws Error if the endpoint or a key cannot be.
+    RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
+            const std::optional<CurveKeys>& host_keys);
+    ~RigLink();
+    RigLink(const RigLink&) = delete;
+    RigLink& operator=(const RigLink&) = delete;
+
+    zmq::socket_t& socket() { return socket_; }
+    zmq::socket_t& monitor() { return monitor_; }
+
+    /// Takes in everything up to the next frame; empty when nothing more is there.
+    std::optional<Delivery> receive(MonotonicTime now);
+
+    /// Takes in what became of the connection.
+    void watch(MonotonicTime now);
+
+    /// Tells the rig, if the wish has changed or a heartbeat is due. Opens the link again when a
+    /// refusal has aged.
+    void tick(const Wish& wish, MonotonicTime now);
+
+    View view(MonotonicTime now) const;
+
+  private:
+    void open();
+    void close();
+    void refuse(std::string sentence, MonotonicTime now);
+    bool take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery);
+
+    zmq::context_t& context_;
+    StageConfig::Rig rig_;
+    std::optional<CurveKeys> host_keys_;
+    std::uint64_t host_id_;
+    zmq::socket_t socket_;
+    zmq::socket_t monitor_;
+
+    LinkAccount account_;
+    View view_;
+    std::optional<MonotonicTime> heard_;
+    std::optional<MonotonicTime> reopen_;
+    MonotonicTime next_heartbeat_{};
+    HostMessage told_;
+};
+
+}  // namespace vantage

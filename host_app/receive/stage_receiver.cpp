@@ -1,0 +1,309 @@
+#include "host_app/receive/stage_receiver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <zmq.hpp>
+
+#include "common/base/bounded_queue.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/frame_codec.h"
+#include "common/wire/limits.h"
+#include "common/wire/wake_event.h"
+#include "host_app/receive/frame_set_assembler.h"
+#include "host_app/receive/rig_link.h"
+
+namespace vantage {
+namespace {
+
+/// Closed sets that wait for next(); a program that draws slower than the stage runs takes the
+/// newest of these.
+constexpr std::size_t max_closed_sets = 4;
+
+constexpr auto forever = std::chrono::hours(1);
+
+double ms_between(std::chrono::nanoseconds duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+std::span<const std::byte> bytes_of(const zmq::message_t& part) {
+    return {part.data<std::byte>(), part.size()};
+}
+
+std::vector<std::string> names_of(const StageConfig& stage) {
+    if (stage.rigs.empty()) fail("the stage has no rigs; add a [[rig]] with name and endpoint");
+    std::vector<std::string> names;
+    for (const StageConfig::Rig& rig : stage.rigs) {
+        if (std::find(names.begin(), names.end(), rig.name) != names.end())
+            fail("the stage has two rigs named {}", rig.name);
+        names.push_back(rig.name);
+    }
+    return names;
+}
+
+FrameSetAssembler::Options assembler_options(const StageConfig& stage) {
+    constexpr double ns_per_s = 1e9;
+    constexpr double ns_per_ms = 1e6;
+    if (!(stage.rate_hz > 0)) fail("rate_hz = {} has to be above 0", stage.rate_hz);
+    if (!(stage.latency_budget_ms > 0))
+        fail("latency_budget_ms = {} has to be above 0", stage.latency_budget_ms);
+    return {
+        std::chrono::nanoseconds(static_cast<std::int64_t>(ns_per_s / stage.rate_hz)),
+        std::chrono::nanoseconds(static_cast<std::int64_t>(ns_per_ms * stage.latency_budget_ms))};
+}
+
+}  // namespace
+
+struct StageReceiver::Impl {
+    /// One rig: its link on the I/O thread, its decoder on a thread of its own, so that a rig's
+    /// frames keep their order.
+    struct Rig {
+        Rig(zmq::context_t& context, const StageConfig::Rig& config,
+            const std::optional<CurveKeys>& keys)
+            : name(config.name), link(context, config, keys), inbox(RigLink::credit_window) {
+            status.rig = name;
+        }
+        const std::string name;
+        RigLink link;
+        BoundedQueue<RigLink::Delivery> inbox;
+        std::atomic<std::uint64_t> unhandled = 0;
+        std::thread decoder;
+
+        // Under Impl::mutex.
+        RigStatus status;
+        std::uint64_t undecodable_frames = 0;
+        RigLink::Wish wish;
+        PercentileRecorder latency_ms, network_ms, decode_ms;
+    };
+
+    explicit Impl(const StageConfig& stage)
+        : assembler(names_of(stage), assembler_options(stage)), closed_sets(max_closed_sets) {
+        std::optional<CurveKeys> keys;
+        if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
+        for (const StageConfig::Rig& rig : stage.rigs)
+            rigs.push_back(std::make_unique<Rig>(context, rig, keys));
+        for (std::size_t i = 0; i < rigs.size(); ++i)
+            rigs[i]->decoder = std::thread([this, i] { decode_all(i); });
+        io_thread = std::thread([this] { run(); });
+    }
+
+    ~Impl() {
+        stopping = true;
+        wake.notify();
+        io_thread.join();
+        for (const auto& rig : rigs) rig->inbox.close();
+        for (const auto& rig : rigs) rig->decoder.join();
+    }
+
+    void run() {
+        try {
+            while (!stopping) turn();
+        } catch (const std::exception& error) {
+            log_error("receiving came to an end: {}", error.what());
+            const std::lock_guard lock(mutex);
+            failure = error.what();
+        }
+    }
+
+    void turn() {
+        std::vector<zmq::pollitem_t> items{{nullptr, wake.fd(), ZMQ_POLLIN, 0}};
+        for (const auto& rig : rigs) {
+            items.push_back({rig->link.socket().handle(), 0, ZMQ_POLLIN, 0});
+            items.push_back({rig->link.monitor().handle(), 0, ZMQ_POLLIN, 0});
+        }
+        try {
+            zmq::poll(items, next_wait());
+        } catch (const zmq::error_t& error) {
+            if (error.num() != EINTR) throw;
+        }
+        wake.clear();
+        const MonotonicTime now = MonotonicClock::now();
+        for (const auto& rig : rigs) {
+            rig->link.watch(now);
+            // A frame at a time: a rig that floods this host gets no more of its turn than others.
+            if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now))
+                hand_over(*rig, std::move(*delivery));
+            RigLink::Wish wish;
+            {
+                const std::lock_guard lock(mutex);
+                wish = rig->wish;
+            }
+            wish.unhandled = rig->unhandled;
+            rig->link.tick(wish, now);
+        }
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < rigs.size(); ++i) {
+            show(*rigs[i], rigs[i]->link.view(now));
+            assembler.set_connected(i, rigs[i]->status.connected);
+        }
+        collect_closed(now);
+    }
+
+    std::chrono::milliseconds next_wait() {
+        std::chrono::nanoseconds wait = heartbeat_period;
+        const std::lock_guard lock(mutex);
+        if (const auto deadline = assembler.next_deadline())
+            wait = std::min(wait, *deadline - MonotonicClock::now());
+        return std::max(std::chrono::ceil<std::chrono::milliseconds>(wait),
+                        std::chrono::milliseconds(0));
+    }
+
+    void hand_over(Rig& rig, RigLink::Delivery delivery) {
+        ++rig.unhandled;
+        if (rig.inbox.push(std::move(delivery))) {
+            --rig.unhandled;
+            const std::lock_guard lock(mutex);
+            ++rig.status.queue_dropped;
+        }
+    }
+
+    void decode_all(std::size_t number) {
+        Rig& rig = *rigs[number];
+        FrameDecoder decoder;
+        while (true) {
+            const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(forever);
+            if (!delivery && rig.inbox.closed()) return;
+            if (!delivery) continue;
+            try {
+                decode(number, decoder, *delivery);
+            } catch (const std::exception& error) {
+                const std::lock_guard lock(mutex);
+                ++rig.undecodable_frames;
+                rig.status.last_error = error.what();
+            }
+            --rig.unhandled;
+            wake.notify();
+        }
+    }
+
+    void decode(std::size_t number, FrameDecoder& decoder, const RigLink::Delivery& delivery) {
+        Rig& rig = *rigs[number];
+        const MonotonicTime start = MonotonicClock::now();
+        auto frame = std::make_shared<const RigFrame>(decoder.decode(
+            bytes_of(delivery.parts[0]), bytes_of(delivery.parts[1]), bytes_of(delivery.parts[2])));
+        if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
+            fail("a frame of rig {} came under the name of rig {}", frame->rig,
+                 delivery.message.rig);
+        const MonotonicTime end = MonotonicClock::now();
+        const TaiTime decoded = TaiClock::now();
+
+        const std::lock_guard lock(mutex);
+        rig.decode_ms.add(ms_between(end - start));
+        rig.network_ms.add(ms_between(delivery.arrival_tai - frame->published));
+        rig.latency_ms.add(ms_between(decoded - frame->exposure));
+        rig.status.rig_times = frame->times;
+        ++rig.status.received;
+        switch (assembler.add(number, std::move(frame), delivery.arrival)) {
+            case FrameFate::in_set:
+                break;
+            case FrameFate::late:
+                ++rig.status.late;
+                break;
+            case FrameFate::duplicate:
+                ++rig.status.duplicate;
+                break;
+            case FrameFate::unsynchronized:
+                ++rig.status.unsynchronized;
+                break;
+            case FrameFate::out_of_step:
+                ++rig.status.out_of_step;
+                break;
+        }
+        collect_closed(end);
+    }
+
+    /// Precondition: mutex is held.
+    void collect_closed(MonotonicTime now) {
+        for (FrameSet& set : assembler.take_closed(now)) {
+            for (std::size_t i = 0; i < rigs.size(); ++i)
+                rigs[i]->status.in_sets += set.slots[i].frame != nullptr;
+            ++sets;
+            complete_sets += set.present() == static_cast<int>(rigs.size());
+            closed_sets.push(std::move(set));
+        }
+    }
+
+    /// Precondition: mutex is held.
+    static void show(Rig& rig, RigLink::View view) {
+        RigStatus& status = rig.status;
+        if (!view.refused.empty() && view.refused != status.refused)
+            log_warning("{}", view.refused);
+        if (view.connected != status.connected)
+            log_info("rig {} is {}", rig.name, view.connected ? "connected" : "gone");
+        status.connected = view.connected;
+        status.refused = std::move(view.refused);
+        status.undecodable = rig.undecodable_frames + view.malformed;
+        status.lost = view.lost;
+        status.link = view.link;
+        status.rig_counters = view.rig_counters;
+        if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
+    }
+
+    zmq::context_t context;
+    std::vector<std::unique_ptr<Rig>> rigs;
+
+    mutable std::mutex mutex;  ///< of what follows and of the rigs' status; never held over a
+                               ///< socket call or a decode
+    FrameSetAssembler assembler;
+    std::uint64_t sets = 0;
+    std::uint64_t complete_sets = 0;
+    std::string failure;
+
+    BoundedQueue<FrameSet> closed_sets;
+    WakeEvent wake;
+    std::atomic<bool> stopping = false;
+    std::thread io_thread;
+};
+
+StageReceiver::StageReceiver(const StageConfig& stage) : impl_(std::make_unique<Impl>(stage)) {}
+
+StageReceiver::~StageReceiver() = default;
+
+std::optional<FrameSet> StageReceiver::next(std::chrono::nanoseconds timeout) {
+    std::optional<FrameSet> set = impl_->closed_sets.pop_for(timeout);
+    if (!set) {
+        const std::lock_guard lock(impl_->mutex);
+        if (!impl_->failure.empty()) fail("receiving came to an end: {}", impl_->failure);
+    }
+    return set;
+}
+
+ReceiverStatus StageReceiver::status() const {
+    const std::lock_guard lock(impl_->mutex);
+    ReceiverStatus status;
+    for (const auto& rig : impl_->rigs) {
+        RigStatus& shown = status.rigs.emplace_back(rig->status);
+        shown.latency_ms = rig->latency_ms.summary();
+        shown.network_ms = rig->network_ms.summary();
+        shown.decode_ms = rig->decode_ms.summary();
+    }
+    status.sets = impl_->sets;
+    status.complete_sets = impl_->complete_sets;
+    status.sets_dropped = impl_->closed_sets.dropped_count();
+    return status;
+}
+
+void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t rate_divisor) {
+    if (rate_divisor < 1 || rate_divisor > max_rate_divisor)
+        fail("a rate divisor of {} is outside 1..{}", rate_divisor, max_rate_divisor);
+    const auto rig = std::find_if(impl_->rigs.begin(), impl_->rigs.end(),
+                                  [&](const auto& each) { return each->name == rig_name; });
+    if (rig == impl_->rigs.end()) fail("the stage has no rig named {}", rig_name);
+    {
+        const std::lock_guard lock(impl_->mutex);
+        (*rig)->wish.streaming = streaming;
+        (*rig)->wish.rate_divisor = rate_divisor;
+    }
+    impl_->wake.notify();
+}
+
+}  // namespace vantage

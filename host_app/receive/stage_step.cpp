@@ -1,0 +1,67 @@
+#include "host_app/receive/stage_step.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+
+namespace vantage {
+namespace {
+
+double as_ns(std::chrono::nanoseconds duration) { return static_cast<double>(duration.count()); }
+
+}  // namespace
+
+StageStep::StageStep(std::size_t rigs, const Options& options) : options_(options), rigs_(rigs) {}
+
+StageStep::Result StageStep::hear(std::size_t rig, std::uint64_t trigger_index, bool new_session,
+                                  MonotonicTime arrival) {
+    assert(rig < rigs_.size());
+    rigs_[rig].lead_ns = static_cast<double>(trigger_index) * as_ns(options_.period) -
+                         static_cast<double>(to_ns(arrival));
+    rigs_[rig].heard = arrival;
+
+    const std::optional<double> before = step_ns_;
+    step_ns_ = elect(arrival);
+    bool alone = true;
+    for (std::size_t other = 0; other < rigs_.size(); ++other)
+        alone = alone && (other == rig || !active(other, arrival));
+    Result result;
+    const double fall_ns = before ? *before - *step_ns_ : 0;
+    result.began_anew =
+        fall_ns > as_ns(options_.behind_limit) || (alone && new_session && fall_ns > 0);
+    result.verdict = verdict(rig);
+    return result;
+}
+
+bool StageStep::active(std::size_t rig, MonotonicTime now) const {
+    return rigs_[rig].heard && now - *rigs_[rig].heard <= options_.silence_limit;
+}
+
+StageStep::Verdict StageStep::verdict(std::size_t rig) const {
+    if (!rigs_[rig].heard || !step_ns_) return Verdict::in_step;
+    const double ahead_ns = rigs_[rig].lead_ns - *step_ns_;
+    const bool in_step =
+        ahead_ns <= as_ns(options_.tolerance) && ahead_ns >= -as_ns(options_.behind_limit);
+    return in_step ? Verdict::in_step : Verdict::out_of_step;
+}
+
+double StageStep::elect(MonotonicTime now) const {
+    const auto agree = [&](double a, double b) {
+        return std::abs(a - b) <= as_ns(options_.tolerance);
+    };
+    // Most votes, then the incumbent, then the lead.
+    std::tuple<int, bool, double> best{0, false, 0};
+    for (std::size_t candidate = 0; candidate < rigs_.size(); ++candidate) {
+        if (!active(candidate, now)) continue;
+        const double lead_ns = rigs_[candidate].lead_ns;
+        int votes = 0;
+        for (std::size_t other = 0; other < rigs_.size(); ++other)
+            votes += active(other, now) && agree(rigs_[other].lead_ns, lead_ns);
+        const bool incumbent = step_ns_ && agree(*step_ns_, lead_ns);
+        best = std::max(best, std::tuple(votes, incumbent, lead_ns));
+    }
+    return std::get<double>(best);
+}
+
+}  // namespace vantage

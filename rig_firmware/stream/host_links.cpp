@@ -1,0 +1,177 @@
+#include "rig_firmware/stream/host_links.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/wire/random_id.h"
+
+namespace vantage {
+namespace {
+
+/// A host that is busy for a moment keeps its queue; one that is gone gives it up.
+constexpr auto silence_limit = 2 * liveness_limit;
+
+/// Refusals waiting for the socket; a flood of bad messages gets no more answers than this.
+constexpr std::size_t max_refusals = 32;
+
+std::string display_name(const std::string& host_key) {
+    return host_key.empty() ? "a host without key" : "host " + host_key;
+}
+
+}  // namespace
+
+HostLinks::HostLinks(std::string rig, std::uint64_t session, std::size_t queue_frames)
+    : rig_(std::move(rig)),
+      session_(session),
+      queue_frames_(std::max<std::size_t>(queue_frames, 1)) {}
+
+void HostLinks::offer(std::shared_ptr<const PackedFrame> frame) {
+    ++rig_counters_.published;
+    for (Link& link : links_) {
+        if (!link.attached) continue;
+        ++link.counters.offered;
+        if (!link.streaming || frame->trigger_index % link.rate_divisor != 0) {
+            ++link.counters.thinned;
+            continue;
+        }
+        if (link.queue.size() == queue_frames_) drop_oldest(link);
+        link.queue.push_back(frame);
+    }
+}
+
+void HostLinks::hear(const Route& route, const std::string& host_key, const HostMessage& message,
+                     MonotonicTime now) {
+    Link* link = find(host_key, message.host_id);
+    if (!link) link = take_on(host_key, message.host_id);
+    if (!link) {
+        refuse(route,
+               fmt::format("rig {} serves {} hosts already and takes no more", rig_, max_hosts));
+        return;
+    }
+    if (!link->attached) log_info("{} is attached", display_name(host_key));
+    link->attached = true;
+    link->route = route;
+    link->heard = now;
+    link->streaming = message.streaming;
+    link->rate_divisor = message.rate_divisor;
+    if (message.link == link->id)
+        link->credit_limit = std::min(message.handled, link->counters.sent) + message.credit_window;
+    else
+        link->heartbeat_due = true;
+}
+
+void HostLinks::refuse(const Route& route, std::string sentence) {
+    if (refusals_.size() == max_refusals) return;
+    RigMessage message;
+    message.rig = rig_;
+    message.session = session_;
+    message.rig_counters = rig_counters_;
+    message.refusal = std::move(sentence);
+    refusals_.push_back({route, std::move(message), nullptr});
+}
+
+void HostLinks::expire(MonotonicTime now) {
+    for (Link& link : links_)
+        if (link.attached && now - link.heard > silence_limit) {
+            log_info("{} went silent and is let go", display_name(link.host_key));
+            let_go(link);
+        }
+}
+
+void HostLinks::ring() {
+    for (Link& link : links_) link.heartbeat_due = link.attached;
+}
+
+std::vector<HostLinks::Outgoing> HostLinks::take() {
+    std::vector<Outgoing> all = std::move(refusals_);
+    refusals_.clear();
+    for (Link& link : links_) {
+        if (!link.attached) continue;
+        if (link.heartbeat_due) all.push_back({link.route, message_to(link), nullptr});
+        link.heartbeat_due = false;
+        while (!link.queue.empty() && link.counters.sent < link.credit_limit) {
+            std::shared_ptr<const PackedFrame> frame = std::move(link.queue.front());
+            link.queue.pop_front();
+            ++link.counters.sent;
+            all.push_back({link.route, message_to(link), std::move(frame)});
+        }
+    }
+    return all;
+}
+
+void HostLinks::undelivered(const Outgoing& outgoing) {
+    for (Link& link : links_) {
+        if (link.id != outgoing.message.link) continue;
+        if (outgoing.frame) {
+            --link.counters.sent;
+            ++link.counters.send_dropped;
+            ++rig_counters_.send_dropped;
+        }
+        if (link.attached && link.route == outgoing.route) {
+            log_info("{} is gone", display_name(link.host_key));
+            let_go(link);
+        }
+    }
+}
+
+void HostLinks::set_rig_counters(const RigCounters& counters) {
+    // Frames carry the counts of the moment they were captured, which may lie behind the newest.
+    rig_counters_.captured = std::max(rig_counters_.captured, counters.captured);
+    rig_counters_.missed = std::max(rig_counters_.missed, counters.missed);
+    rig_counters_.late = std::max(rig_counters_.late, counters.late);
+}
+
+RigCounters HostLinks::rig_counters() const { return rig_counters_; }
+
+std::vector<HostLinks::HostStatus> HostLinks::hosts() const {
+    std::vector<HostStatus> all;
+    for (const Link& link : links_)
+        all.push_back({link.host_key, link.attached, link.counters, link.queue.size()});
+    return all;
+}
+
+HostLinks::Link* HostLinks::find(const std::string& host_key, std::uint64_t host_id) {
+    for (Link& link : links_)
+        if (link.host_key == host_key && link.host_id == host_id) return &link;
+    return nullptr;
+}
+
+HostLinks::Link* HostLinks::take_on(const std::string& host_key, std::uint64_t host_id) {
+    if (links_.size() == max_hosts) {
+        const auto longest_gone =
+            std::min_element(links_.begin(), links_.end(), [](const Link& a, const Link& b) {
+                return std::pair(a.attached, a.heard) < std::pair(b.attached, b.heard);
+            });
+        if (longest_gone->attached) return nullptr;
+        links_.erase(longest_gone);
+    }
+    Link& link = links_.emplace_back();
+    link.host_key = host_key;
+    link.host_id = host_id;
+    link.id = random_id();
+    return &link;
+}
+
+void HostLinks::let_go(Link& link) {
+    link.attached = false;
+    while (!link.queue.empty()) drop_oldest(link);
+}
+
+void HostLinks::drop_oldest(Link& link) {
+    link.queue.pop_front();
+    ++link.counters.send_dropped;
+    ++rig_counters_.send_dropped;
+}
+
+RigMessage HostLinks::message_to(const Link& link) const {
+    RigMessage message;
+    message.rig = rig_;
+    message.session = session_;
+    message.link = link.id;
+    message.counters = link.counters;
+    message.rig_counters = rig_counters_;
+    return message;
+}
+
+}  // namespace vantage

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/time.h"
+#include "common/wire/frame_codec.h"
+#include "common/wire/link_message.h"
+
+namespace vantage {
+
+/// Who gets which frame, and what became of every one of them: the books of the publisher, without
+/// sockets, clocks or threads of their own.
+///
+/// A host is named by its key and the id it chose; it keeps its link, and the link's count, when it
+/// comes back on another connection. It is sent a frame only while it has credit; beyond that its
+/// frames wait in a queue of its own, and when that is full the oldest makes room and is counted.
+class HostLinks {
+  public:
+    /// The socket's name for a connection.
+    using Route = std::string;
+
+    struct Outgoing {
+        Route route;
+        RigMessage message;
+        std::shared_ptr<const PackedFrame> frame;  ///< null: a heartbeat or refusal
+    };
+
+    struct HostStatus {
+        std::string host_key;  ///< Z85; empty without keys
+        bool attached = false;
+        LinkCounters counters;
+        std::size_t queued = 0;
+    };
+
+    /// Hosts at a time, and remembered ones among them.
+    static constexpr std::size_t max_hosts = 16;
+
+    HostLinks(std::string rig, std::uint64_t session, std::size_t queue_frames);
+
+    /// A frame for every attached host.
+    void offer(std::shared_ptr<const PackedFrame> frame);
+
+    /// Takes the host on, or moves its link to this route, and grants it credit.
+    void hear(const Route& route, const std::string& host_key, const HostMessage& message,
+              MonotonicTime now);
+
+    /// Answers a message that was refused before it got here.
+    void refuse(const Route& route, std::string sentence);
+
+    /// Lets go of hosts that were silent for too long.
+    void expire(MonotonicTime now);
+
+    /// A heartbeat to every attached host is due.
+    void ring();
+
+    /// What is to be sent now, in order: refusals, heartbeats, frames within credit. Counts the
+    /// frames as sent.
+    std::vector<Outgoing> take();
+
+    /// The socket could not take this one: its host is let go, and a frame counts as dropped
+    /// instead of sent. Precondition: nothing taken after it for the same route was delivered.
+    void undelivered(const Outgoing& outgoing);
+
+    /// The daemon's counts, as heartbeats report them; `published` and `send_dropped` are kept
+    /// here.
+    void set_rig_counters(const RigCounters& counters);
+    RigCounters rig_counters() const;
+
+    std::vector<HostStatus> hosts() const;
+
+  private:
+    struct Link {
+        Route route;
+        std::string host_key;
+        std::uint64_t host_id = 0;
+        std::uint64_t id = 0;
+        bool attached = false;
+        bool heartbeat_due = false;
+        bool streaming = true;
+        std::uint32_t rate_divisor = 1;
+        std::uint64_t credit_limit = 0;  ///< frames of this link that may be sent in all
+        LinkCounters counters;
+        MonotonicTime heard{};
+        std::deque<std::shared_ptr<const PackedFrame>> queue;
+    };
+
+    Link* find(const std::string& host_key, std::uint64_t host_id);
+    Link* take_on(const std::string& host_key, std::uint64_t host_id);
+    void let_go(Link& link);
+    void drop_oldest(Link& link);
+    RigMessage message_to(const Link& link) const;
+
+    std::string rig_;
+    std::uint64_t session_;
+    std::size_t queue_frames_;
+    RigCounters rig_counters_;
+    std::vector<Link> links_;
+    std::vector<Outgoing> refusals_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,259 @@
+#include "rig_firmware/stream/publisher.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+#include <zmq.hpp>
+#include <zmq_addon.hpp>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/endpoint.h"
+#include "common/wire/limits.h"
+#include "common/wire/random_id.h"
+#include "common/wire/wake_event.h"
+#include "rig_firmware/stream/host_admission.h"
+
+namespace vantage {
+namespace {
+
+/// Credit bounds the frames on a connection; this only has to be above it with its heartbeats.
+constexpr int send_high_water_mark = 4 * static_cast<int>(max_credit_window);
+constexpr int receive_high_water_mark = 64;
+/// A host that talks without end does not keep frames from leaving.
+constexpr int messages_per_turn = 64;
+constexpr std::chrono::seconds handshake_limit{5};
+constexpr std::chrono::seconds dead_connection_limit{3};
+
+std::span<const std::byte> bytes_of(const zmq::message_t& part) {
+    return {part.data<std::byte>(), part.size()};
+}
+
+/// The key a message came under, as HostAdmission let it in; empty without keys.
+std::string host_key_of(zmq::message_t& part) {
+    const char* user = zmq_msg_gets(part.handle(), "User-Id");
+    return user ? user : "";
+}
+
+}  // namespace
+
+struct Publisher::Impl {
+    Impl(const RigConfig::Stream& config, std::string name)
+        : rig(std::move(name)),
+          encoder(config.jpeg_quality),
+          session(random_id()),
+          links(rig, session, static_cast<std::size_t>(std::max(config.queue_frames, 1))),
+          router(context, zmq::socket_type::router) {
+        bind(config);
+        io_thread = std::thread([this] { run(); });
+    }
+
+    ~Impl() {
+        stopping = true;
+        wake.notify();
+        io_thread.join();
+    }
+
+    void bind(const RigConfig::Stream& config) {
+        const Endpoint wanted = parse_endpoint(config.bind, "stream.bind");
+        if (config.key_file.empty() && !wanted.loopback)
+            fail(
+                "stream.bind = \"{}\" can be reached from other computers, which needs keys: set "
+                "stream.key_file and stream.authorized_hosts, or bind to 127.0.0.1",
+                config.bind);
+        if (config.key_file.empty() != config.authorized_hosts.empty())
+            fail("stream.key_file and stream.authorized_hosts are needed together; only {} is set",
+                 config.key_file.empty() ? "stream.authorized_hosts" : "stream.key_file");
+        router.set(zmq::sockopt::linger, 0);
+        router.set(zmq::sockopt::router_mandatory, true);
+        router.set(zmq::sockopt::sndhwm, send_high_water_mark);
+        router.set(zmq::sockopt::rcvhwm, receive_high_water_mark);
+        router.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
+        router.set(zmq::sockopt::handshake_ivl,
+                   static_cast<int>(std::chrono::milliseconds(handshake_limit).count()));
+        router.set(zmq::sockopt::heartbeat_ivl, static_cast<int>(liveness_limit.count()));
+        router.set(zmq::sockopt::heartbeat_timeout,
+                   static_cast<int>(std::chrono::milliseconds(dead_connection_limit).count()));
+        router.set(zmq::sockopt::ipv6, wanted.ipv6);
+        if (!config.key_file.empty()) {
+            const CurveKeys keys = load_key_file(config.key_file);
+            public_key = keys.public_key;
+            admission.emplace(context, config.authorized_hosts);
+            router.set(zmq::sockopt::zap_domain, "vantage");
+            router.set(zmq::sockopt::curve_server, true);
+            router.set(zmq::sockopt::curve_secretkey, keys.secret_key);
+        }
+        try {
+            router.bind(wanted.text());
+        } catch (const zmq::error_t& error) {
+            if (error.num() == EADDRINUSE)
+                fail(
+                    "port {} of {} is in use by another program; end it or choose another "
+                    "stream.bind",
+                    wanted.port, wanted.host);
+            fail("stream.bind = \"{}\" cannot be bound: {}", config.bind, error.what());
+        }
+        endpoint = router.get(zmq::sockopt::last_endpoint);
+    }
+
+    void run() {
+        try {
+            while (!stopping) turn();
+        } catch (const std::exception& error) {
+            log_error("publishing of rig {} came to an end: {}", rig, error.what());
+            const std::lock_guard lock(mutex);
+            failure = error.what();
+        }
+    }
+
+    void turn() {
+        const MonotonicTime now = MonotonicClock::now();
+        if (now >= next_heartbeat) {
+            next_heartbeat = now + heartbeat_period;
+            const std::lock_guard lock(mutex);
+            links.expire(now);
+            links.ring();
+        }
+        send_all();
+        std::vector<zmq::pollitem_t> items{{nullptr, wake.fd(), ZMQ_POLLIN, 0},
+                                           {router.handle(), 0, ZMQ_POLLIN, 0}};
+        if (admission) items.push_back({admission->socket().handle(), 0, ZMQ_POLLIN, 0});
+        const auto wait =
+            std::chrono::ceil<std::chrono::milliseconds>(next_heartbeat - MonotonicClock::now());
+        try {
+            zmq::poll(items, std::max(wait, std::chrono::milliseconds(0)));
+        } catch (const zmq::error_t& error) {
+            if (error.num() != EINTR) throw;
+        }
+        wake.clear();
+        if (admission) admission->answer();
+        for (int i = 0; i < messages_per_turn && receive(); ++i) {
+        }
+    }
+
+    bool receive() {
+        std::vector<zmq::message_t> parts;
+        if (!zmq::recv_multipart(router, std::back_inserter(parts), zmq::recv_flags::dontwait))
+            return false;
+        if (parts.empty()) return true;
+        const std::string route = parts.front().to_string();
+        const MonotonicTime now = MonotonicClock::now();
+        try {
+            if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
+            const HostMessage message = decode_host_message(bytes_of(parts[1]));
+            const std::lock_guard lock(mutex);
+            links.hear(route, host_key_of(parts[1]), message, now);
+        } catch (const Error& error) {
+            const std::lock_guard lock(mutex);
+            links.refuse(route, fmt::format("rig {}: {}", rig, error.what()));
+        }
+        return true;
+    }
+
+    void send_all() {
+        std::vector<HostLinks::Outgoing> all;
+        {
+            const std::lock_guard lock(mutex);
+            all = links.take();
+        }
+        std::vector<std::string> gone;
+        for (const HostLinks::Outgoing& outgoing : all) {
+            const bool was_gone = std::find(gone.begin(), gone.end(), outgoing.route) != gone.end();
+            if (!was_gone && send(outgoing)) continue;
+            gone.push_back(outgoing.route);
+            const std::lock_guard lock(mutex);
+            links.undelivered(outgoing);
+        }
+    }
+
+    bool send(const HostLinks::Outgoing& outgoing) {
+        const std::vector<std::byte> message = encode(outgoing.message);
+        std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(outgoing.route)),
+                                                      message};
+        if (outgoing.frame) {
+            parts.emplace_back(outgoing.frame->header);
+            parts.emplace_back(outgoing.frame->colour);
+            parts.emplace_back(outgoing.frame->disparity);
+        }
+        try {
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                const auto more =
+                    i + 1 < parts.size() ? zmq::send_flags::sndmore : zmq::send_flags::none;
+                if (!router.send(zmq::buffer(parts[i].data(), parts[i].size()),
+                                 more | zmq::send_flags::dontwait))
+                    return false;
+            }
+            return true;
+        } catch (const zmq::error_t& error) {
+            if (error.num() == EHOSTUNREACH) return false;
+            throw;
+        }
+    }
+
+    const std::string rig;
+    FrameEncoder encoder;
+    const std::uint64_t session;
+    std::string public_key;
+    std::string endpoint;
+
+    mutable std::mutex mutex;  ///< of links and failure; never held over a socket call
+    HostLinks links;
+    std::string failure;
+
+    zmq::context_t context;
+    std::optional<HostAdmission> admission;
+    zmq::socket_t router;
+    WakeEvent wake;
+    MonotonicTime next_heartbeat{};
+    std::atomic<bool> stopping = false;
+    std::thread io_thread;
+};
+
+Publisher::Publisher(const RigConfig::Stream& config, std::string rig_name)
+    : impl_(std::make_unique<Impl>(config, std::move(rig_name))) {}
+
+Publisher::~Publisher() = default;
+
+void Publisher::publish(RigFrame frame) {
+    frame.rig = impl_->rig;
+    frame.session = impl_->session;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        if (!impl_->failure.empty())
+            fail("publishing of rig {} came to an end: {}", impl_->rig, impl_->failure);
+        impl_->links.set_rig_counters(frame.counters);
+        frame.counters = impl_->links.rig_counters();
+        ++frame.counters.published;
+    }
+    auto packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->links.offer(std::move(packed));
+    }
+    impl_->wake.notify();
+}
+
+void Publisher::report(const RigCounters& counters) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->links.set_rig_counters(counters);
+}
+
+PublisherStatus Publisher::status() const {
+    const std::lock_guard lock(impl_->mutex);
+    return {impl_->links.rig_counters(), impl_->links.hosts()};
+}
+
+std::uint64_t Publisher::session() const { return impl_->session; }
+std::string Publisher::endpoint() const { return impl_->endpoint; }
+std::string Publisher::public_key() const { return impl_->public_key; }
+
+}  // namespace vantage

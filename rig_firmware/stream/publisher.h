@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config/rig_config.h"
+#include "common/wire/frame_message.h"
+#include "rig_firmware/stream/host_links.h"
+
+namespace vantage {
+
+struct PublisherStatus {
+    RigCounters counters;  ///< the daemon's last, with `published` and `send_dropped`
+    std::vector<HostLinks::HostStatus> hosts;
+};
+
+/// Offers a rig's frames to any number of hosts. Each is sent frames as fast as it takes them and
+/// no faster: a slow one loses its oldest waiting frames, which are counted, and holds up neither
+/// the rig nor another host. With keys, only authorized hosts get in and everything is encrypted;
+/// without, only programs on this computer can be served.
+class Publisher {
+  public:
+    /// Throws Error if the endpoint cannot be bound, a key or list cannot be read, or an endpoint
+    /// beyond loopback is asked for without keys.
+    Publisher(const RigConfig::Stream& config, std::string rig_name);
+    ~Publisher();
+
+    /// Packs on the calling thread and never waits for the network. `rig`, `session`, `published`,
+    /// pack_ms and two of the counters are filled in here. Throws Error naming the first value of
+    /// the frame that may not travel, or why publishing came to an end. One thread at a time.
+    void publish(RigFrame frame);
+
+    /// Tells hosts the daemon's counts (captured, missed, late) also while no frame is published.
+    /// Any thread.
+    void report(const RigCounters& counters);
+
+    PublisherStatus status() const;
+
+    /// Random per start.
+    std::uint64_t session() const;
+    /// With the port that was bound, where the configuration left it open.
+    std::string endpoint() const;
+    /// Z85; empty without keys.
+    std::string public_key() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage

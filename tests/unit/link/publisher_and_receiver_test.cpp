@@ -1,0 +1,352 @@
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <zmq.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/link_message.h"
+#include "host_app/receive/stage_receiver.h"
+#include "rig_firmware/stream/publisher.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/wire_frames.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+/// Far beyond what any of this takes; a test that waits so long has failed.
+constexpr auto patience = 60s;
+
+bool eventually(const std::function<bool()>& condition) {
+    const MonotonicTime end = MonotonicClock::now() + patience;
+    while (MonotonicClock::now() < end) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(2ms);
+    }
+    return false;
+}
+
+class LinkTest : public testing::Test {
+  protected:
+    RigConfig::Stream open_stream() const {
+        RigConfig::Stream stream;
+        stream.bind = "tcp://127.0.0.1:*";
+        stream.jpeg_quality = 0;
+        return stream;
+    }
+
+    RigConfig::Stream secured_stream(const std::vector<CurveKeys>& hosts) {
+        RigConfig::Stream stream = open_stream();
+        stream.key_file = folder_.path() / "rig.key";
+        stream.authorized_hosts = folder_.path() / "authorized_hosts";
+        if (!std::filesystem::exists(stream.key_file))
+            write_key_file(stream.key_file, generate_curve_keys());
+        authorize(hosts);
+        return stream;
+    }
+
+    void authorize(const std::vector<CurveKeys>& hosts) const {
+        std::ofstream list(folder_.path() / "authorized_hosts");
+        list << "# hosts of the test\n";
+        for (const CurveKeys& host : hosts) list << host.public_key << " a host\n";
+    }
+
+    std::filesystem::path key_file_of(const CurveKeys& keys) {
+        const std::filesystem::path path = folder_.path() / fmt::format("host-{}.key", next_key_++);
+        write_key_file(path, keys);
+        return path;
+    }
+
+    static StageConfig stage_of(const Publisher& rig, const std::filesystem::path& host_key = {}) {
+        StageConfig stage;
+        stage.rigs.push_back({"rig-a", rig.endpoint(), rig.public_key()});
+        stage.key_file = host_key;
+        stage.latency_budget_ms = 50;
+        return stage;
+    }
+
+    static bool connected(const StageReceiver& host, std::size_t rig = 0) {
+        return host.status().rigs.at(rig).connected;
+    }
+
+    TemporaryFolder folder_;
+    int next_key_ = 0;
+};
+
+TEST_F(LinkTest, FramesCrossTheSecuredLinkBitExact) {
+    const CurveKeys host_keys = generate_curve_keys();
+    Publisher rig(secured_stream({host_keys}), "rig-a");
+    StageReceiver host(stage_of(rig, key_file_of(host_keys)));
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+
+    constexpr std::uint64_t frames = 20;
+    for (std::uint64_t k = 1000; k < 1000 + frames; ++k) {
+        const RigFrame sent = make_frame(k);
+        rig.publish(sent);
+        const std::optional<FrameSet> set = host.next(patience);
+        ASSERT_TRUE(set);
+        ASSERT_EQ(set->present(), 1);
+        const RigFrame& got = *set->slots[0].frame;
+        EXPECT_EQ(got.trigger_index, k);
+        EXPECT_EQ(got.session, rig.session());
+        EXPECT_TRUE(same_pixels(got.colour, sent.colour));
+        EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
+        EXPECT_TRUE(got.world_from_camera.isApprox(sent.world_from_camera, 0));
+    }
+    const RigStatus status = host.status().rigs.at(0);
+    EXPECT_EQ(status.received, frames);
+    EXPECT_EQ(status.in_sets, frames);
+    EXPECT_EQ(status.lost, 0u);
+    EXPECT_EQ(status.undecodable, 0u);
+}
+
+TEST_F(LinkTest, AnUnknownHostIsToldWhatToDoAndIsLetInOnceItIsListed) {
+    const CurveKeys host_keys = generate_curve_keys();
+    Publisher rig(secured_stream({}), "rig-a");
+    StageReceiver host(stage_of(rig, key_file_of(host_keys)));
+    ASSERT_TRUE(eventually([&] { return !host.status().rigs[0].refused.empty(); }));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr(host_keys.public_key));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr("authorized_hosts"));
+    EXPECT_FALSE(connected(host));
+    EXPECT_TRUE(rig.status().hosts.empty());
+
+    authorize({host_keys});
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    EXPECT_EQ(host.status().rigs[0].refused, "");
+}
+
+TEST_F(LinkTest, AWrongRigKeyIsRefusedWithASentence) {
+    const CurveKeys host_keys = generate_curve_keys();
+    Publisher rig(secured_stream({host_keys}), "rig-a");
+    StageConfig stage = stage_of(rig, key_file_of(host_keys));
+    stage.rigs[0].public_key = generate_curve_keys().public_key;
+    StageReceiver host(stage);
+    ASSERT_TRUE(eventually([&] { return !host.status().rigs[0].refused.empty(); }));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr("public_key"));
+}
+
+TEST_F(LinkTest, AHostWithoutKeysIsRefusedByARigWithKeys) {
+    Publisher rig(secured_stream({}), "rig-a");
+    StageConfig stage = stage_of(rig);
+    stage.rigs[0].public_key.clear();
+    StageReceiver host(stage);
+    ASSERT_TRUE(eventually([&] { return !host.status().rigs[0].refused.empty(); }));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr("public_key"));
+}
+
+TEST_F(LinkTest, ARigOfAnotherNameIsRefused) {
+    Publisher rig(open_stream(), "rig-b");
+    StageReceiver host(stage_of(rig));
+    ASSERT_TRUE(eventually([&] { return !host.status().rigs[0].refused.empty(); }));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr("rig-b"));
+}
+
+TEST_F(LinkTest, ARestartedRigIsFollowed) {
+    RigConfig::Stream stream = open_stream();
+    auto rig = std::make_unique<Publisher>(stream, "rig-a");
+    stream.bind = rig->endpoint();
+    StageReceiver host(stage_of(*rig));
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    rig->publish(make_frame(5000));
+    ASSERT_TRUE(host.next(patience));
+    const std::uint64_t first_session = rig->session();
+
+    rig.reset();
+    ASSERT_TRUE(eventually([&] { return !connected(host); }));
+    rig = std::make_unique<Publisher>(stream, "rig-a");
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    rig->publish(make_frame(7));
+    const std::optional<FrameSet> set = host.next(patience);
+    ASSERT_TRUE(set);
+    EXPECT_EQ(set->trigger_index, 7u);
+    EXPECT_NE(set->slots[0].frame->session, first_session);
+    EXPECT_EQ(host.status().rigs[0].in_sets, 2u);
+}
+
+TEST_F(LinkTest, TwoRigsMeetByTriggerIndex) {
+    Publisher a(open_stream(), "rig-a");
+    Publisher b(open_stream(), "rig-b");
+    StageConfig stage = stage_of(a);
+    stage.rigs.push_back({"rig-b", b.endpoint(), ""});
+    stage.latency_budget_ms = 30000;
+    StageReceiver host(stage);
+    ASSERT_TRUE(eventually([&] { return connected(host, 0) && connected(host, 1); }));
+    // The first frame of a rig puts it in play; nobody waits for it before.
+    a.publish(make_frame(1));
+    ASSERT_TRUE(host.next(patience));
+    b.publish(make_frame(1));
+    ASSERT_TRUE(eventually([&] { return host.status().rigs[1].late == 1; }));
+    for (std::uint64_t k = 2; k < 6; ++k) {
+        a.publish(make_frame(k));
+        b.publish(make_frame(k));
+        const std::optional<FrameSet> set = host.next(patience);
+        ASSERT_TRUE(set);
+        EXPECT_EQ(set->trigger_index, k);
+        EXPECT_EQ(set->present(), 2);
+    }
+    EXPECT_EQ(host.status().complete_sets, 4u);
+}
+
+TEST_F(LinkTest, ARigThinsItsStreamAsAsked) {
+    Publisher rig(open_stream(), "rig-a");
+    StageReceiver host(stage_of(rig));
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    host.ask("rig-a", true, 3);
+    // The wish is in force once a frame that it leaves out is counted so.
+    std::uint64_t k = 1;
+    ASSERT_TRUE(eventually([&] {
+        rig.publish(make_frame(k));
+        k += 3;
+        return rig.status().hosts.at(0).counters.thinned > 0;
+    }));
+    while (host.next(100ms)) {
+    }
+    rig.publish(make_frame(3 * k));
+    const std::optional<FrameSet> set = host.next(patience);
+    ASSERT_TRUE(set);
+    EXPECT_EQ(set->trigger_index, 3 * k);
+    EXPECT_THROW(host.ask("rig-z", true, 1), Error);
+    EXPECT_THROW(host.ask("rig-a", true, 0), Error);
+}
+
+/// A host of which the test moves every word.
+class ScriptedHost {
+  public:
+    explicit ScriptedHost(const std::string& endpoint)
+        : socket_(context_, zmq::socket_type::dealer) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::rcvtimeo,
+                    static_cast<int>(std::chrono::milliseconds(patience).count()));
+        socket_.connect(endpoint);
+    }
+
+    void say(const HostMessage& message) { say_bytes(encode(message)); }
+    void say_bytes(const std::vector<std::byte>& bytes) {
+        socket_.send(zmq::buffer(bytes), zmq::send_flags::none);
+    }
+
+    /// The next message; the number of its parts goes to `parts`.
+    RigMessage hear(std::size_t& parts) {
+        zmq::message_t first;
+        if (!socket_.recv(first)) throw Error("nothing came");
+        zmq::message_t part;
+        bool more = first.more();
+        for (parts = 1; more; ++parts) {
+            if (!socket_.recv(part)) throw Error("a part is missing");
+            more = part.more();
+        }
+        return decode_rig_message({first.data<std::byte>(), first.size()});
+    }
+
+  private:
+    zmq::context_t context_;
+    zmq::socket_t socket_;
+};
+
+TEST_F(LinkTest, AStalledHostMakesTheRigDropTheOldestAndCountThem) {
+    RigConfig::Stream stream = open_stream();
+    stream.queue_frames = 4;
+    Publisher rig(stream, "rig-a");
+    ScriptedHost host(rig.endpoint());
+    std::size_t parts = 0;
+    HostMessage wish;
+    wish.host_id = 9;
+    wish.credit_window = 3;
+    host.say(wish);
+    const RigMessage welcome = host.hear(parts);
+    EXPECT_EQ(parts, 1u);
+    EXPECT_EQ(welcome.counters.sent, 0u);
+    wish.link = welcome.link;
+    host.say(wish);
+
+    // Nothing is granted from here on: three are sent, four wait, the rest is dropped.
+    rig.publish(make_frame(0));
+    ASSERT_TRUE(eventually([&] {
+        host.say(wish);
+        return rig.status().hosts.at(0).counters.sent == 1;
+    }));
+    for (std::uint64_t k = 1; k < 3; ++k) rig.publish(make_frame(k));
+    ASSERT_TRUE(eventually([&] {
+        host.say(wish);
+        return rig.status().hosts.at(0).counters.sent == 3;
+    }));
+    for (std::uint64_t k = 3; k < 20; ++k) rig.publish(make_frame(k));
+    const HostLinks::HostStatus stalled = rig.status().hosts.at(0);
+    EXPECT_EQ(stalled.counters.offered, 20u);
+    EXPECT_EQ(stalled.counters.sent, 3u);
+    EXPECT_EQ(stalled.queued, 4u);
+    EXPECT_EQ(stalled.counters.send_dropped, 13u);
+    EXPECT_EQ(rig.status().counters.send_dropped, 13u);
+
+    wish.handled = 3;
+    wish.credit_window = 16;
+    host.say(wish);
+    ASSERT_TRUE(eventually([&] {
+        host.say(wish);
+        return rig.status().hosts.at(0).queued == 0;
+    }));
+    std::uint64_t deliveries = 0;
+    while (deliveries < 7) {
+        const RigMessage message = host.hear(parts);
+        if (parts == 1) continue;
+        ++deliveries;
+        EXPECT_EQ(parts, 4u);
+        EXPECT_EQ(message.counters.sent, deliveries);
+    }
+}
+
+TEST_F(LinkTest, GarbageToTheRigIsAnsweredWithASentence) {
+    Publisher rig(open_stream(), "rig-a");
+    ScriptedHost host(rig.endpoint());
+    host.say_bytes({std::byte{0xff}, std::byte{0x07}});
+    std::size_t parts = 0;
+    EXPECT_THAT(host.hear(parts).refusal, HasSubstr("truncated or damaged"));
+    EXPECT_TRUE(rig.status().hosts.empty());
+}
+
+TEST_F(LinkTest, WithoutKeysNothingBeyondThisComputerIsServedOrReached) {
+    RigConfig::Stream stream;
+    stream.bind = "tcp://0.0.0.0:5600";
+    try {
+        const Publisher rig(stream, "rig-a");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("stream.key_file"));
+    }
+    StageConfig stage;
+    stage.rigs.push_back({"rig-a", "tcp://192.0.2.7:5600", ""});
+    try {
+        const StageReceiver host(stage);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("public_key"));
+    }
+}
+
+TEST_F(LinkTest, APortInUseIsNamed) {
+    const Publisher first(open_stream(), "rig-a");
+    RigConfig::Stream stream = open_stream();
+    stream.bind = first.endpoint();
+    try {
+        const Publisher second(stream, "rig-b");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("in use"));
+        EXPECT_THAT(error.what(), HasSubstr(stream.bind.substr(stream.bind.rfind(':') + 1)));
+    }
+}
+
+}  // namespace
+}  // namespace vantage
