@@ -4,8 +4,17 @@
 
 namespace vantage {
 
+void MatchSettings::validate() const {
+    if (disparities < 1 || disparities > max_disparities)
+        fail("{} disparities asked for; a search has 1 to {}", disparities, max_disparities);
+    if (width_px < 1 || height_px < 1 || width_px > max_side_px || height_px > max_side_px)
+        fail("pictures of {}x{} cannot be matched: each side must be 1 to {} pixels", width_px,
+             height_px, max_side_px);
+}
+
 std::unique_ptr<Matcher> make_matcher(const std::string& name, const ShaderLibrary& library,
                                       const MatchSettings& settings) {
+    settings.validate();
     std::string known;
     for (const MatcherEntry& entry : matcher_entries()) {
         if (entry.name == name) return entry.make(library, settings);

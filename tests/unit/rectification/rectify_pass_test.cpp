@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "common/base/error.h"
 #include "common/gl/egl_context.h"
 #include "common/rectification/rectify_reference.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -169,15 +169,10 @@ TEST(RectifyPassLimits, RefusesAPictureOfAnotherSizeAndNamesBoth) {
     RectifyPass pass(library, calibration_of({"none", LensModel::pinhole, {}}, 61, 47, 0),
                      Side::right);
     const Texture raw(TextureFormat::rgba8, 60, 47);
-    try {
-        pass.rectify(raw);
-        FAIL() << "a picture of the wrong size was taken";
-    } catch (const Error& error) {
-        const std::string sentence = error.what();
-        EXPECT_NE(sentence.find("61x47"), std::string::npos) << sentence;
-        EXPECT_NE(sentence.find("60x47"), std::string::npos) << sentence;
-        EXPECT_NE(sentence.find("right"), std::string::npos) << sentence;
-    }
+    const std::string sentence = thrown_sentence([&] { pass.rectify(raw); });
+    EXPECT_NE(sentence.find("61x47"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("60x47"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("right"), std::string::npos) << sentence;
 }
 
 TEST(RectifyPassLimits, HandsARectifiedPictureThrough) {
