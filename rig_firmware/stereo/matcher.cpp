@@ -30,6 +30,6 @@ MatchPreset parse_preset(const std::string& name) {
     fail("there is no preset named '{}'; the ones there are: fast, balanced, quality", name);
 }
 
-std::string default_matcher(MatchPreset) { return "gradient"; }
+std::string default_matcher(MatchPreset) { return "perm"; }
 
 }  // namespace vantage

@@ -1,0 +1,42 @@
+#include "rig_firmware/stereo/passes/left_right_pass.h"
+
+namespace vantage {
+
+LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout)
+    : layout_(layout),
+      clear_(Program::compute(library, "stereo_clear.comp")),
+      splat_(Program::compute(library, "left_right_splat.comp")),
+      resolve_(Program::compute(library, "left_right_resolve.comp")),
+      claims_(layout.pixels() * 4, GL_DYNAMIC_COPY),
+      disparity_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
+
+void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer& weight) {
+    const std::size_t pixels = layout_.pixels();
+    const Eigen::Vector2i size(layout_.width_px, layout_.height_px);
+    profiler.run("left-right check", {pixels * 56, static_cast<double>(pixels) * 30}, [&] {
+        clear_.use();
+        const int vectors = static_cast<int>(pixels / 4);
+        clear_.set("count", vectors);
+        claims_.bind_storage(0);
+        clear_.dispatch_over(vectors, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        splat_.use();
+        splat_.set("size", size);
+        splat_.set("stride", layout_.stride_px());
+        winners.bind_storage(0);
+        weight.bind_storage(1);
+        claims_.bind_storage(2);
+        splat_.dispatch_over(layout_.width_px, layout_.height_px);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        resolve_.use();
+        resolve_.set("size", size);
+        resolve_.set("stride", layout_.stride_px());
+        winners.bind_storage(0);
+        claims_.bind_storage(1);
+        disparity_.bind_storage(2);
+        resolve_.dispatch_over(layout_.width_px, layout_.height_px);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    });
+}
+
+}  // namespace vantage

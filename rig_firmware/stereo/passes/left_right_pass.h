@@ -1,0 +1,31 @@
+#pragma once
+
+#include "common/gl/buffer.h"
+#include "common/gl/program.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/passes/left_right_reference.h"
+#include "rig_firmware/stereo/passes/stereo_layout.h"
+
+namespace vantage {
+
+/// Left-right consistency, sub-pixel position and confidence. The right picture's disparity is what
+/// the best of the left pixels that claim a right pixel says; a left pixel whose claim lost by more
+/// than one pixel of disparity is occluded or mismatched.
+class LeftRightPass {
+  public:
+    LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout);
+
+    /// winners and weight in PermPass's form.
+    void run(PassProfiler& profiler, const Buffer& winners, const Buffer& weight);
+
+    /// uint a pixel: disparity in 1/32 px (0 = unknown) | confidence << 16.
+    const Buffer& disparity() const { return disparity_; }
+    std::size_t gpu_bytes() const { return claims_.bytes() + disparity_.bytes(); }
+
+  private:
+    StereoLayout layout_;
+    Program clear_, splat_, resolve_;
+    Buffer claims_, disparity_;
+};
+
+}  // namespace vantage

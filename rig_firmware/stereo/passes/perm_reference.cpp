@@ -1,0 +1,83 @@
+#include "rig_firmware/stereo/passes/perm_reference.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+/// The sum of a line's costs from both sides, each step damped by its permeability; costs[0] is the
+/// first of `count` values `step` apart.
+void permeate_line(int* costs, std::size_t step, int count, const std::vector<int>& mu, int shift) {
+    std::vector<int> forward(static_cast<std::size_t>(count));
+    int sum = 0;
+    for (std::size_t i = 0; i < forward.size(); ++i) {
+        sum = costs[i * step] + ((sum * mu[i]) >> 4);
+        forward[i] = sum;
+    }
+    int back = 0;
+    for (std::size_t i = forward.size(); i-- > 0;) {
+        back = i + 1 < forward.size() ? (back * mu[i + 1]) >> 4 : 0;
+        const int cost = costs[i * step];
+        costs[i * step] = (forward[i] + back) >> shift;
+        back += cost;
+    }
+}
+
+void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability) {
+    std::vector<int> mu;
+    for (int y = 0; y < costs.rows; ++y) {
+        mu.clear();
+        for (int x = 0; x < costs.cols; ++x) mu.push_back(permeability(y, x) & 15);
+        permeate_line(costs[y], 1, costs.cols, mu, 3);
+    }
+    for (int x = 0; x < costs.cols; ++x) {
+        mu.clear();
+        for (int y = 0; y < costs.rows; ++y) mu.push_back(permeability(y, x) >> 4);
+        permeate_line(&costs(0, x), static_cast<std::size_t>(costs.cols), costs.rows, mu, 0);
+    }
+}
+
+}  // namespace
+
+int feature_cost(int left, int right) {
+    const auto l = static_cast<std::uint32_t>(left), r = static_cast<std::uint32_t>(right);
+    const int census = std::popcount((l ^ r) & 0x07ffffffU);
+    const int gradient = std::abs(static_cast<int>(l >> 27) - static_cast<int>(r >> 27));
+    return std::min(census, 16) + std::min(2 * gradient, 10);
+}
+
+Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                     const cv::Mat1b& permeability, int disparities) {
+    const cv::Size size = left_features.size();
+    Winners winners{cv::Mat1i(size, 0), cv::Mat1i(size, 0xffff), cv::Mat1i(size, 0xffff),
+                    cv::Mat1i(size, 0xffff), cv::Mat1i(size, 16)};
+    permeate_picture(winners.weight, permeability);
+    cv::Mat1i last(size, 0xffff);
+    for (int d = 0; d < disparities; ++d) {
+        cv::Mat1i costs(size);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x)
+                costs(y, x) = feature_cost(left_features(y, x),
+                                           x >= d ? right_features(y, x - d) : outside_feature);
+        permeate_picture(costs, permeability);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) {
+                const int cost = costs(y, x);
+                if (d > 0 && winners.disparity(y, x) == d - 1) winners.cost_after(y, x) = cost;
+                if (cost < winners.cost(y, x)) {
+                    winners.cost(y, x) = cost;
+                    winners.disparity(y, x) = d;
+                    winners.cost_before(y, x) = last(y, x);
+                    winners.cost_after(y, x) = 0xffff;
+                }
+                last(y, x) = cost;
+            }
+    }
+    return winners;
+}
+
+}  // namespace vantage

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace vantage {
+
+/// The best disparity of every pixel and the aggregated costs around it; 0xffff: there is none.
+struct Winners {
+    cv::Mat1i disparity, cost, cost_before, cost_after;
+    cv::Mat1i weight;  ///< what the sum of a cost of 16 everywhere would be
+};
+
+/// CPU form of PermPass, bit for bit.
+Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                     const cv::Mat1b& permeability, int disparities);
+
+/// Truncated census distance plus truncated gradient difference of two feature words, 0..26.
+int feature_cost(int left, int right);
+
+/// The feature that stands for what lies outside the right picture.
+inline constexpr int outside_feature = static_cast<int>(0x82aaaaaaU);
+
+}  // namespace vantage

@@ -1,0 +1,20 @@
+// Every right pixel keeps the best of the left pixels that claim it: cost (normalised) << 16 | disparity.
+#include "stereo_common.glsl"
+
+layout(local_size_x = LANES) in;
+layout(std430, binding = 0) readonly buffer Winners { uvec4 winners[]; };
+layout(std430, binding = 1) readonly buffer Weight { uint weight[]; };
+layout(std430, binding = 2) buffer Claims { uint claims[]; };
+uniform ivec2 size;
+uniform int stride;
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= size.x || at.y >= size.y) return;
+    int here = at.y * stride + at.x;
+    uint winner = winners[here].x;
+    int d = int(winner & 0xffffu);
+    if (d > at.x) return;
+    uint cost = min(((winner >> 16) << 12) / max(weight[here], 1u), 0xffffu);
+    atomicMin(claims[here - d], (cost << 16) | uint(d));
+}

@@ -1,0 +1,201 @@
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/gl/egl_context.h"
+#include "common/image/image_file.h"
+#include "rig_firmware/stereo/passes/feature_pass.h"
+#include "rig_firmware/stereo/passes/fill_pass.h"
+#include "rig_firmware/stereo/passes/fill_reference.h"
+#include "rig_firmware/stereo/passes/left_right_pass.h"
+#include "rig_firmware/stereo/passes/left_right_reference.h"
+#include "rig_firmware/stereo/passes/perm_pass.h"
+#include "rig_firmware/stereo/passes/perm_reference.h"
+#include "rig_firmware/stereo/passes/result_pass.h"
+
+namespace vantage {
+namespace {
+
+/// Every component of a buffer of `channels` words a pixel, without the row padding.
+cv::Mat1i channel_of(const Buffer& buffer, const StereoLayout& layout, int channels, int channel) {
+    std::vector<int> words(buffer.bytes() / 4);
+    buffer.read(0, std::as_writable_bytes(std::span(words)));
+    cv::Mat1i image(layout.height_px, layout.width_px);
+    for (int y = 0; y < image.rows; ++y)
+        for (int x = 0; x < image.cols; ++x)
+            image(y, x) =
+                words[static_cast<std::size_t>((y * layout.stride_px() + x) * channels + channel)];
+    return image;
+}
+
+void expect_equal(const cv::Mat1i& a, const cv::Mat1i& b, const char* what) {
+    ASSERT_EQ(a.size(), b.size());
+    for (int y = 0; y < a.rows; ++y)
+        for (int x = 0; x < a.cols; ++x)
+            ASSERT_EQ(a(y, x), b(y, x)) << what << " at " << x << ", " << y;
+}
+
+cv::Mat1i upper_half(const cv::Mat1i& words) {
+    cv::Mat1i result(words.size());
+    for (int i = 0; i < words.rows * words.cols; ++i)
+        result(i) = static_cast<int>(static_cast<unsigned>(words(i)) >> 16);
+    return result;
+}
+
+cv::Mat1i lower_half(const cv::Mat1i& words) {
+    cv::Mat1i result(words.size());
+    for (int i = 0; i < words.rows * words.cols; ++i) result(i) = words(i) & 0xffff;
+    return result;
+}
+
+cv::Mat1i as_int(const cv::Mat& image) {
+    cv::Mat1i result;
+    image.convertTo(result, CV_32S);
+    return result;
+}
+
+struct Pair {
+    ColourImage left, right;
+};
+
+/// Smooth noise seen at a disparity that steps from 3 to 9 px, with sensor noise.
+Pair textured_pair(int width, int height) {
+    cv::RNG random(5);
+    cv::Mat3b wide(height, width + 16);
+    random.fill(wide, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(wide, wide, {5, 5}, 1.2);
+    Pair pair{ColourImage(height, width), ColourImage(height, width)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto pixel = [&](int at) {
+                const cv::Vec3b& c = wide(y, std::clamp(at, 0, wide.cols - 1));
+                const int noise = random.uniform(-3, 4);
+                return cv::Vec4b(cv::saturate_cast<unsigned char>(c[0] + noise), c[1], c[2], 255);
+            };
+            pair.left(y, x) = pixel(x);
+            pair.right(y, x) = pixel(x + (y > height / 2 ? 9 : 3));
+        }
+    return pair;
+}
+
+struct Case {
+    int width, height, disparities;
+};
+
+class EnginePassesTest : public testing::TestWithParam<Case> {
+  protected:
+    EglContext context_;
+    ShaderLibrary library_;
+    PassProfiler profiler_;
+    StereoLayout layout_{GetParam().width, GetParam().height};
+    Pair pair_ = textured_pair(GetParam().width, GetParam().height);
+    GreyImage left_luma_ = to_grey(pair_.left), right_luma_ = to_grey(pair_.right);
+};
+
+TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    constexpr double sigma = 20;
+    FeaturePass features(library_, layout_, sigma);
+    features.run(profiler_, left, right);
+    const cv::Mat1i left_words = feature_words(left_luma_),
+                    right_words = feature_words(right_luma_);
+    expect_equal(channel_of(features.left_features(), layout_, 1, 0), left_words, "left feature");
+    expect_equal(channel_of(features.right_features(), layout_, 1, 0), right_words,
+                 "right feature");
+    const cv::Mat1b permeability = permeability_of(guide_of(left_luma_), permeability_table(sigma));
+    expect_equal(channel_of(features.permeability(), layout_, 1, 0), as_int(permeability),
+                 "permeability");
+
+    PermPass perm(library_, layout_, GetParam().disparities);
+    perm.run(profiler_, features);
+    const Winners winners =
+        perm_winners(left_words, right_words, permeability, GetParam().disparities);
+    expect_equal(channel_of(perm.weight(), layout_, 1, 0), winners.weight, "weight");
+    const cv::Mat1i best = channel_of(perm.winners(), layout_, 4, 0),
+                    beside = channel_of(perm.winners(), layout_, 4, 1);
+    expect_equal(lower_half(best), winners.disparity, "disparity");
+    expect_equal(upper_half(best), winners.cost, "cost");
+    expect_equal(upper_half(beside), winners.cost_before, "cost before");
+    expect_equal(lower_half(beside), winners.cost_after, "cost after");
+
+    LeftRightPass check(library_, layout_);
+    check.run(profiler_, perm.winners(), perm.weight());
+    const CheckedDisparity checked = left_right_checked(winners);
+    const cv::Mat1i words = channel_of(check.disparity(), layout_, 1, 0);
+    expect_equal(lower_half(words), as_int(checked.disparity), "checked disparity");
+    expect_equal(upper_half(words), as_int(checked.confidence), "confidence");
+
+    FillPass fill(library_, layout_);
+    fill.run(profiler_, check.disparity());
+    const DisparityImage filled = filled_from_background(checked.disparity);
+    expect_equal(lower_half(channel_of(fill.filled(), layout_, 1, 0)), as_int(filled), "filled");
+
+    ResultPass result(library_, layout_);
+    expect_equal(as_int(result.run(profiler_, fill.filled()).download()),
+                 as_int(median_of_known(filled)), "dense result");
+    expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
+                 as_int(median_of_known(checked.disparity)), "result with unknowns");
+}
+
+TEST_P(EnginePassesTest, HalveAsTheCpuDoes) {
+    Texture picture(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    picture.upload(pair_.left);
+    FeaturePass fine(library_, layout_, 20);
+    fine.run(profiler_, picture, picture);
+    const StereoLayout half{(layout_.width_px + 1) / 2, (layout_.height_px + 1) / 2};
+    FeaturePass coarse(library_, half, 20);
+    coarse.run_halved(profiler_, fine);
+    expect_equal(channel_of(coarse.left_features(), half, 1, 0), feature_words(halved(left_luma_)),
+                 "half-size feature");
+}
+
+INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
+                         testing::Values(Case{61, 47, 13}, Case{16, 16, 16}, Case{131, 38, 37},
+                                         Case{311, 239, 21}));
+
+TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
+    const EglContext context;
+    const ShaderLibrary library;
+    const StereoLayout layout{53, 21};
+    cv::RNG random(3);
+    std::vector<std::uint32_t> left(layout.pixels()), right(layout.pixels()), mu(layout.pixels());
+    for (std::size_t i = 0; i < layout.pixels(); ++i) {
+        left[i] = random.next();
+        right[i] = random.next();
+        mu[i] = random.next() & 255U;
+        if (i % static_cast<std::size_t>(layout.stride_px()) == 0) mu[i] = 0;
+    }
+    const auto left_buffer = Buffer::of<std::uint32_t>(left),
+               right_buffer = Buffer::of<std::uint32_t>(right),
+               mu_buffer = Buffer::of<std::uint32_t>(mu);
+    std::vector<std::vector<std::uint32_t>> slabs;
+    for (const int lanes : {0, 1}) {
+        const Buffer volume(layout.pixels() * 32, GL_DYNAMIC_COPY);
+        Program program =
+            Program::compute(library, "perm_rows.comp", {{"LANE_MAPPING", std::to_string(lanes)}});
+        program.use();
+        program.set("size", Eigen::Vector2i(layout.width_px, layout.height_px));
+        program.set("stride", layout.stride_px());
+        program.set("first_disparity", 16);
+        left_buffer.bind_storage(0);
+        right_buffer.bind_storage(1);
+        mu_buffer.bind_storage(2);
+        volume.bind_storage(3);
+        program.dispatch_over(lanes == 1 ? 2 * layout.height_px : layout.height_px, 1);
+        glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        std::vector<std::uint32_t>& slab = slabs.emplace_back(volume.bytes() / 4);
+        volume.read(0, std::as_writable_bytes(std::span(slab)));
+    }
+    for (int y = 0; y < layout.height_px; ++y)
+        for (int i = 0; i < layout.width_px * 8; ++i) {
+            const auto at = static_cast<std::size_t>(y * layout.stride_px() * 8 + i);
+            ASSERT_EQ(slabs[0][at], slabs[1][at]) << "word " << i << " of row " << y;
+        }
+}
+
+}  // namespace
+}  // namespace vantage
