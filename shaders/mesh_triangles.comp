@@ -6,13 +6,13 @@
 
 layout(local_size_x = 32, local_size_y = 4) in;
 
-uniform sampler2D depth_map;  // metres, 0 = unknown
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
 uniform float tolerance;      // of a bend of inverse depth, as a share of the inverse depth
 
 layout(std430, binding = 0) writeonly buffer Triangles { uint indices[]; };
 
 float inverse_depth(ivec2 at, ivec2 size) {
-    float z = texelFetch(depth_map, clamp(at, ivec2(0), size - 1), 0).r;
+    float z = abs(texelFetch(depth_map, clamp(at, ivec2(0), size - 1), 0).r);
     return z > 0.0 ? 1.0 / z : 0.0;
 }
 

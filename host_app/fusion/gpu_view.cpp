@@ -32,6 +32,11 @@ void GpuView::upload(const DepthView& view) {
     take_samples(view.depth_m);
 }
 
+const Framebuffer& GpuView::surface_target() {
+    surface_.resize(depth_->size());
+    return surface_.target();
+}
+
 Eigen::Matrix3d GpuView::K_depth() const {
     return scaled_intrinsics(camera_.K,
                              static_cast<double>(depth_->width_px()) / colour_->width_px(),

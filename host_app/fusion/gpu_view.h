@@ -8,6 +8,7 @@
 #include "common/gl/buffer.h"
 #include "common/gl/texture.h"
 #include "host_app/fusion/depth_view.h"
+#include "host_app/fusion/drawn_texture.h"
 
 namespace vantage {
 
@@ -21,6 +22,10 @@ class GpuView {
     const DepthView& camera() const { return camera_; }
     const Texture& colour() const { return *colour_; }  ///< rgba8, trilinear
     const Texture& depth() const { return *depth_; }    ///< r32f, metres, 0 = unknown
+    /// The depth that is drawn: depth(), or what was drawn into surface_target() since.
+    const Texture& surface() const { return surface_.empty() ? *depth_ : surface_.texture(); }
+    /// To draw mended depth into: r32f, of depth()'s size, negative = guessed.
+    const Framebuffer& surface_target();
     /// Index buffer of the depth map's triangles: two a quad of four neighbouring pixels.
     const Buffer& triangles() const { return *triangles_; }
     Eigen::Matrix3d K_depth() const;
@@ -35,6 +40,7 @@ class GpuView {
 
     DepthView camera_;
     std::optional<Texture> colour_, depth_;
+    DrawnTexture surface_{TextureFormat::r32f};
     std::optional<Buffer> triangles_;
     std::vector<Eigen::Vector3d> sample_points_m_;
     double median_depth_m_ = 0;

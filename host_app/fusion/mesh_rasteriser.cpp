@@ -24,7 +24,7 @@ void MeshRasteriser::build_triangles(const GpuView& view) {
     build_.use();
     build_.set("depth_map", 0);
     build_.set("tolerance", static_cast<float>(std::max(steepest_slope / f_px, smallest_step)));
-    view.depth().bind(0);
+    view.surface().bind(0);
     view.triangles().bind_storage(0);
     build_.dispatch_over(view.depth().width_px() - 1, view.depth().height_px() - 1);
     glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
@@ -50,7 +50,7 @@ void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, 
         Eigen::Matrix4f((clip_from_target(target, near_m) *
                          target_from_pixel(target, view.camera().world_from_camera, view.K_depth()))
                             .cast<float>()));
-    view.depth().bind(0);
+    view.surface().bind(0);
     vertices_.bind();
     view.triangles().bind(GL_ELEMENT_ARRAY_BUFFER);
     glDrawElements(GL_TRIANGLES, view.triangle_indices(), GL_UNSIGNED_INT, nullptr);

@@ -45,7 +45,7 @@ struct SynthesiserEntry {
 std::vector<SynthesiserEntry> synthesiser_entries();
 
 /// The name of the one to use where nobody asks for another.
-inline constexpr const char* default_synthesiser = "mesh";
+inline constexpr const char* default_synthesiser = "fused";
 
 /// Throws Error that lists the known names if `name` is none of them.
 std::unique_ptr<Synthesiser> make_synthesiser(const std::string& name,

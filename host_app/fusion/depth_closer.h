@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "common/gl/fullscreen_pass.h"
+#include "host_app/fusion/drawn_texture.h"
+
+namespace vantage {
+
+/// Guesses the depth of a rig's pixels that have none, so that their colour can be shown where no
+/// rig knows better: pull and push on inverse depth, from the farther side, for what a stereo rig
+/// cannot match is mostly background that one of its two cameras does not see.
+class DepthCloser {
+  public:
+    explicit DepthCloser(const ShaderLibrary& library);
+
+    /// `depth_m`: r32f, 0 = unknown. Gives r32f of the same size: what was known, and the guesses
+    /// with a negative sign. Valid until the next call.
+    const Texture& close(const Texture& depth_m);
+
+  private:
+    /// The first level is of the map's size, every next one of half the last one's.
+    struct Level {
+        DrawnTexture pulled{TextureFormat::r32f}, pushed{TextureFormat::r32f};
+    };
+    using Pyramid = std::vector<Level>;
+    Pyramid& pyramid(cv::Size size);
+
+    FullscreenPass pull_, push_;
+    std::map<std::pair<int, int>, Pyramid> pyramids_;  ///< by size; rigs of one size share theirs
+};
+
+}  // namespace vantage

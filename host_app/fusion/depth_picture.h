@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "common/gl/framebuffer.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// A picture of the virtual view with its depth, to draw into: rgba8 colour (alpha 0 = nothing
+/// there) and r32f depth in metres.
+class DepthPicture {
+  public:
+    /// Keeps what there is if the size stays.
+    void resize(cv::Size size) {
+        if (colour_ && colour_->size() == size) return;
+        target_.reset();
+        colour_.emplace(TextureFormat::rgba8, size.width, size.height, Filter::linear);
+        depth_m_.emplace(TextureFormat::r32f, size.width, size.height);
+        target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_});
+    }
+
+    void clear() const {
+        target_->bind();
+        const float nothing[4] = {0, 0, 0, 0};
+        glClearBufferfv(GL_COLOR, 0, nothing);
+        glClearBufferfv(GL_COLOR, 1, nothing);
+    }
+
+    const Texture& colour() const { return *colour_; }
+    const Texture& depth_m() const { return *depth_m_; }
+    const Framebuffer& target() const { return *target_; }
+
+  private:
+    std::optional<Texture> colour_, depth_m_;
+    std::optional<Framebuffer> target_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "common/gl/framebuffer.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// A texture to draw into, allocated anew only when the size changes.
+class DrawnTexture {
+  public:
+    explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest)
+        : format_(format), filter_(filter) {}
+
+    void resize(cv::Size size) {
+        if (texture_ && texture_->size() == size) return;
+        target_.reset();
+        texture_.emplace(format_, size.width, size.height, filter_);
+        target_.emplace(std::initializer_list<const Texture*>{&*texture_});
+    }
+    bool empty() const { return !texture_; }
+    const Texture& texture() const { return *texture_; }
+    const Framebuffer& target() const { return *target_; }
+
+  private:
+    TextureFormat format_;
+    Filter filter_;
+    std::optional<Texture> texture_;
+    std::optional<Framebuffer> target_;
+};
+
+}  // namespace vantage

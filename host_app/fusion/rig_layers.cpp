@@ -1,0 +1,62 @@
+#include "host_app/fusion/rig_layers.h"
+
+#include <cassert>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "host_app/fusion/projection.h"
+#include "host_app/fusion/view_ranking.h"
+
+namespace vantage {
+namespace {
+
+/// Disparities are trusted to this many pixels.
+constexpr double disparity_sigma_px = 0.5;
+
+}  // namespace
+
+RigLayers::Layer::Layer(cv::Size size)
+    : depth(TextureFormat::depth24, size.width, size.height), target({}, &depth) {}
+
+void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& target) {
+    assert(views.size() <= max_layers);
+    used_.assign(views.begin(), views.end());
+    target_ = target;
+    near_m_ = near_plane_m(views);
+    const cv::Size size(target.width_px, target.height_px);
+    if (!layers_.empty() && layers_.front()->depth.size() != size) layers_.clear();
+    while (layers_.size() < views.size()) layers_.push_back(std::make_unique<Layer>(size));
+    for (std::size_t i = 0; i < views.size(); ++i)
+        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i]->target);
+}
+
+void RigLayers::bind(Program& program) const {
+    const Pose target_from_world = target_.world_from_camera.inverse();
+    const int count = static_cast<int>(used_.size());
+    for (int i = 0; i < count; ++i) {
+        const GpuView& view = *used_[static_cast<std::size_t>(i)];
+        const DepthView& camera = view.camera();
+        const Eigen::Vector3d centre = target_from_world * camera.world_from_camera.translation();
+        const double f_baseline = camera.K(0, 0) * camera.baseline_m;
+        const auto set = [&](const char* name, const auto& value) {
+            program.set(fmt::format("{}[{}]", name, i), value);
+        };
+        set("layer_depth", i);
+        set("colour", count + i);
+        set("source_depth", 2 * count + i);
+        set("pixel_from_target",
+            Eigen::Matrix4f(pixel_from_target_pixel(camera, target_).cast<float>()));
+        set("colour_size", Eigen::Vector2f(static_cast<float>(view.colour().width_px()),
+                                           static_cast<float>(view.colour().height_px())));
+        set("centre", Eigen::Vector3f(centre.cast<float>()));
+        set("spread", f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f);
+        layers_[static_cast<std::size_t>(i)]->depth.bind(i);
+        view.colour().bind(count + i);
+        view.surface().bind(2 * count + i);
+    }
+    program.set("ray_from_pixel", Eigen::Matrix3f(target_.K.inverse().cast<float>()));
+    program.set("near_m", static_cast<float>(near_m_));
+}
+
+}  // namespace vantage

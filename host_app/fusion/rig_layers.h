@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/gl/framebuffer.h"
+#include "common/gl/program.h"
+#include "host_app/fusion/mesh_rasteriser.h"
+
+namespace vantage {
+
+/// The surfaces of the rigs that take part in one virtual view, each drawn alone into a depth
+/// buffer of the view's size, ready to be merged by a fragment shader that includes
+/// rig_layers.glsl.
+class RigLayers {
+  public:
+    static constexpr std::size_t max_layers = 4;
+
+    explicit RigLayers(const ShaderLibrary& library) : rasteriser_(library) {}
+
+    MeshRasteriser& rasteriser() { return rasteriser_; }
+
+    /// Draws the views' surfaces. Precondition: at most max_layers, none null.
+    void draw(std::span<const GpuView* const> views, const VirtualView& target);
+
+    /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
+    /// and sets the uniforms of rig_layers.glsl. The program must be in use.
+    void bind(Program& program) const;
+    /// The first texture unit that bind() leaves alone.
+    int first_free_unit() const { return 3 * static_cast<int>(used_.size()); }
+
+    std::span<const GpuView* const> used() const { return used_; }
+
+  private:
+    struct Layer {
+        Texture depth;
+        Framebuffer target;
+        explicit Layer(cv::Size size);
+    };
+
+    MeshRasteriser rasteriser_;
+    std::vector<std::unique_ptr<Layer>> layers_;
+    std::vector<const GpuView*> used_;
+    VirtualView target_;
+    double near_m_ = 0;
+};
+
+}  // namespace vantage

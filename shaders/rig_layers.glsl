@@ -1,0 +1,42 @@
+// What RigLayers binds: the rigs' surfaces as the virtual camera sees them, and the rigs' own pictures.
+#ifndef LAYERS
+#define LAYERS 4
+#endif
+
+uniform sampler2D layer_depth[LAYERS];   // of the virtual view: 1 - near / z, 1 = nothing
+uniform sampler2D colour[LAYERS];        // the rigs' own
+uniform sampler2D source_depth[LAYERS];  // the rigs' own, metres; 0 = unknown, negative = guessed
+uniform mat4 pixel_from_target[LAYERS];  // the rigs' (u * z, v * z, z, 1) from the virtual camera's
+uniform vec2 colour_size[LAYERS];         // px
+uniform vec3 centre[LAYERS];             // of the rig's camera, in the virtual camera's coordinates
+uniform float spread[LAYERS];            // relative uncertainty of depth, per metre of depth
+uniform mat3 ray_from_pixel;             // of the virtual camera
+uniform float near_m;
+
+// Runs X(0), X(1), ... for every layer: samplers take constant indices only.
+#if LAYERS == 1
+#define FOR_LAYERS(X) X(0)
+#elif LAYERS == 2
+#define FOR_LAYERS(X) X(0) X(1)
+#elif LAYERS == 3
+#define FOR_LAYERS(X) X(0) X(1) X(2)
+#else
+#define FOR_LAYERS(X) X(0) X(1) X(2) X(3)
+#endif
+
+const float nothing = 1e30;
+
+float layer_z(sampler2D layer, ivec2 at) {
+    float d = texelFetch(layer, at, 0).r;
+    return d < 1.0 ? near_m / (1.0 - d) : nothing;
+}
+
+// Angle-like measure between the two lines of sight to a point: 1 - cosine.
+float apart(vec3 point, vec3 rig_centre) {
+    return 1.0 - dot(normalize(point), normalize(point - rig_centre));
+}
+
+// Level of detail at which one source pixel is about one pixel of the virtual view.
+float detail_level(mat4 source_from_target, float z, float source_z) {
+    return log2(max(length(source_from_target[0].xyz) * z / source_z, 1.0));
+}
