@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace vantage {
+
+/// One inner corner of a board, seen in a picture.
+struct BoardCorner {
+    int id = 0;                                         ///< row * columns + column
+    Eigen::Vector3d board_m = Eigen::Vector3d::Zero();  ///< in the board's frame
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();    ///< pixel centres at integers
+};
+
+using BoardCorners = std::vector<BoardCorner>;
+
+/// What was found of a board in one picture. Without corners, `reason` is the rest of a sentence
+/// that begins with the picture's name.
+struct BoardSighting {
+    BoardCorners corners;
+    std::string reason;
+    double square_px = 0;  ///< median distance of neighbouring corners
+    double blur_px = 0;    ///< median Gaussian sigma of the edges
+    double contrast = 0;   ///< median half step from black to white, grey levels
+    /// Inner corners of the board that is there instead of the one that was looked for; 0: none.
+    int other_columns = 0, other_rows = 0;
+    bool mirrored = false;  ///< markers can be read in the mirrored picture only
+
+    bool found() const { return !corners.empty(); }
+};
+
+}  // namespace vantage

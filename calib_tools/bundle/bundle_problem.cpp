@@ -1,0 +1,143 @@
+#include "calib_tools/bundle/bundle_problem.h"
+
+#include <algorithm>
+
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/rotation.h>
+
+namespace vantage {
+namespace {
+
+/// p = exp(w) (R0 p) + t0 + dt, or its inverse.
+template <class T>
+void transform(const Pose& base, const T* change, const T* in, T* out) {
+    const Eigen::Matrix3d& r = base.linear();
+    T turned[3];
+    for (int i = 0; i < 3; ++i) turned[i] = r(i, 0) * in[0] + r(i, 1) * in[1] + r(i, 2) * in[2];
+    ceres::AngleAxisRotatePoint(change, turned, out);
+    for (int i = 0; i < 3; ++i) out[i] += base.translation()[i] + change[3 + i];
+}
+
+template <class T>
+void transform_inverse(const Pose& base, const T* change, const T* in, T* out) {
+    const T back[3] = {-change[0], -change[1], -change[2]};
+    T moved[3], turned[3];
+    for (int i = 0; i < 3; ++i) moved[i] = in[i] - base.translation()[i] - change[3 + i];
+    ceres::AngleAxisRotatePoint(back, moved, turned);
+    const Eigen::Matrix3d& r = base.linear();
+    for (int i = 0; i < 3; ++i)
+        out[i] = r(0, i) * turned[0] + r(1, i) * turned[1] + r(2, i) * turned[2];
+}
+
+struct CornerResidual {
+    const BundleCamera& camera;
+    const Pose& world_from_rig;
+    const Pose& world_from_board;
+    Eigen::Vector3d board_m;
+    Eigen::Vector2d pixel;
+
+    template <class T>
+    bool operator()(const T* lens, const T* camera_pose, const T* rig_pose, const T* board_pose,
+                    T* residual) const {
+        const T on_board[3] = {T(board_m.x()), T(board_m.y()), T(board_m.z())};
+        T world[3], rig[3], p[3];
+        transform(world_from_board, board_pose, on_board, world);
+        transform_inverse(world_from_rig, rig_pose, world, rig);
+        transform(camera.camera_from_rig, camera_pose, rig, p);
+        if (!(p[2] > T(1e-9))) return false;
+        project_through_lens(camera.model.lens, lens, p[0], p[1], p[2], residual);
+        residual[0] -= pixel.x();
+        residual[1] -= pixel.y();
+        return true;
+    }
+};
+
+}  // namespace
+
+Pose changed(const Pose& pose, const BundleProblem::Change& change) {
+    const Eigen::Vector3d w(change[0], change[1], change[2]);
+    Pose result = Pose::Identity();
+    const double angle = w.norm();
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    if (angle > 0) turn = Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+    // Through a quaternion, so that many small changes do not add up to a matrix that is no
+    // rotation.
+    result.linear() = Eigen::Quaterniond(turn * pose.linear()).normalized().toRotationMatrix();
+    result.translation() = pose.translation() + Eigen::Vector3d(change[3], change[4], change[5]);
+    return result;
+}
+
+BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
+    : bundle_(bundle),
+      lenses_(bundle.cameras.size()),
+      camera_poses_(bundle.cameras.size(), Change{}),
+      rig_poses_(bundle.rigs.size(), Change{}),
+      board_poses_(bundle.boards.size(), Change{}) {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::TAKE_OWNERSHIP;
+    problem_ = std::make_unique<ceres::Problem>(options);
+    for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
+        const CameraModel& m = bundle.cameras[i].model;
+        lenses_[i] = {m.fx_px, m.fy_px, m.cx_px, m.cy_px};
+        std::copy(m.distortion.begin(), m.distortion.end(), lenses_[i].begin() + 4);
+    }
+    using Cost = ceres::AutoDiffCostFunction<CornerResidual, 2, lens_parameter_count, 6, 6, 6>;
+    ceres::LossFunction* loss = nullptr;
+    for (const BundleView& view : bundle.views) {
+        const auto camera = static_cast<std::size_t>(view.camera);
+        const auto board = static_cast<std::size_t>(view.board);
+        const auto rig = static_cast<std::size_t>(bundle.cameras[camera].rig);
+        if (!view.corners.empty() && huber_px > 0 && !loss) loss = new ceres::HuberLoss(huber_px);
+        for (const BoardCorner& corner : view.corners) {
+            auto residual = std::make_unique<CornerResidual>(CornerResidual{
+                bundle.cameras[camera], bundle.rigs[rig].world_from_rig,
+                bundle.boards[board].world_from_board, corner.board_m, corner.pixel});
+            problem_->AddResidualBlock(new Cost(residual.release()), loss, lenses_[camera].data(),
+                                       camera_poses_[camera].data(), rig_poses_[rig].data(),
+                                       board_poses_[board].data());
+        }
+    }
+    for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
+        const BundleCamera& c = bundle.cameras[i];
+        if (double* block = lens(i)) {
+            std::vector<int> constant;
+            for (int k = 0; k < 8; ++k)
+                if (!c.family->free[static_cast<std::size_t>(k)]) constant.push_back(4 + k);
+            if (!c.solve_lens)
+                problem_->SetParameterBlockConstant(block);
+            else if (!constant.empty())
+                problem_->SetManifold(block,
+                                      new ceres::SubsetManifold(lens_parameter_count, constant));
+        }
+        if (double* block = camera_pose(i); block && !c.solve_pose)
+            problem_->SetParameterBlockConstant(block);
+    }
+    for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
+        if (double* block = rig_pose(i); block && !bundle.rigs[i].solve)
+            problem_->SetParameterBlockConstant(block);
+    for (std::size_t i = 0; i < bundle.boards.size(); ++i)
+        if (double* block = board_pose(i); block && !bundle.boards[i].solve)
+            problem_->SetParameterBlockConstant(block);
+}
+
+void BundleProblem::apply_to(Bundle& bundle) const {
+    for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
+        BundleCamera& c = bundle.cameras[i];
+        const auto& p = lenses_[i];
+        c.model.fx_px = p[0];
+        c.model.fy_px = p[1];
+        c.model.cx_px = p[2];
+        c.model.cy_px = p[3];
+        std::copy_n(p.begin() + 4, c.model.distortion.size(), c.model.distortion.begin());
+        c.camera_from_rig = changed(c.camera_from_rig, camera_poses_[i]);
+    }
+    for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
+        bundle.rigs[i].world_from_rig = changed(bundle.rigs[i].world_from_rig, rig_poses_[i]);
+    for (std::size_t i = 0; i < bundle.boards.size(); ++i)
+        bundle.boards[i].world_from_board =
+            changed(bundle.boards[i].world_from_board, board_poses_[i]);
+}
+
+}  // namespace vantage

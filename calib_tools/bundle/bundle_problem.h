@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <ceres/problem.h>
+
+#include "calib_tools/bundle/bundle.h"
+#include "calib_tools/bundle/lens_projection.h"
+
+namespace vantage {
+
+/// The bundle as a Ceres problem. Poses are solved as small changes (rotation vector, translation)
+/// on top of the bundle's own, R = exp(w) R0 and t = t0 + dt, so that uncertainties come out in the
+/// tangent space and no rotation has a singularity.
+class BundleProblem {
+  public:
+    using Change = std::array<double, 6>;
+
+    /// The bundle must outlive the problem.
+    BundleProblem(const Bundle& bundle, double huber_px);
+
+    ceres::Problem& problem() { return *problem_; }
+    /// The blocks, in the order of the bundle's parts; null where a part occurs in no view.
+    double* lens(std::size_t camera) { return used(lenses_[camera].data()); }
+    double* camera_pose(std::size_t camera) { return used(camera_poses_[camera].data()); }
+    double* rig_pose(std::size_t rig) { return used(rig_poses_[rig].data()); }
+    double* board_pose(std::size_t board) { return used(board_poses_[board].data()); }
+
+    /// Writes the solved values into the bundle.
+    void apply_to(Bundle& bundle) const;
+
+  private:
+    double* used(double* block) { return problem_->HasParameterBlock(block) ? block : nullptr; }
+
+    const Bundle& bundle_;
+    std::vector<std::array<double, lens_parameter_count>> lenses_;
+    std::vector<Change> camera_poses_, rig_poses_, board_poses_;
+    std::unique_ptr<ceres::Problem> problem_;
+};
+
+/// exp(change) on top of a pose.
+Pose changed(const Pose& pose, const BundleProblem::Change& change);
+
+}  // namespace vantage

@@ -1,0 +1,83 @@
+#include <iostream>
+#include <memory>
+#include <span>
+
+#include <opencv2/core.hpp>
+
+#include "calib_tools/commands/board_options.h"
+#include "calib_tools/commands/lens_option.h"
+#include "calib_tools/pictures/picture_list.h"
+#include "calib_tools/report/calibration_json.h"
+#include "calib_tools/report/calibration_text.h"
+#include "calib_tools/rig/rig_calibration.h"
+#include "common/base/atomic_file.h"
+#include "common/base/command.h"
+#include "common/base/log.h"
+#include "common/geometry/opencv_bridge.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    BoardOptions board;
+    LensOption lens;
+    std::string pictures, output;
+    bool json = false;
+};
+
+/// The names that OpenCV's own calibration sample uses, so that its tools read the file.
+void save_intrinsics(const std::string& path, const CameraCalibration& result) {
+    const CameraModel& m = result.bundle.cameras.front().model;
+    cv::FileStorage file("camera.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+    file << "kind"
+         << "vantage camera intrinsics"
+         << "version" << 1;
+    file << "units"
+         << "pixels, pixel centres at integers, origin top-left; distortion in OpenCV's order";
+    file << "date" << date_now() << "tool"
+         << "vantage-calib intrinsics";
+    file << "image_width" << m.width_px << "image_height" << m.height_px;
+    file << "lens" << (m.lens == LensModel::fisheye ? "fisheye" : "pinhole");
+    file << "camera_matrix" << cv::Mat(to_cv(m.K()));
+    file << "distortion_coefficients" << cv::Mat(m.distortion, true);
+    file << "avg_reprojection_error" << result.bundle.rms_px();
+    file << "views_used" << static_cast<int>(result.views_used);
+    const std::string text = file.releaseAndGetString();
+    write_file_atomically(path, std::as_bytes(std::span(text)));
+}
+
+void run(const Options& options) {
+    const BoardPattern pattern = options.board.pattern();
+    RigOptions rig_options;
+    rig_options.family = options.lens.family();
+    const CameraCalibration result = calibrate_camera(
+        look_at_pictures(expand_pictures(options.pictures), pattern), pattern, rig_options);
+    if (!options.output.empty()) {
+        save_intrinsics(options.output, result);
+        log_info("{} written", options.output);
+    }
+    if (options.json)
+        std::cout << to_json(result).dump(2) << '\n';
+    else
+        std::cout << describe(result);
+}
+
+}  // namespace
+
+CommandEntry intrinsics_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "intrinsics", "Calibrate one camera's lens from pictures of a board");
+        const auto options = std::make_shared<Options>();
+        options->board.add_to(*command);
+        options->lens.add_to(*command);
+        command->add_option("--images", options->pictures, "pictures: 'PATTERN' or folder")
+            ->required();
+        command->add_option("-o,--output", options->output,
+                            "file to write (YAML, with the names of OpenCV's samples)");
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage

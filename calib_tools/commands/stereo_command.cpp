@@ -1,0 +1,91 @@
+#include <iostream>
+#include <memory>
+
+#include "calib_tools/commands/board_options.h"
+#include "calib_tools/commands/lens_option.h"
+#include "calib_tools/pictures/picture_list.h"
+#include "calib_tools/report/calibration_json.h"
+#include "calib_tools/report/calibration_text.h"
+#include "calib_tools/rig/rig_calibration.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/config/calibration_file.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    BoardOptions board;
+    LensOption lens;
+    std::string left, right, output;
+    double alpha = 0;
+    std::vector<int> rectified_size;
+    bool json = false;
+};
+
+void run(const Options& options) {
+    const BoardPattern pattern = options.board.pattern();
+    RigOptions rig_options;
+    rig_options.family = options.lens.family();
+    rig_options.alpha = options.alpha;
+    if (!options.rectified_size.empty()) {
+        rig_options.rectified_width_px = options.rectified_size[0];
+        rig_options.rectified_height_px = options.rectified_size[1];
+    }
+    const PicturePairs pictures =
+        pair_pictures(expand_pictures(options.left), expand_pictures(options.right));
+    std::vector<std::filesystem::path> files;
+    for (const auto& [left, right] : pictures.pairs) files.push_back(left);
+    for (const auto& [left, right] : pictures.pairs) files.push_back(right);
+    std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
+    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
+    RigCalibration result =
+        calibrate_rig(std::vector<SeenPicture>(seen.begin(), middle),
+                      std::vector<SeenPicture>(middle, seen.end()), pattern, rig_options);
+    for (const std::filesystem::path& file : pictures.alone) {
+        ++result.views_given;
+        result.rejected.push_back(
+            {file.filename().string(), "has no partner of the same number on the other side"});
+    }
+    save_calibration(options.output, result.calibration,
+                     {date_now(), "vantage-calib stereo", result.bundle.rms_px(), result.row_rms_px,
+                      static_cast<int>(result.views_used)});
+    log_info("{} written", options.output);
+    if (options.json)
+        std::cout << to_json(result).dump(2) << '\n';
+    else
+        std::cout << describe(result);
+}
+
+}  // namespace
+
+CommandEntry stereo_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "stereo", "Calibrate a stereo rig from pairs of pictures of a board");
+        const auto options = std::make_shared<Options>();
+        options->board.add_to(*command);
+        options->lens.add_to(*command);
+        command->add_option("--left", options->left, "left pictures: 'PATTERN' or folder")
+            ->required();
+        command->add_option("--right", options->right, "right pictures: 'PATTERN' or folder")
+            ->required();
+        command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
+            ->required();
+        command
+            ->add_option("--alpha", options->alpha,
+                         "rectified picture: 0 only valid pixels, 1 all raw pixels")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
+        command
+            ->add_option("--rectified-size", options->rectified_size,
+                         "WIDTH HEIGHT of the rectified pictures (default: as the raw ones)")
+            ->expected(2)
+            ->check(CLI::Range(16, 16384));
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,111 @@
+#include "calib_tools/pictures/picture_list.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include <glob.h>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t max_pictures = 10000;
+
+/// Text and numbers in turn: "left2b" -> ("left", 2), ("b", -1).
+std::vector<std::pair<std::string, long long>> natural_key(const std::string& name) {
+    std::vector<std::pair<std::string, long long>> key;
+    std::size_t i = 0;
+    while (i < name.size()) {
+        std::string text, digits;
+        while (i < name.size() && !std::isdigit(static_cast<unsigned char>(name[i])))
+            text += name[i++];
+        while (i < name.size() && std::isdigit(static_cast<unsigned char>(name[i])))
+            digits += name[i++];
+        // A longer run of digits than any picture number is a serial number: its tail tells.
+        if (digits.size() > 18) digits = digits.substr(digits.size() - 18);
+        key.emplace_back(text, digits.empty() ? -1 : std::stoll(digits));
+    }
+    return key;
+}
+
+std::vector<long long> numbers_in(const std::filesystem::path& file) {
+    std::vector<long long> numbers;
+    for (const auto& [text, number] : natural_key(file.stem().string()))
+        if (number >= 0) numbers.push_back(number);
+    return numbers;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> expand_pictures(const std::string& pattern) {
+    std::error_code ignored;
+    const std::string shell_pattern =
+        std::filesystem::is_directory(pattern, ignored) ? pattern + "/*" : pattern;
+    glob_t found{};
+    const int status = ::glob(shell_pattern.c_str(), GLOB_TILDE, nullptr, &found);
+    std::vector<std::filesystem::path> files;
+    if (status == 0)
+        for (std::size_t i = 0; i < found.gl_pathc; ++i)
+            if (std::filesystem::is_regular_file(found.gl_pathv[i], ignored))
+                files.emplace_back(found.gl_pathv[i]);
+    ::globfree(&found);
+    if (files.empty()) fail("no file matches '{}'", pattern);
+    if (files.size() > max_pictures)
+        fail("'{}' matches {} files; up to {} are taken", pattern, files.size(), max_pictures);
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+        const auto key_a = natural_key(a.filename().string());
+        const auto key_b = natural_key(b.filename().string());
+        return std::tie(key_a, a) < std::tie(key_b, b);
+    });
+    return files;
+}
+
+std::vector<long long> picture_numbers(const std::vector<std::filesystem::path>& files) {
+    std::vector<std::vector<long long>> numbers;
+    for (const auto& file : files) numbers.push_back(numbers_in(file));
+    std::size_t count = numbers.empty() ? 0 : numbers.front().size();
+    for (const auto& n : numbers) count = std::min(count, n.size());
+    // The last number of a name is most often the picture's; the first may name the camera.
+    for (std::size_t from_end = 1; from_end <= count; ++from_end) {
+        std::vector<long long> chosen;
+        for (const auto& n : numbers) chosen.push_back(n[n.size() - from_end]);
+        if (std::set<long long>(chosen.begin(), chosen.end()).size() == chosen.size())
+            return chosen;
+    }
+    return {};
+}
+
+PicturePairs pair_pictures(const std::vector<std::filesystem::path>& left,
+                           const std::vector<std::filesystem::path>& right) {
+    PicturePairs result;
+    const std::vector<long long> left_numbers = picture_numbers(left);
+    const std::vector<long long> right_numbers = picture_numbers(right);
+    if (!left_numbers.empty() && !right_numbers.empty()) {
+        std::map<long long, std::filesystem::path> partners;
+        for (std::size_t i = 0; i < right.size(); ++i) partners[right_numbers[i]] = right[i];
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            const auto partner = partners.find(left_numbers[i]);
+            if (partner == partners.end()) {
+                result.alone.push_back(left[i]);
+            } else {
+                result.pairs.emplace_back(left[i], partner->second);
+                partners.erase(partner);
+            }
+        }
+        for (const auto& [number, file] : partners) result.alone.push_back(file);
+        if (!result.pairs.empty()) return result;
+        result = {};
+    }
+    if (left.size() != right.size())
+        fail(
+            "{} left and {} right pictures cannot be paired: give the pictures of a pair the same "
+            "number in their names",
+            left.size(), right.size());
+    for (std::size_t i = 0; i < left.size(); ++i) result.pairs.emplace_back(left[i], right[i]);
+    return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,172 @@
+#include "calib_tools/pictures/seen_picture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/image/image_file.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t max_file_bytes = std::size_t{1} << 30;
+
+/// A JPEG that ends early is decoded by the library with grey where data is missing.
+void refuse_cut_off_jpeg(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
+    const auto at = [&](std::size_t i) { return static_cast<unsigned>(bytes[i]); };
+    if (bytes.size() < 4 || at(0) != 0xFF || at(1) != 0xD8) return;
+    // Some cameras pad after the end marker.
+    for (std::size_t i = bytes.size() - 1; i > 0; --i)
+        if (at(i - 1) == 0xFF && at(i) == 0xD9) return;
+    fail("is cut off: the end of the JPEG data is missing");
+}
+
+void judge(const GreyImage& grey, SeenPicture& picture) {
+    cv::Mat1f detail;
+    cv::Laplacian(grey, detail, CV_32F);
+    cv::Scalar mean, deviation, unused, detail_deviation;
+    cv::meanStdDev(grey, mean, deviation);
+    cv::meanStdDev(detail, unused, detail_deviation);
+    picture.sharpness = detail_deviation[0] / std::max(1.0, deviation[0]);
+    picture.saturated =
+        static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
+}
+
+void look_at(SeenPicture& picture, const BoardPattern& pattern) {
+    try {
+        const GreyImage grey = to_grey(read_colour_image(picture.path));
+        refuse_cut_off_jpeg(picture.path);
+        picture.width_px = grey.cols;
+        picture.height_px = grey.rows;
+        judge(grey, picture);
+        picture.sighting = find_board(grey, pattern);
+    } catch (const Error& error) {
+        picture.sighting = {};
+        picture.sighting.reason = error.what();
+        // The name stands before the reason anyway.
+        const std::string path = picture.path.string() + " ";
+        if (picture.sighting.reason.starts_with(path))
+            picture.sighting.reason.erase(0, path.size());
+    }
+}
+
+void refuse(SeenPicture& picture, std::string reason) {
+    picture.sighting.corners.clear();
+    picture.sighting.reason = std::move(reason);
+}
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto place = values.begin() +
+                       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
+    std::vector<double> blurs, sharpnesses, saturations;
+    for (const SeenPicture& p : pictures) {
+        if (!p.sighting.found()) continue;
+        blurs.push_back(p.sighting.blur_px);
+        sharpnesses.push_back(p.sharpness);
+        saturations.push_back(p.saturated);
+    }
+    const double usual_blur = quantile(blurs, 0.5), usual_sharpness = quantile(sharpnesses, 0.5);
+    const double usual_saturation = quantile(saturations, 0.5);
+    for (SeenPicture& p : pictures) {
+        const BoardSighting& s = p.sighting;
+        if (s.found()) {
+            const double limit = std::max(1.5, 2.2 * usual_blur);
+            if (s.blur_px > limit)
+                refuse(p, fmt::format("is blurred: edges of {:.1f} px where {:.1f} px is usual in "
+                                      "this series and {:.1f} px the limit; hold the board still, "
+                                      "in focus",
+                                      s.blur_px, usual_blur, limit));
+        } else if (p.width_px > 0 && s.other_columns == 0 && !s.mirrored) {
+            if (usual_sharpness > 0 && p.sharpness < 0.5 * usual_sharpness)
+                p.sighting.reason += ": the picture is blurred";
+            else if (p.saturated > 0.1 + 2 * usual_saturation)
+                p.sighting.reason += fmt::format(": {:.0f} % of the picture is overexposed (glare)",
+                                                 100 * p.saturated);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
+                                          const BoardPattern& pattern) {
+    std::vector<SeenPicture> pictures(files.size());
+    for (std::size_t i = 0; i < files.size(); ++i) pictures[i].path = files[i];
+    std::atomic<std::size_t> done{0};
+    const std::size_t step = std::max<std::size_t>(10, files.size() / 10);
+    std::vector<std::exception_ptr> failures(files.size());
+    cv::parallel_for_(
+        cv::Range(0, static_cast<int>(files.size())),
+        [&](const cv::Range& range) {
+            for (int i = range.start; i < range.end; ++i) {
+                const auto index = static_cast<std::size_t>(i);
+                try {
+                    look_at(pictures[index], pattern);
+                } catch (...) {
+                    // A picture the library chokes on must not end the thread pool.
+                    failures[index] = std::current_exception();
+                }
+                const std::size_t count = ++done;
+                if (count % step == 0 || count == files.size())
+                    log_info("{} of {} pictures searched for the board", count, files.size());
+            }
+        },
+        static_cast<double>(files.size()));
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    explain_blur_and_glare(pictures);
+    return pictures;
+}
+
+void require_one_size(std::vector<SeenPicture>& pictures) {
+    std::map<std::pair<int, int>, int> votes;
+    for (const SeenPicture& p : pictures)
+        if (p.width_px > 0) ++votes[{p.width_px, p.height_px}];
+    if (votes.size() < 2) return;
+    const auto most =
+        std::max_element(votes.begin(), votes.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto [width, height] = most->first;
+    for (SeenPicture& p : pictures)
+        if (p.width_px > 0 && (p.width_px != width || p.height_px != height))
+            refuse(p, fmt::format("is {}x{} where the other pictures are {}x{}", p.width_px,
+                                  p.height_px, width, height));
+}
+
+void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPattern& pattern) {
+    std::map<std::pair<int, int>, std::size_t> votes;
+    std::size_t mirrored = 0, found = 0;
+    for (const SeenPicture& p : pictures) {
+        if (p.sighting.found()) ++found;
+        if (p.sighting.other_columns > 0)
+            ++votes[{p.sighting.other_columns, p.sighting.other_rows}];
+        if (p.sighting.mirrored) ++mirrored;
+    }
+    if (mirrored > found)
+        fail(
+            "the pictures are mirrored: the board's markers can be read in a mirror only ({} of {} "
+            "pictures); turn mirroring off at the camera",
+            mirrored, pictures.size());
+    for (const auto& [size, count] : votes)
+        if (count > found)
+            fail(
+                "the pictures show a board of {}x{} inner corners, not {} (corners where four "
+                "squares meet are counted, not squares); {} of {} pictures say so",
+                size.first, size.second, pattern.size_name(), count, pictures.size());
+}
+
+}  // namespace vantage

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calib_tools/board/board_finder.h"
+
+namespace vantage {
+
+/// A picture and what was found of the board in it.
+struct SeenPicture {
+    std::filesystem::path path;
+    int width_px = 0, height_px = 0;
+    BoardSighting sighting;  ///< without corners: its reason says why, whatever it is
+    double sharpness = 0;    ///< energy of the finest detail in the energy of the picture
+    double saturated = 0;    ///< share of pixels at the top of the range
+    std::string name() const { return path.filename().string(); }
+};
+
+/// Reads the pictures and searches the board in each, on all cores; tells the log how far it is.
+/// Damaged files, boards of another size, blur and glare end up as reasons, never as an exception.
+/// Blur is judged against the sharper half of the series, since lenses differ.
+std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
+                                          const BoardPattern& pattern);
+
+/// The size that most pictures have; pictures of another size are refused with the reason.
+void require_one_size(std::vector<SeenPicture>& pictures);
+
+/// Throws Error if most pictures show a board of one other size, or mirrored markers: the one
+/// sentence that spares a list of reasons.
+void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPattern& pattern);
+
+}  // namespace vantage

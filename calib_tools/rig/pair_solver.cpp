@@ -1,0 +1,116 @@
+#include "calib_tools/rig/pair_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace vantage {
+namespace {
+
+double angle_between(const Pose& a, const Pose& b) {
+    return Eigen::AngleAxisd(Eigen::Matrix3d(a.linear().transpose() * b.linear())).angle();
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::map<int, const BundleView*> views_by_board(const Bundle& bundle, int camera) {
+    std::map<int, const BundleView*> views;
+    for (const BundleView& view : bundle.views)
+        if (view.camera == camera) views[view.board] = &view;
+    return views;
+}
+
+Eigen::Vector2d rectify_pixel(const CameraModel& camera, const Eigen::Matrix3d& rotation,
+                              const RectifiedStereo& rectified, double cx_px,
+                              const Eigen::Vector2d& pixel) {
+    const Eigen::Vector3d ray = rotation * camera.unproject(pixel);
+    return {rectified.f_px * ray.x() / ray.z() + cx_px,
+            rectified.f_px * ray.y() / ray.z() + rectified.cy_px};
+}
+
+}  // namespace
+
+std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
+    const auto right_views = views_by_board(right, 0);
+    std::vector<Pose> poses;
+    for (const BundleView& view : left.views) {
+        if (!right_views.contains(view.board)) continue;
+        const auto board = static_cast<std::size_t>(view.board);
+        poses.push_back(right.boards[board].world_from_board *
+                        left.boards[board].world_from_board.inverse());
+    }
+    if (poses.empty()) return std::nullopt;
+    // The pose whose median distance to the others is least: half of the views may be wrong.
+    PairStart best;
+    double best_cost = std::numeric_limits<double>::max();
+    for (const Pose& candidate : poses) {
+        std::vector<double> turns, ways;
+        for (const Pose& pose : poses) {
+            turns.push_back(angle_between(candidate, pose));
+            ways.push_back((candidate.translation() - pose.translation()).norm());
+        }
+        const PairStart start{candidate, median(turns), median(ways)};
+        const double cost = start.rotation_spread_rad +
+                            start.translation_spread_m / (1e-9 + candidate.translation().norm());
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = start;
+        }
+    }
+    return best;
+}
+
+std::optional<Bundle> solve_pair(const Bundle& left, const Bundle& right, const PairStart& start) {
+    Bundle pair = left;
+    BundleCamera camera = right.cameras.front();
+    camera.camera_from_rig = start.right_from_left;
+    camera.solve_pose = true;
+    pair.cameras.push_back(camera);
+    const auto left_views = views_by_board(left, 0);
+    for (const BundleView& view : right.views) {
+        const auto board = static_cast<std::size_t>(view.board);
+        if (!left_views.contains(view.board))
+            pair.boards[board].world_from_board =
+                start.right_from_left.inverse() * right.boards[board].world_from_board;
+        pair.views.push_back({1, view.board, view.corners});
+    }
+    if (!solve_robustly(pair)) return std::nullopt;
+    return pair;
+}
+
+std::vector<double> row_differences_px(const StereoCalibration& calibration, const Bundle& pair) {
+    const auto right_views = views_by_board(pair, 1);
+    std::vector<double> differences;
+    for (const auto& [board, left_view] : views_by_board(pair, 0)) {
+        const auto right_view = right_views.find(board);
+        if (right_view == right_views.end()) continue;
+        std::map<int, Eigen::Vector2d> seen_right;
+        for (const BoardCorner& corner : right_view->second->corners)
+            seen_right[corner.id] = corner.pixel;
+        const RectifiedStereo& r = calibration.rectified;
+        for (const BoardCorner& corner : left_view->corners) {
+            const auto other = seen_right.find(corner.id);
+            if (other == seen_right.end()) continue;
+            differences.push_back(rectify_pixel(calibration.left, calibration.rectified_from_left,
+                                                r, r.cx_left_px, corner.pixel)
+                                      .y() -
+                                  rectify_pixel(calibration.right, calibration.rectified_from_right,
+                                                r, r.cx_right_px, other->second)
+                                      .y());
+        }
+    }
+    return differences;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v * v;
+    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace vantage

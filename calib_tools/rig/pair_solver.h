@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "calib_tools/rig/camera_solver.h"
+#include "common/geometry/stereo_calibration.h"
+
+namespace vantage {
+
+/// How well two cameras that were calibrated alone agree on one rigid rig.
+struct PairStart {
+    Pose right_from_left = Pose::Identity();  ///< the views' robust middle
+    double rotation_spread_rad = 0;           ///< median distance of the views from it
+    double translation_spread_m = 0;
+};
+
+/// From the poses of the boards that both saw. Empty if none was seen by both.
+std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right);
+
+/// Both lenses, the relative pose and every board together: camera 0 is the left one, whose frame
+/// is the rig's and the world's; camera 1 the right one; board i belongs to instant i. Views that
+/// only one camera saw help that camera's lens. Empty if there is no finite solution.
+std::optional<Bundle> solve_pair(const Bundle& left, const Bundle& right, const PairStart& start);
+
+/// Row differences (left minus right, px) of the corners that both cameras saw, after
+/// rectification.
+std::vector<double> row_differences_px(const StereoCalibration& calibration, const Bundle& pair);
+
+/// Root of the mean square; 0 for none.
+double root_mean_square(const std::vector<double>& values);
+
+}  // namespace vantage
