@@ -8,34 +8,34 @@ namespace {
 
 constexpr std::chrono::seconds progress_period{2};
 
-void log_progress(LiveSession& session, const HeadlessFlight& flight, std::uint64_t pictures,
+void log_progress(LiveSession& session, const FlightPlan& plan, std::uint64_t pictures,
                   double seconds) {
     int connected = 0;
     const ReceiverStatus& status = session.refresh_status();
     for (const RigStatus& rig : status.rigs) connected += rig.connected;
     log_info("{}{} pictures, {:.1f} a second, {} of {} rigs, {:.0f} ms from exposure to picture",
-             pictures, flight.frames ? fmt::format(" of {}", *flight.frames) : "",
+             pictures, plan.frames ? fmt::format(" of {}", *plan.frames) : "",
              seconds > 0 ? static_cast<double>(pictures) / seconds : 0.0, connected,
              status.rigs.size(), session.latest_latency_ms());
 }
 
 }  // namespace
 
-std::uint64_t fly_headless(LiveSession& session, const HeadlessFlight& flight, double rate_hz,
+std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, double rate_hz,
                            StopSignal& stop) {
     const MonotonicTime start = MonotonicClock::now();
     MonotonicTime next_progress = start + progress_period;
     OutputClock clock(rate_hz, start);
-    const bool ends_with_move = flight.move && !flight.move->loops() && !flight.frames;
-    for (std::uint64_t pictures = 0; !flight.frames || pictures < *flight.frames; ++pictures) {
+    const bool ends_with_move = plan.move && !plan.move->loops() && !plan.frames;
+    for (std::uint64_t pictures = 0; !plan.frames || pictures < *plan.frames; ++pictures) {
         if (stop.wait_for(clock.until_next(MonotonicClock::now()))) break;
         const std::chrono::nanoseconds time = clock.time_of(clock.next_tick(MonotonicClock::now()));
         const double time_s = std::chrono::duration<double>(time).count();
-        if (ends_with_move && time_s > flight.move->duration_s()) break;
-        session.make_picture(flight.move ? flight.move->at(time_s) : flight.start, time);
+        if (ends_with_move && time_s > plan.move->duration_s()) break;
+        session.make_picture(plan.move ? plan.move->at(time_s) : plan.start, time);
         if (MonotonicClock::now() >= next_progress) {
             next_progress += progress_period;
-            log_progress(session, flight, pictures + 1,
+            log_progress(session, plan, pictures + 1,
                          std::chrono::duration<double>(MonotonicClock::now() - start).count());
         }
     }

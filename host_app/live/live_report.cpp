@@ -11,48 +11,84 @@ nlohmann::ordered_json to_json(const Percentiles& p) {
     return {{"count", p.count}, {"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}};
 }
 
-/// One counter of a rig: its key for machines, its heading for people, and where it stands.
+/// One counter of a rig: its key for machines and its heading for people.
 struct Counter {
     const char *key, *heading;
     std::uint64_t value;
 };
 
-std::vector<Counter> counters_of(const RigAccount& rig) {
+/// Counters of one place on the way, which together say what became of every frame there.
+struct CounterGroup {
+    const char *key, *title;
+    std::vector<Counter> counters;
+};
+
+std::vector<CounterGroup> counters_of(const RigAccount& rig) {
     const RigStatus& s = rig.status;
     const RigCounters& r = s.rig_counters;
-    return {{"captured", "captured", r.captured},
-            {"missed", "missed", r.missed},
-            {"rig_late", "rig late", r.late},
-            {"send_dropped", "not sent", r.send_dropped},
-            {"published", "sent", r.published},
-            {"received", "received", s.received},
-            {"undecodable", "damaged", s.undecodable},
-            {"late", "late", s.late},
-            {"queue_dropped", "dropped", s.queue_dropped},
-            {"in_sets", "in sets", s.in_sets},
-            {"fused", "fused", rig.fused},
-            {"superseded", "superseded", rig.superseded}};
+    return {{"rig",
+             "at the rig, since it started",
+             {{"captured", "captured", r.captured},
+              {"missed", "missed", r.missed},
+              {"late", "late", r.late},
+              {"published", "published", r.published}}},
+            {"link",
+             "on the way to this host",
+             {{"offered", "offered", s.link.offered},
+              {"send_dropped", "pushed out", s.link.send_dropped},
+              {"thinned", "thinned", s.link.thinned},
+              {"sent", "sent", s.link.sent},
+              {"lost", "lost", s.lost}}},
+            {"host",
+             "at this host",
+             {{"received", "received", s.received},
+              {"undecodable", "damaged", s.undecodable},
+              {"queue_dropped", "host busy", s.queue_dropped},
+              {"late", "late", s.late},
+              {"duplicate", "duplicate", s.duplicate},
+              {"unsynchronized", "unsynced", s.unsynchronized},
+              {"out_of_step", "out of step", s.out_of_step},
+              {"in_sets", "in sets", s.in_sets},
+              {"fused", "fused", rig.fused},
+              {"superseded", "superseded", rig.superseded}}}};
 }
 
-std::string rig_table(const LiveReport& report) {
-    std::size_t name_width = 3;
+std::string rig_tables(const LiveReport& report) {
+    if (report.rigs.empty()) return "";
+    std::size_t name_width = 4;
     for (const RigAccount& rig : report.rigs)
         name_width = std::max(name_width, rig.status.rig.size());
-    std::string text = fmt::format("{:<{}}", "rig", name_width);
-    if (!report.rigs.empty())
-        for (const Counter& counter : counters_of(report.rigs.front()))
-            text += fmt::format("  {:>8}", counter.heading);
-    text += "  exposure to decoded, p50 / p95 ms\n";
-    for (const RigAccount& rig : report.rigs) {
-        text += fmt::format("{:<{}}", rig.status.rig, name_width);
-        for (const Counter& counter : counters_of(rig))
-            text += fmt::format("  {:>{}}", counter.value,
-                                std::max<std::size_t>(8, std::string(counter.heading).size()));
-        text +=
-            fmt::format("  {:.1f} / {:.1f}", rig.status.latency_ms.p50, rig.status.latency_ms.p95);
-        if (!rig.status.connected) text += "  " + state_of(rig.status);
-        if (!rig.status.last_error.empty()) text += "  last fault: " + rig.status.last_error;
+    const auto width = [](const Counter& counter) {
+        return std::max<std::size_t>(8, std::string_view(counter.heading).size());
+    };
+    std::string text;
+    const std::vector<CounterGroup> groups = counters_of(report.rigs.front());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        text += fmt::format("frames {}\n{:{}}", groups[g].title, "", name_width);
+        for (const Counter& counter : groups[g].counters)
+            text += fmt::format("  {:>{}}", counter.heading, width(counter));
         text += '\n';
+        for (const RigAccount& rig : report.rigs) {
+            text += fmt::format("{:<{}}", rig.status.rig, name_width);
+            const std::vector<CounterGroup> of_rig = counters_of(rig);
+            for (const Counter& counter : of_rig[g].counters)
+                text += fmt::format("  {:>{}}", counter.value, width(counter));
+            text += '\n';
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// What a person must know of a rig beyond its numbers.
+std::string rig_remarks(const LiveReport& report) {
+    std::string text;
+    for (const RigAccount& rig : report.rigs) {
+        if (!rig.status.connected)
+            text += fmt::format("{} is {}\n", rig.status.rig, state_of(rig.status));
+        if (!rig.status.last_error.empty())
+            text +=
+                fmt::format("{}: the last fault was: {}\n", rig.status.rig, rig.status.last_error);
     }
     return text;
 }
@@ -79,7 +115,9 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["rigs"] = nlohmann::ordered_json::array();
     for (const RigAccount& rig : report.rigs) {
         nlohmann::ordered_json entry{{"name", rig.status.rig}, {"state", state_of(rig.status)}};
-        for (const Counter& counter : counters_of(rig)) entry[counter.key] = counter.value;
+        for (const CounterGroup& group : counters_of(rig))
+            for (const Counter& counter : group.counters)
+                entry[group.key][counter.key] = counter.value;
         entry["latency_ms"] = to_json(rig.status.latency_ms);
         if (!rig.status.last_error.empty()) entry["last_error"] = rig.status.last_error;
         json["rigs"].push_back(std::move(entry));
@@ -106,8 +144,9 @@ std::string to_text(const LiveReport& report) {
         "dropped\n\n",
         report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
         report.sets_fused, report.sets_superseded, report.sets_dropped);
-    text += rig_table(report);
-    text += fmt::format("\n{:<10}  {:>8}  {:>8}\n", "stage", "p50 ms", "p95 ms");
+    text += rig_tables(report);
+    text += rig_remarks(report);
+    text += fmt::format("{:<10}  {:>8}  {:>8}\n", "stage", "p50 ms", "p95 ms");
     for (const StageTime& time : report.stages)
         if (time.ms.count > 0)
             text +=

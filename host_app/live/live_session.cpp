@@ -9,6 +9,7 @@
 #include "common/image/image_file.h"
 #include "host_app/live/depth_views.h"
 #include "host_app/live/disparity_picture.h"
+#include "host_app/output/contact_sheet.h"
 
 namespace vantage {
 namespace {
@@ -41,6 +42,22 @@ Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
     for (const RigStatus& rig : status.rigs)
         if ((rig.*times).count > 0 && (rig.*times).p95 >= most.p95) most = rig.*times;
     return most;
+}
+
+/// The virtual view, and one rig's colour and disparity.
+SheetMoment row_of(const Moment& moment, std::size_t row) {
+    SheetMoment stills{moment.title, {{moment.picture, "virtual view"}}};
+    std::vector<const RigFrame*> frames;
+    for (const FrameSet::Slot& slot : moment.set.slots)
+        if (slot.frame) frames.push_back(slot.frame.get());
+    if (frames.empty()) return stills;
+    // Every row shows another rig.
+    const RigFrame& frame = *frames[row % frames.size()];
+    stills.stills.push_back({frame.colour, fmt::format("{}: colour", frame.rig)});
+    stills.stills.push_back(
+        {disparity_picture(frame), fmt::format("{}: disparity, 0 (blue) to {:.0f} px (red)",
+                                               frame.rig, frame.max_disparity_px)});
+    return stills;
 }
 
 }  // namespace
@@ -147,25 +164,12 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
 void LiveSession::keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
                               const ColourImage& picture) {
     constexpr double deg = 180 / std::numbers::pi;
-    SheetMoment moment;
-    moment.title = fmt::format(
+    const std::string title = fmt::format(
         "{:.1f} s   pulse {}   {} of {} rigs   camera at azimuth {:.0f}, elevation {:.0f} degrees, "
         "{:.1f} m",
         std::chrono::duration<double>(time).count(), shown_->trigger_index, shown_->present(),
         shown_->slots.size(), view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m);
-    moment.stills.push_back({picture, "virtual view"});
-    std::vector<const RigFrame*> frames;
-    for (const FrameSet::Slot& slot : shown_->slots)
-        if (slot.frame) frames.push_back(slot.frame.get());
-    if (!frames.empty()) {
-        // Every row shows another rig.
-        const RigFrame& frame = *frames[moments_taken_++ % frames.size()];
-        moment.stills.push_back({frame.colour, fmt::format("rig {}: colour", frame.rig)});
-        moment.stills.push_back(
-            {disparity_picture(frame), fmt::format("rig {}: disparity, 0 (blue) to {:.0f} px (red)",
-                                                   frame.rig, frame.max_disparity_px)});
-    }
-    moments_.add(std::move(moment));
+    moments_.add({title, picture, *shown_});
 }
 
 void LiveSession::next_synthesiser() {
@@ -232,11 +236,13 @@ LiveReport LiveSession::report() {
 void LiveSession::finish() {
     if (pictures_ == 0) return;
     if (recorder_) recorder_->finish();
-    const std::vector<SheetMoment> moments = moments_.chosen();
-    if (!settings_.contact_sheet.empty() && !moments.empty())
-        write_colour_image(
-            settings_.contact_sheet,
-            compose_contact_sheet("Vantage: flight of the virtual camera", moments, sheet_cell_px));
+    if (settings_.contact_sheet.empty()) return;
+    std::vector<SheetMoment> rows;
+    for (const Moment& moment : moments_.chosen()) rows.push_back(row_of(moment, rows.size()));
+    if (rows.empty()) return;
+    write_colour_image(
+        settings_.contact_sheet,
+        compose_contact_sheet("Vantage: flight of the virtual camera", rows, sheet_cell_px));
 }
 
 }  // namespace vantage

@@ -44,6 +44,7 @@ class LiveSession {
     /// Frozen, the set that is shown stays; the camera may still fly.
     void set_frozen(bool frozen) { frozen_ = frozen; }
     bool frozen() const { return frozen_; }
+    bool recording() const { return recorder_.has_value(); }
 
     /// The picture that was made last, read back. Precondition: there is one.
     ColourImage last_picture() const { return last_texture_->download(); }
@@ -81,7 +82,6 @@ class LiveSession {
     std::unique_ptr<Synthesiser> synthesiser_;
     std::optional<VideoRecorder> recorder_;
     MomentCollector moments_;
-    std::uint64_t moments_taken_ = 0;
 
     const Texture* last_texture_ = nullptr;
     std::optional<FrameSet> shown_;

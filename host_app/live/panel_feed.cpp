@@ -33,9 +33,9 @@ PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
     if (const auto rate = rig_rates_.find(status.rig); rate != rig_rates_.end())
         rig.rate_hz = rate->second.per_second();
     rig.latency_ms = status.latency_ms.p50;
-    rig.lost = status.rig_counters.missed + status.rig_counters.late +
-               status.rig_counters.send_dropped + status.undecodable + status.late +
-               status.queue_dropped;
+    rig.lost = status.rig_counters.missed + status.rig_counters.late + status.link.send_dropped +
+               status.lost + status.undecodable + status.late + status.duplicate +
+               status.unsynchronized + status.out_of_step + status.queue_dropped;
     if (const auto picture = disparities_.find(status.rig); picture != disparities_.end())
         rig.disparity = &picture->second;
     return rig;
@@ -74,8 +74,7 @@ void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicT
 }
 
 PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                            std::optional<double> move_progress, bool recording,
-                            std::uint64_t pictures) {
+                            std::optional<double> move_progress, std::uint64_t pictures) {
     const MonotonicTime now = MonotonicClock::now();
     if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
     if (session.sets_shown() != last_set_ && session.latest_latency_ms() > 0) {
@@ -95,7 +94,7 @@ PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const 
             if (slot.frame) state_.timecode = slot.frame->timecode;
     }
     state_.frozen = session.frozen();
-    state_.recording = recording;
+    state_.recording = session.recording();
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.synthesiser = session.synthesiser();
     state_.renderer = renderer_;

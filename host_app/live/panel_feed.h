@@ -17,7 +17,7 @@ namespace vantage {
 class PanelFeed {
   public:
     PanelState state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                     std::optional<double> move_progress, bool recording, std::uint64_t pictures);
+                     std::optional<double> move_progress, std::uint64_t pictures);
 
   private:
     void refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now);

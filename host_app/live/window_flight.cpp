@@ -14,8 +14,8 @@ namespace {
 /// The virtual camera between a planned move and the operator's hands.
 class Helm {
   public:
-    explicit Helm(const WindowFlight& flight)
-        : camera_(flight.start), start_(flight.start), move_(flight.move) {
+    explicit Helm(const FlightPlan& plan)
+        : camera_(plan.start), start_(plan.start), move_(plan.move) {
         if (move_) move_start_s_ = 0;
     }
 
@@ -83,13 +83,13 @@ class Helm {
 
 }  // namespace
 
-std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window,
-                            const WindowFlight& flight, double rate_hz, StopSignal& stop) {
-    Helm helm(flight);
+std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window, const FlightPlan& plan,
+                            double rate_hz, StopSignal& stop) {
+    Helm helm(plan);
     PanelFeed panel;
     OutputClock clock(rate_hz, MonotonicClock::now());
     double last_s = 0;
-    for (std::uint64_t pictures = 0; !flight.frames || pictures < *flight.frames; ++pictures) {
+    for (std::uint64_t pictures = 0; !plan.frames || pictures < *plan.frames; ++pictures) {
         if (stop.wait_for(clock.until_next(MonotonicClock::now()))) break;
         const std::chrono::nanoseconds time = clock.time_of(clock.next_tick(MonotonicClock::now()));
         const double time_s = std::chrono::duration<double>(time).count();
@@ -102,8 +102,7 @@ std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window,
         last_s = time_s;
         const OrbitView view = helm.view(time_s);
         const Texture& picture = session.make_picture(view, time);
-        window.show(panel.state(session, picture, view, helm.move_progress(time_s),
-                                flight.recording, pictures));
+        window.show(panel.state(session, picture, view, helm.move_progress(time_s), pictures));
     }
     return clock.skipped();
 }

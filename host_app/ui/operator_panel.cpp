@@ -130,7 +130,11 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
 
 void draw_rig_table(const PanelState& state, const UiFonts& fonts) {
     heading(fonts, "RIGS");
-    if (!ImGui::BeginTable("rigs", 5, ImGuiTableFlags_SizingStretchProp)) return;
+    if (!ImGui::BeginTable("rigs", 5, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("state", 0, 5.2f * em());
+    for (const char* number : {"fps", "ms", "lost"})
+        ImGui::TableSetupColumn(number, 0, 3.4f * em());
     for (const char* column : {"", "state", "fps", "ms", "lost"}) {
         ImGui::TableNextColumn();
         if (column == std::string("state"))

@@ -123,6 +123,7 @@ TEST_F(LiveSessionTest, KeepsBooksThatAddUp) {
     const nlohmann::ordered_json json = to_json(report);
     EXPECT_EQ(json["sets"]["partial"], 4);
     EXPECT_EQ(json["rigs"][0]["name"], "north");
+    EXPECT_EQ(json["rigs"][0]["host"]["fused"], report.rigs[0].fused);
     EXPECT_EQ(json["stages_ms"]["match"]["p95"], 3);
     EXPECT_FALSE(json["stages_ms"].contains("encode")) << "no film was written";
     const std::string text = to_text(report);
@@ -136,8 +137,8 @@ TEST_F(LiveSessionTest, WritesFilmAndContactSheetOfAFlight) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
     ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
-    HeadlessFlight flight{.start = view_, .move = {}, .frames = 12};
-    fly_headless(session, flight, settings_.rate_hz, stop_);
+    const FlightPlan plan{.start = view_, .move = {}, .frames = 12};
+    fly_headless(session, plan, settings_.rate_hz, stop_);
     session.finish();
     const LiveReport report = session.report();
     EXPECT_EQ(report.pictures, 12u);

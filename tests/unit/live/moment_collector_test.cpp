@@ -10,9 +10,9 @@ namespace {
 std::vector<int> chosen_of(std::uint64_t pictures) {
     MomentCollector collector(4);
     for (std::uint64_t i = 0; i < pictures; ++i)
-        if (collector.wants(i)) collector.add({std::to_string(i), {}});
+        if (collector.wants(i)) collector.add({std::to_string(i), {}, {}});
     std::vector<int> chosen;
-    for (const SheetMoment& moment : collector.chosen()) chosen.push_back(std::stoi(moment.title));
+    for (const Moment& moment : collector.chosen()) chosen.push_back(std::stoi(moment.title));
     return chosen;
 }
 

@@ -1,0 +1,180 @@
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/limits.h"
+#include "common/image/image_file.h"
+#include "host_app/live/headless_flight.h"
+#include "host_app/live/window_flight.h"
+#include "host_app/output/picture_target.h"
+
+namespace vantage {
+namespace {
+
+struct LiveOptions {
+    std::string stage, path, snapshot, film, contact_sheet, size, synthesiser;
+    std::uint64_t frames = 0;
+    double rate_hz = 0, wait_s = 10;
+    bool headless = false, json = false;
+};
+
+/// "1280x720", each side 16..4096.
+cv::Size parse_size(const std::string& text) {
+    int width = 0, height = 0, used = 0;
+    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
+        static_cast<std::size_t>(used) != text.size() || width < 16 || height < 16 ||
+        width > PiLimits::max_image_side_px || height > PiLimits::max_image_side_px)
+        fail("--size is WIDTHxHEIGHT with 16 to {} pixels each, such as 1280x720, not '{}'",
+             PiLimits::max_image_side_px, text);
+    return {width, height};
+}
+
+OrbitView start_view(const StageConfig::View& view) {
+    constexpr double rad = std::numbers::pi / 180;
+    OrbitView start;
+    start.pivot_m = {view.target_m[0], view.target_m[1], view.target_m[2]};
+    start.azimuth_rad = view.azimuth_deg * rad;
+    start.elevation_rad = view.elevation_deg * rad;
+    start.distance_m = view.distance_m;
+    start.field_of_view_rad = view.field_of_view_deg * rad;
+    return constrained(start, {});
+}
+
+LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage) {
+    LiveSettings settings{
+        .width_px = stage.view.width_px,
+        .height_px = stage.view.height_px,
+        .rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz,
+        .synthesiser = options.synthesiser.empty() ? stage.view.synthesiser : options.synthesiser,
+        .film = options.film,
+        .contact_sheet = options.contact_sheet};
+    if (!options.size.empty()) {
+        const cv::Size size = parse_size(options.size);
+        settings.width_px = size.width;
+        settings.height_px = size.height;
+    }
+    return settings;
+}
+
+/// What a session with a window and one without have in common.
+class Show {
+  public:
+    Show(const LiveOptions& options, const StageConfig& stage, const ShaderLibrary& shaders)
+        : options_(options),
+          settings_(live_settings(options, stage)),
+          receiver_(stage),
+          session_(settings_, shaders, feed_of(receiver_)) {}
+
+    LiveSession& session() { return session_; }
+    double rate_hz() const { return settings_.rate_hz; }
+
+    /// Ends the files, prints the summary. Returns how many pictures there were.
+    std::uint64_t finish(std::uint64_t skipped_ticks) {
+        session_.finish();
+        LiveReport report = session_.report();
+        report.skipped_ticks = skipped_ticks;
+        if (options_.json)
+            std::cout << to_json(report).dump() << '\n';
+        else
+            std::cout << to_text(report);
+        return report.pictures;
+    }
+
+  private:
+    const LiveOptions& options_;
+    LiveSettings settings_;
+    StageReceiver receiver_;
+    LiveSession session_;
+};
+
+void live_headless(const LiveOptions& options, const StageConfig& stage, const FlightPlan& plan,
+                   StopSignal& stop) {
+    const EglContext context;
+    GlInfo::query().require_vantage_minimum();
+    const ShaderLibrary shaders;
+    Show show(options, stage, shaders);
+    const auto limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(options.wait_s));
+    if (!show.session().wait_for_rigs(limit, stop)) return;
+    const std::uint64_t skipped = fly_headless(show.session(), plan, show.rate_hz(), stop);
+    if (show.finish(skipped) > 0 && !options.snapshot.empty())
+        write_colour_image(options.snapshot, show.session().last_picture());
+}
+
+void live_in_window(const LiveOptions& options, const StageConfig& stage, const FlightPlan& plan,
+                    StopSignal& stop) {
+    const LiveSettings settings = live_settings(options, stage);
+    OperatorWindow window("Vantage", settings.width_px, settings.height_px);
+    const ShaderLibrary shaders;
+    Show show(options, stage, shaders);
+    const std::uint64_t skipped = fly_in_window(show.session(), window, plan, show.rate_hz(), stop);
+    if (show.finish(skipped) > 0 && !options.snapshot.empty())
+        write_colour_image(options.snapshot, window.screenshot());
+}
+
+void live(const LiveOptions& options) {
+    // Before the receiver's threads, so that they leave the signals to it.
+    StopSignal stop;
+    const StageConfig stage = load_stage_config(options.stage);
+    FlightPlan plan{.start = start_view(stage.view), .move = {}, .frames = {}};
+    if (!options.path.empty()) plan.move = Move::load(options.path);
+    if (options.frames > 0) plan.frames = options.frames;
+    for (const std::string& picture : {options.snapshot, options.contact_sheet})
+        if (!picture.empty()) require_picture_target(picture);
+    if (options.headless)
+        live_headless(options, stage, plan, stop);
+    else
+        live_in_window(options, stage, plan, stop);
+}
+
+}  // namespace
+
+CommandEntry live_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<LiveOptions>();
+        CLI::App* command = program.add_subcommand(
+            "live", "Connect to the rigs of a stage, fuse, fly, put out; ends with a summary");
+        command->add_option("--stage", options->stage, "The stage (TOML)")->required();
+        command->add_flag("--headless", options->headless, "No window");
+        command
+            ->add_option("--frames", options->frames,
+                         "End after this many pictures (default: at the end of the move, else when "
+                         "interrupted)")
+            ->check(CLI::PositiveNumber);
+        command->add_option("--path", options->path, "Fly this move (TOML)");
+        command->add_option("--snapshot", options->snapshot,
+                            "Write the last picture (.png, .jpg); of a window, the panels too");
+        command->add_option("--record", options->film, "Write the flight as a film (.mkv, .mp4)");
+        command->add_option("--contact-sheet", options->contact_sheet,
+                            "Write stills of the flight, with a rig's colour and disparity");
+        command
+            ->add_option("--rate", options->rate_hz,
+                         "Pictures a second (default: the stage's rate)")
+            ->check(CLI::Range(0.1, 240.0));
+        command->add_option("--size", options->size,
+                            "Of the picture, WIDTHxHEIGHT (default: the stage's)");
+        command->add_option("--synth", options->synthesiser,
+                            "Synthesiser (default: the stage's; see render --help)");
+        command
+            ->add_option("--wait", options->wait_s,
+                         "With --headless: seconds that the rigs may take to come")
+            ->check(CLI::Range(0.1, 3600.0))
+            ->capture_default_str();
+        command->add_flag("--json", options->json, "Write the summary as one JSON object");
+        command->footer(
+            "Without --headless a window opens: fly with mouse and keyboard, F1 helps. The summary "
+            "goes "
+            "to stdout,\nthe log to stderr. Ctrl-C ends in order: files are finished, the summary "
+            "is "
+            "printed.");
+        command->callback([options] { live(*options); });
+    }};
+}
+
+}  // namespace vantage

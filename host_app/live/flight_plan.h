@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "host_app/flight/move.h"
+
+namespace vantage {
+
+/// What a session is asked to fly.
+struct FlightPlan {
+    OrbitView start;
+    std::optional<Move> move;             ///< in a window it plays until the operator takes over
+    std::optional<std::uint64_t> frames;  ///< pictures after which the session ends by itself
+};
+
+}  // namespace vantage
