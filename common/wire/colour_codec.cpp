@@ -20,11 +20,11 @@ JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {
 JpegEncoder::~JpegEncoder() { tjDestroy(compressor_); }
 
 std::vector<std::byte> JpegEncoder::encode(const ColourImage& colour, int quality) {
-    std::vector<std::byte> payload(tjBufSize(colour.cols, colour.rows, TJSAMP_420));
+    std::vector<std::byte> payload(tjBufSize(colour.cols, colour.rows, TJSAMP_444));
     auto* data = reinterpret_cast<unsigned char*>(payload.data());
     unsigned long size = payload.size();
     if (tjCompress2(compressor_, colour.data, colour.cols, static_cast<int>(colour.step),
-                    colour.rows, TJPF_RGBA, &data, &size, TJSAMP_420, quality,
+                    colour.rows, TJPF_RGBA, &data, &size, TJSAMP_444, quality,
                     TJFLAG_NOREALLOC) != 0)
         fail("a colour picture of {}x{} cannot be packed as JPEG: {}", colour.cols, colour.rows,
              tjGetErrorStr2(compressor_));
@@ -65,17 +65,15 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
 std::vector<std::byte> LosslessColourEncoder::encode(const ColourImage& colour) {
     const std::size_t count = colour.total();
     planes_.resize(channels * count);
+    std::byte* out = planes_.data();
+    const std::vector<cv::Vec4b> nothing_above(static_cast<std::size_t>(colour.cols));
     for (int channel = 0; channel < channels; ++channel) {
-        std::byte* out = planes_.data() + static_cast<std::size_t>(channel) * count;
-        std::uint8_t above = 0;
+        const cv::Vec4b* above = nothing_above.data();
         for (int y = 0; y < colour.rows; ++y) {
-            const std::uint8_t* row = colour.ptr(y) + channel;
-            std::uint8_t predicted = above;
-            for (int x = 0; x < colour.cols; ++x) {
-                *out++ = static_cast<std::byte>(row[channels * x] - predicted);
-                predicted = row[channels * x];
-            }
-            above = row[0];
+            const cv::Vec4b* row = colour[y];
+            for (int x = 0; x < colour.cols; ++x)
+                *out++ = static_cast<std::byte>(row[x][channel] - above[x][channel]);
+            above = row;
         }
     }
     return compressor_.compress(planes_);
@@ -87,16 +85,15 @@ ColourImage LosslessColourDecoder::decode(std::span<const std::byte> payload, in
         static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
     const std::byte* in = decompressor_.decompress(payload, channels * count, "colour").data();
     ColourImage colour(height_px, width_px);
+    const std::vector<cv::Vec4b> nothing_above(static_cast<std::size_t>(width_px));
     for (int channel = 0; channel < channels; ++channel) {
-        std::uint8_t above = 0;
+        const cv::Vec4b* above = nothing_above.data();
         for (int y = 0; y < height_px; ++y) {
-            std::uint8_t* row = colour.ptr(y) + channel;
-            std::uint8_t predicted = above;
-            for (int x = 0; x < width_px; ++x) {
-                predicted = static_cast<std::uint8_t>(predicted + std::to_integer<unsigned>(*in++));
-                row[channels * x] = predicted;
-            }
-            above = row[0];
+            cv::Vec4b* row = colour[y];
+            for (int x = 0; x < width_px; ++x)
+                row[x][channel] =
+                    static_cast<std::uint8_t>(above[x][channel] + std::to_integer<unsigned>(*in++));
+            above = row;
         }
     }
     return colour;

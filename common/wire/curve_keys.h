@@ -28,8 +28,8 @@ CurveKeys load_key_file(const std::filesystem::path& path);
 bool is_curve_key(std::string_view text);
 
 /// Public keys of hosts, each with the name that follows it on its line (or empty): one key a line,
-/// then any words; empty lines and lines that begin with '#' are comments, unless the '#' begins a
-/// key. Throws Error with file and line for anything else.
+/// then any words; empty lines and lines that begin with '#', which no key does, are comments.
+/// Throws Error with file and line for anything else.
 std::map<std::string, std::string> load_authorized_hosts(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -20,17 +20,18 @@ std::vector<std::byte> DisparityEncoder::encode(const DisparityImage& disparity)
     planes_.resize(2 * count);
     std::byte* low = planes_.data();
     std::byte* high = low + count;
-    std::uint16_t above = 0;
+    const std::vector<std::uint16_t> nothing_above(static_cast<std::size_t>(disparity.cols), 0);
+    const std::uint16_t* above = nothing_above.data();
     for (int y = 0; y < disparity.rows; ++y) {
         const std::uint16_t* row = disparity[y];
-        std::uint16_t predicted = above;
         for (int x = 0; x < disparity.cols; ++x) {
-            const std::uint16_t folded = fold(static_cast<std::uint16_t>(row[x] - predicted));
-            *low++ = static_cast<std::byte>(folded & 0xff);
-            *high++ = static_cast<std::byte>(folded >> 8);
-            predicted = row[x];
+            const std::uint16_t folded = fold(static_cast<std::uint16_t>(row[x] - above[x]));
+            low[x] = static_cast<std::byte>(folded & 0xff);
+            high[x] = static_cast<std::byte>(folded >> 8);
         }
-        above = row[0];
+        low += disparity.cols;
+        high += disparity.cols;
+        above = row;
     }
     return compressor_.compress(planes_);
 }
@@ -42,17 +43,18 @@ DisparityImage DisparityDecoder::decode(std::span<const std::byte> payload, int 
     const std::byte* low = decompressor_.decompress(payload, 2 * count, "disparity").data();
     const std::byte* high = low + count;
     DisparityImage disparity(height_px, width_px);
-    std::uint16_t above = 0;
+    const std::vector<std::uint16_t> nothing_above(static_cast<std::size_t>(width_px), 0);
+    const std::uint16_t* above = nothing_above.data();
     for (int y = 0; y < height_px; ++y) {
         std::uint16_t* row = disparity[y];
-        std::uint16_t predicted = above;
         for (int x = 0; x < width_px; ++x) {
-            const auto folded = static_cast<std::uint16_t>(std::to_integer<unsigned>(*low++) |
-                                                           std::to_integer<unsigned>(*high++) << 8);
-            predicted = static_cast<std::uint16_t>(predicted + unfold(folded));
-            row[x] = predicted;
+            const auto folded = static_cast<std::uint16_t>(std::to_integer<unsigned>(low[x]) |
+                                                           std::to_integer<unsigned>(high[x]) << 8);
+            row[x] = static_cast<std::uint16_t>(above[x] + unfold(folded));
         }
-        above = row[0];
+        low += width_px;
+        high += width_px;
+        above = row;
     }
     return disparity;
 }

@@ -24,6 +24,8 @@ struct RigCounters {
     std::uint64_t late = 0;          ///< dropped because a stage was still busy
     std::uint64_t published = 0;     ///< handed to the publisher (which fills this in)
     std::uint64_t send_dropped = 0;  ///< dropped for slow hosts, all hosts together (likewise)
+
+    bool operator==(const RigCounters&) const = default;
 };
 
 /// What happened to the published frames on their way to one host, counted by the rig. Every
@@ -35,6 +37,8 @@ struct LinkCounters {
     std::uint64_t send_dropped = 0;  ///< pushed out of the queue by newer ones, or left in it when
                                      ///< the host went away
     std::uint64_t thinned = 0;       ///< left out as the host asked
+
+    bool operator==(const LinkCounters&) const = default;
 };
 
 /// One published instant of one rig, decoded: what the host gets, what the rig packs.

@@ -1,0 +1,269 @@
+#include "common/wire/frame_codec.h"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/wire/limits.h"
+#include "frame.pb.h"
+#include "tests/support/wire_frames.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int lossless = 0;
+
+RigFrame decode(const PackedFrame& packed) {
+    return FrameDecoder().decode(packed.header, packed.colour, packed.disparity);
+}
+
+std::string refusal_of(const PackedFrame& packed) {
+    try {
+        decode(packed);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
+    EXPECT_EQ(got.rig, sent.rig);
+    EXPECT_EQ(got.session, sent.session);
+    EXPECT_EQ(got.synchronized, sent.synchronized);
+    EXPECT_EQ(got.trigger_index, sent.trigger_index);
+    EXPECT_EQ(got.exposure, sent.exposure);
+    EXPECT_EQ(got.published, sent.published);
+    EXPECT_EQ(got.timecode, sent.timecode);
+    EXPECT_EQ(got.calibration_id, sent.calibration_id);
+    EXPECT_EQ(got.geometry.width_px, sent.geometry.width_px);
+    EXPECT_EQ(got.geometry.height_px, sent.geometry.height_px);
+    EXPECT_EQ(got.geometry.f_px, sent.geometry.f_px);
+    EXPECT_EQ(got.geometry.cx_left_px, sent.geometry.cx_left_px);
+    EXPECT_EQ(got.geometry.cx_right_px, sent.geometry.cx_right_px);
+    EXPECT_EQ(got.geometry.cy_px, sent.geometry.cy_px);
+    EXPECT_EQ(got.geometry.baseline_m, sent.geometry.baseline_m);
+    EXPECT_EQ(got.world_from_camera.matrix(), sent.world_from_camera.matrix());
+    EXPECT_EQ(got.max_disparity_px, sent.max_disparity_px);
+    EXPECT_EQ(got.times.capture_ms, sent.times.capture_ms);
+    EXPECT_EQ(got.times.rectify_ms, sent.times.rectify_ms);
+    EXPECT_EQ(got.times.match_ms, sent.times.match_ms);
+    EXPECT_EQ(got.times.pack_ms, sent.times.pack_ms);
+    EXPECT_EQ(got.counters.captured, sent.counters.captured);
+    EXPECT_EQ(got.counters.missed, sent.counters.missed);
+    EXPECT_EQ(got.counters.late, sent.counters.late);
+}
+
+TEST(FrameCodec, GivesBackEveryNumberAndPixelOfALosslessFrame) {
+    RigFrame sent = make_frame(max_trigger_index, 311, 239);
+    sent.timecode = "23:59:59;29";
+    FrameEncoder encoder(lossless);
+    const RigFrame got = decode(encoder.encode(sent));
+    expect_same_numbers(got, sent);
+    EXPECT_TRUE(same_pixels(got.colour, sent.colour));
+    EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
+}
+
+TEST(FrameCodec, JpegColourLeavesTheRestExact) {
+    RigFrame sent = make_frame(3);
+    FrameEncoder encoder(85);
+    const RigFrame got = decode(encoder.encode(sent));
+    expect_same_numbers(got, sent);
+    EXPECT_EQ(got.colour.size(), sent.colour.size());
+    EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
+}
+
+TEST(FrameCodec, DisparityMayBeSmallerThanColourAndEitherMayBeMissing) {
+    FrameEncoder encoder(lossless);
+    FrameDecoder decoder;
+    const auto cross = [&](RigFrame sent) {
+        const PackedFrame packed = encoder.encode(sent);
+        const RigFrame got = decoder.decode(packed.header, packed.colour, packed.disparity);
+        EXPECT_TRUE(same_pixels(got.colour, sent.colour));
+        EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
+    };
+    RigFrame frame = make_frame(3);
+    frame.disparity = DisparityImage(23, 30, std::uint16_t{7});
+    cross(frame);
+    frame.disparity = DisparityImage();
+    cross(frame);
+    frame = make_frame(3);
+    frame.colour = ColourImage();
+    cross(frame);
+}
+
+TEST(FrameCodec, OneDecoderTakesFramesOfChangingSizeAndSurvivesBadOnes) {
+    FrameEncoder encoder(lossless);
+    FrameDecoder decoder;
+    for (const int width : {61, 311, 5, 97}) {
+        RigFrame sent = make_frame(3, width, 47);
+        const PackedFrame packed = encoder.encode(sent);
+        EXPECT_THROW(decoder.decode(packed.header, packed.disparity, packed.colour), Error);
+        const RigFrame got = decoder.decode(packed.header, packed.colour, packed.disparity);
+        EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
+    }
+}
+
+TEST(FrameCodec, RefusesToPackWhatNoHostWouldTake) {
+    FrameEncoder encoder(85);
+    const auto refused = [&](const std::function<void(RigFrame&)>& spoil) {
+        RigFrame frame = make_frame(3);
+        spoil(frame);
+        EXPECT_THROW(encoder.encode(frame), Error);
+    };
+    refused([](RigFrame& f) { f.rig = "no blanks"; });
+    refused([](RigFrame& f) { f.geometry.f_px = std::numeric_limits<double>::quiet_NaN(); });
+    refused([](RigFrame& f) { f.geometry.width_px = -1; });
+    refused([](RigFrame& f) { f.geometry.width_px += 1; });
+    refused([](RigFrame& f) { f.world_from_camera.linear() *= 2; });
+    refused([](RigFrame& f) { f.disparity = DisparityImage(99, 99); });
+    refused([](RigFrame& f) { f.colour = ColourImage(), f.disparity = DisparityImage(); });
+    EXPECT_THROW(FrameEncoder(101), Error);
+    EXPECT_THROW(FrameEncoder(-1), Error);
+}
+
+/// A good frame whose header is then spoiled in one way.
+struct Spoiled {
+    const char* name;
+    std::function<void(wire::FrameHeader&)> spoil;
+    const char* expected;  ///< in the sentence
+};
+
+class HostileHeaderTest : public testing::TestWithParam<Spoiled> {};
+
+TEST_P(HostileHeaderTest, IsRefusedWithASentenceThatNamesTheFault) {
+    RigFrame frame = make_frame(3);
+    PackedFrame packed = FrameEncoder(lossless).encode(frame);
+    wire::FrameHeader header;
+    ASSERT_TRUE(
+        header.ParseFromArray(packed.header.data(), static_cast<int>(packed.header.size())));
+    GetParam().spoil(header);
+    packed.header.resize(header.ByteSizeLong());
+    header.SerializeToArray(packed.header.data(), static_cast<int>(packed.header.size()));
+    EXPECT_THAT(refusal_of(packed), HasSubstr(GetParam().expected));
+}
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, HostileHeaderTest,
+    testing::Values(
+        Spoiled{"OtherVersion", [](auto& h) { h.set_schema_version(wire_schema_version + 1); },
+                "schema version"},
+        Spoiled{"NoVersion", [](auto& h) { h.clear_schema_version(); }, "schema version"},
+        Spoiled{"NoRigName", [](auto& h) { h.clear_rig(); }, "rig name"},
+        Spoiled{"LongRigName", [](auto& h) { h.set_rig(std::string(65, 'a')); }, "rig name"},
+        Spoiled{"ControlCharacterInName", [](auto& h) { h.set_rig("rig\n"); }, "rig name"},
+        Spoiled{"CalibrationId", [](auto& h) { h.set_calibration_id("a b"); }, "calibration id"},
+        Spoiled{"Timecode", [](auto& h) { h.set_timecode("1:2:3:4"); }, "timecode"},
+        Spoiled{"TimecodeLetters", [](auto& h) { h.set_timecode("aa:bb:cc:dd"); }, "timecode"},
+        Spoiled{"TriggerIndex", [](auto& h) { h.set_trigger_index(max_trigger_index + 1); },
+                "trigger index"},
+        Spoiled{"NegativeExposure", [](auto& h) { h.set_exposure_tai_ns(-1); }, "times"},
+        Spoiled{"NoGeometry", [](auto& h) { h.clear_geometry(); }, "picture size of 0x0"},
+        Spoiled{"HugePicture", [](auto& h) { h.mutable_geometry()->set_width_px(4097); },
+                "4097x47"},
+        Spoiled{"HugerPicture", [](auto& h) { h.mutable_geometry()->set_height_px(0xffffffffu); },
+                "61x4294967295"},
+        Spoiled{"FocalLengthNaN", [](auto& h) { h.mutable_geometry()->set_f_px(nan); }, "f_px"},
+        Spoiled{"FocalLengthZero", [](auto& h) { h.mutable_geometry()->set_f_px(0); }, "f_px"},
+        Spoiled{"PrincipalPoint", [](auto& h) { h.mutable_geometry()->set_cx_left_px(infinity); },
+                "cx_left_px"},
+        Spoiled{"RightPrincipalPoint", [](auto& h) { h.mutable_geometry()->set_cx_right_px(nan); },
+                "cx_right_px"},
+        Spoiled{"PrincipalRow", [](auto& h) { h.mutable_geometry()->set_cy_px(-infinity); },
+                "cy_px"},
+        Spoiled{"BaselineNegative", [](auto& h) { h.mutable_geometry()->set_baseline_m(-0.1); },
+                "baseline_m"},
+        Spoiled{"PoseShort",
+                [](auto& h) { h.mutable_geometry()->mutable_world_from_camera()->RemoveLast(); },
+                "11 numbers"},
+        Spoiled{"PoseLong", [](auto& h) { h.mutable_geometry()->add_world_from_camera(0); },
+                "13 numbers"},
+        Spoiled{"PoseNaN", [](auto& h) { h.mutable_geometry()->set_world_from_camera(5, nan); },
+                "world_from_camera"},
+        Spoiled{"PoseScaled",
+                [](auto& h) {
+                    for (int i = 0; i < 12; ++i)
+                        h.mutable_geometry()->set_world_from_camera(
+                            i, 1.01 * h.geometry().world_from_camera(i));
+                },
+                "not a rotation"},
+        Spoiled{"PoseMirrored",
+                [](auto& h) {
+                    for (int i = 0; i < 3; ++i)
+                        h.mutable_geometry()->set_world_from_camera(
+                            i, -h.geometry().world_from_camera(i));
+                },
+                "not a rotation"},
+        Spoiled{"PoseFarAway", [](auto& h) { h.mutable_geometry()->set_world_from_camera(3, 1e9); },
+                "world_from_camera"},
+        Spoiled{"DisparityHuge", [](auto& h) { h.set_disparity_width_px(5000); }, "5000x47"},
+        Spoiled{"DisparityEmpty", [](auto& h) { h.set_disparity_height_px(0); }, "61x0"},
+        Spoiled{"DisparityLargerThanColour", [](auto& h) { h.set_disparity_width_px(62); },
+                "62x47"},
+        Spoiled{"DisparityOfAnotherSize", [](auto& h) { h.set_disparity_width_px(60); },
+                "disparity payload"},
+        Spoiled{"ColourOfAnotherSize", [](auto& h) { h.mutable_geometry()->set_width_px(62); },
+                "colour payload"},
+        Spoiled{"ColourCodecUnknown",
+                [](auto& h) { h.set_colour_codec(static_cast<wire::FrameHeader::ColourCodec>(9)); },
+                "colour codec 9"},
+        Spoiled{"DisparityCodecUnknown",
+                [](auto& h) {
+                    h.set_disparity_codec(static_cast<wire::FrameHeader::DisparityCodec>(-3));
+                },
+                "disparity codec -3"},
+        Spoiled{"ColourCodecWrong",
+                [](auto& h) { h.set_colour_codec(wire::FrameHeader::COLOUR_JPEG); }, "JPEG"},
+        Spoiled{"ColourDenied", [](auto& h) { h.set_colour_codec(wire::FrameHeader::COLOUR_NONE); },
+                "without colour"},
+        Spoiled{"DisparityDenied",
+                [](auto& h) { h.set_disparity_codec(wire::FrameHeader::DISPARITY_NONE); },
+                "without disparity"},
+        Spoiled{"MaxDisparity", [](auto& h) { h.set_max_disparity_px(1e9f); }, "max_disparity_px"},
+        Spoiled{"StageTime",
+                [](auto& h) {
+                    h.mutable_times()->set_match_ms(std::numeric_limits<float>::quiet_NaN());
+                },
+                "match_ms"}),
+    [](const auto& spoiled) { return std::string(spoiled.param.name); });
+
+TEST(FrameCodec, EveryTruncationOfTheHeaderIsRefused) {
+    RigFrame frame = make_frame(3);
+    const PackedFrame whole = FrameEncoder(lossless).encode(frame);
+    for (std::size_t size = 0; size < whole.header.size(); ++size) {
+        PackedFrame cut = whole;
+        cut.header.resize(size);
+        EXPECT_NE(refusal_of(cut), "") << size;
+    }
+}
+
+TEST(FrameCodec, PayloadsBeyondTheirPictureAreRefused) {
+    RigFrame frame = make_frame(3);
+    PackedFrame packed = FrameEncoder(lossless).encode(frame);
+    packed.colour.resize(61 * 47 * 4 + payload_slack_bytes + 1);
+    EXPECT_THAT(refusal_of(packed), HasSubstr("beyond the limit"));
+    packed = FrameEncoder(lossless).encode(frame);
+    packed.disparity.resize(61 * 47 * 2 + payload_slack_bytes + 1);
+    EXPECT_THAT(refusal_of(packed), HasSubstr("beyond the limit"));
+    packed = FrameEncoder(lossless).encode(frame);
+    packed.header.resize(max_header_bytes + 1);
+    EXPECT_THAT(refusal_of(packed), HasSubstr("beyond the limit"));
+}
+
+TEST(FrameCodec, TrailingBytesAreRefused) {
+    RigFrame frame = make_frame(3);
+    PackedFrame packed = FrameEncoder(lossless).encode(frame);
+    packed.disparity.push_back(std::byte{1});
+    EXPECT_THAT(refusal_of(packed), HasSubstr("damaged"));
+}
+
+}  // namespace
+}  // namespace vantage

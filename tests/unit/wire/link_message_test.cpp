@@ -1,0 +1,108 @@
+#include "common/wire/link_message.h"
+
+#include <functional>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/wire/limits.h"
+#include "link.pb.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::byte> bytes_of(const google::protobuf::MessageLite& message) {
+    std::vector<std::byte> bytes(message.ByteSizeLong());
+    message.SerializeToArray(bytes.data(), static_cast<int>(bytes.size()));
+    return bytes;
+}
+
+template <class Decode>
+std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
+    try {
+        decode(bytes);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+TEST(LinkMessage, HostMessageComesBackWhole) {
+    const HostMessage sent{11, 12, 13, 14, false, 15};
+    EXPECT_EQ(decode_host_message(encode(sent)), sent);
+}
+
+TEST(LinkMessage, RigMessageComesBackWhole) {
+    RigMessage sent;
+    sent.rig = "rig-a";
+    sent.session = 1;
+    sent.link = 2;
+    sent.counters = {10, 5, 3, 2};
+    sent.rig_counters = {20, 1, 2, 17, 3};
+    const RigMessage got = decode_rig_message(encode(sent));
+    EXPECT_EQ(got.rig, sent.rig);
+    EXPECT_EQ(got.session, sent.session);
+    EXPECT_EQ(got.link, sent.link);
+    EXPECT_EQ(got.counters, sent.counters);
+    EXPECT_EQ(got.rig_counters, sent.rig_counters);
+    EXPECT_EQ(got.refusal, "");
+}
+
+TEST(LinkMessage, ARefusalNeedsNoLinkAndIsCutToItsLimit) {
+    RigMessage sent;
+    sent.rig = "rig-a";
+    sent.refusal = std::string(2000, 'x');
+    EXPECT_EQ(decode_rig_message(encode(sent)).refusal, std::string(512, 'x'));
+}
+
+TEST(LinkMessage, HostileHostMessagesAreRefused) {
+    const auto refusal = [](const std::function<void(wire::HostMessage&)>& spoil) {
+        wire::HostMessage message;
+        message.set_schema_version(wire_schema_version);
+        message.set_host_id(1);
+        message.set_credit_window(1);
+        message.set_rate_divisor(1);
+        spoil(message);
+        return refusal_of(decode_host_message, bytes_of(message));
+    };
+    EXPECT_EQ(refusal([](auto&) {}), "");
+    EXPECT_THAT(refusal([](auto& m) { m.set_schema_version(99); }), HasSubstr("version 99"));
+    EXPECT_THAT(refusal([](auto& m) { m.clear_host_id(); }), HasSubstr("host id"));
+    EXPECT_THAT(refusal([](auto& m) { m.clear_credit_window(); }), HasSubstr("credit window"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_credit_window(max_credit_window + 1); }),
+                HasSubstr("credit window"));
+    EXPECT_THAT(refusal([](auto& m) { m.clear_rate_divisor(); }), HasSubstr("rate divisor"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_rate_divisor(max_rate_divisor + 1); }),
+                HasSubstr("rate divisor"));
+    EXPECT_THAT(refusal_of(decode_host_message, std::vector<std::byte>(max_header_bytes + 1)),
+                HasSubstr("beyond the limit"));
+    EXPECT_THAT(refusal_of(decode_host_message, {std::byte{0x08}}), HasSubstr("truncated"));
+}
+
+TEST(LinkMessage, HostileRigMessagesAreRefused) {
+    const auto refusal = [](const std::function<void(wire::RigMessage&)>& spoil) {
+        wire::RigMessage message;
+        message.set_schema_version(wire_schema_version);
+        message.set_rig("rig-a");
+        message.set_link(5);
+        spoil(message);
+        return refusal_of(decode_rig_message, bytes_of(message));
+    };
+    EXPECT_EQ(refusal([](auto&) {}), "");
+    EXPECT_THAT(refusal([](auto& m) { m.set_schema_version(0); }), HasSubstr("version 0"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_rig("a b"); }), HasSubstr("rig name"));
+    EXPECT_THAT(refusal([](auto& m) { m.clear_link(); }), HasSubstr("without link"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_refusal(std::string(513, 'x')); }),
+                HasSubstr("beyond the limit"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_refusal("red\x1b[31m"); }),
+                HasSubstr("control characters"));
+    EXPECT_THAT(refusal_of(decode_rig_message, {std::byte{0x12}, std::byte{0x7f}}),
+                HasSubstr("truncated"));
+}
+
+}  // namespace
+}  // namespace vantage
