@@ -1,0 +1,101 @@
+#include "rig_firmware/daemon/gpu_stage.h"
+
+#include <chrono>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr const char* exact_matcher = "exact";
+
+float milliseconds_since(MonotonicTime start) {
+    return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
+}
+
+std::string chosen_matcher(const RigConfig& config) {
+    if (config.match.matcher == exact_matcher && config.source.kind != "virtual")
+        fail(
+            "'matcher = \"exact\"' takes the virtual stage's own depth, and the source is '{}': "
+            "leave 'matcher' out or name a real one",
+            config.source.kind);
+    if (!config.match.matcher.empty()) return config.match.matcher;
+    return default_matcher(parse_preset(config.match.preset));
+}
+
+std::unique_ptr<Matcher> chosen(const std::string& name, const RigConfig& config,
+                                const ShaderLibrary& shaders, const RectifiedStereo& geometry) {
+    if (name == exact_matcher) return nullptr;
+    return make_matcher(name, shaders,
+                        {.width_px = geometry.width_px,
+                         .height_px = geometry.height_px,
+                         .disparities = config.match.disparities,
+                         .preset = parse_preset(config.match.preset),
+                         .fill = config.match.fill});
+}
+
+}  // namespace
+
+GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration)
+    : info_(GlInfo::query()),
+      calibration_(calibration),
+      matcher_name_(chosen_matcher(config)),
+      disparities_(config.match.disparities),
+      rectified_already_(is_identity(calibration, Side::left)),
+      left_raw_(TextureFormat::rgba8, calibration.left.width_px, calibration.left.height_px),
+      right_raw_(TextureFormat::rgba8, calibration.right.width_px, calibration.right.height_px),
+      rectify_left_(shaders_, calibration, Side::left),
+      rectify_right_(shaders_, calibration, Side::right),
+      matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
+    info_.require_vantage_minimum();
+}
+
+RigFrame GpuStage::process(StereoFrame frame) {
+    shaders_.poll();
+    RigFrame result;
+    const MonotonicTime start = MonotonicClock::now();
+    left_raw_.upload(frame.left);
+    right_raw_.upload(frame.right);
+    const Texture& left = rectify_left_.rectify(left_raw_);
+    const Texture& right = rectify_right_.rectify(right_raw_);
+    // Reading back waits for the GPU, so that the two times below are those of the GPU's work too.
+    result.colour = rectified_already_ ? frame.left : ColourImage(left.download());
+    result.times.rectify_ms = milliseconds_since(start);
+
+    const MonotonicTime matching = MonotonicClock::now();
+    result.disparity = find_disparity(frame, left, right);
+    result.times.match_ms = milliseconds_since(matching);
+
+    result.synchronized = frame.synchronized;
+    result.trigger_index = frame.trigger_index;
+    result.exposure = frame.exposure;
+    result.calibration_id = calibration_.id;
+    result.geometry = calibration_.rectified;
+    result.world_from_camera = calibration_.world_from_rectified_left();
+    result.max_disparity_px = static_cast<float>(disparities_);
+    return result;
+}
+
+DisparityImage GpuStage::find_disparity(const StereoFrame& frame, const Texture& left,
+                                        const Texture& right) {
+    if (matcher_) return matcher_->match(left, right).download();
+    if (frame.exact_disparity.empty())
+        fail("the source delivers no exact disparity: name a real matcher");
+    return frame.exact_disparity;
+}
+
+std::vector<std::string> GpuStage::report() const {
+    std::vector<std::string> lines;
+    for (const EglAttempt& attempt : context_.attempts())
+        lines.push_back(fmt::format("EGL {}: {}", attempt.platform, attempt.outcome));
+    lines.push_back(fmt::format("GPU: {}, {}", info_.renderer, info_.version));
+    lines.push_back(rectified_already_ ? "the pictures are rectified already"
+                                       : "rectifying on the GPU");
+    lines.push_back(
+        fmt::format("matcher {}, {} disparities, {}x{}, {:.1f} MB of GPU objects", matcher_name_,
+                    disparities_, calibration_.rectified.width_px, calibration_.rectified.height_px,
+                    matcher_ ? static_cast<double>(matcher_->gpu_bytes()) * 1e-6 : 0.0));
+    return lines;
+}
+
+}  // namespace vantage

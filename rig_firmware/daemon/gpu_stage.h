@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config/rig_config.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/limits.h"
+#include "common/gl/shader_library.h"
+#include "common/rectification/rectify_pass.h"
+#include "common/wire/frame_message.h"
+#include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/stereo/matcher.h"
+
+namespace vantage {
+
+/// The GPU's part of the road: upload, rectify, match, read back. Owns its GL context; made, used
+/// and destroyed on one thread.
+class GpuStage {
+  public:
+    /// Throws Error if there is no OpenGL ES, or the config's matcher or calibration does not fit.
+    GpuStage(const RigConfig& config, const StereoCalibration& calibration);
+
+    /// Rectifies and matches one instant. Fills picture, disparity, geometry, pose and two of the
+    /// times.
+    RigFrame process(StereoFrame frame);
+
+    /// Lines for the start-up report: how the context was had, the renderer, the matcher.
+    std::vector<std::string> report() const;
+
+  private:
+    DisparityImage find_disparity(const StereoFrame& frame, const Texture& left,
+                                  const Texture& right);
+
+    EglContext context_;
+    GlInfo info_;
+    ShaderLibrary shaders_;
+    StereoCalibration calibration_;
+    std::string matcher_name_;
+    int disparities_;
+    bool rectified_already_;
+    Texture left_raw_, right_raw_;
+    RectifyPass rectify_left_, rectify_right_;
+    std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")
+};
+
+}  // namespace vantage

@@ -1,0 +1,237 @@
+#include "rig_firmware/daemon/rig_daemon.h"
+
+#include <atomic>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "common/base/bounded_queue.h"
+#include "common/base/error.h"
+#include "rig_firmware/capture/rig_calibration.h"
+#include "rig_firmware/daemon/gpu_stage.h"
+#include "rig_firmware/daemon/timecode.h"
+
+namespace vantage {
+namespace {
+
+// How often a waiting thread looks whether it is to end.
+constexpr std::chrono::milliseconds wait_slice(100);
+
+struct CapturedFrame {
+    StereoFrame frame;
+    float capture_ms = 0;
+};
+
+}  // namespace
+
+struct RigDaemon::Impl {
+    explicit Impl(const RigConfig& rig_config)
+        : config(rig_config), publisher(rig_config.stream, rig_config.name) {}
+
+    void start();
+    void capture(std::promise<cv::Size> ready);
+    void run_gpu(const StereoCalibration& calibration, std::promise<void> ready);
+    void publish();
+    void stop();
+
+    /// Runs a thread's work; what it throws ends the road and is kept for rethrow_failure().
+    template <class Work>
+    void guarded(Work work) {
+        try {
+            work();
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            stopping = true;
+        }
+    }
+
+    template <class Change>
+    void count(Change change) {
+        RigCounters now;
+        {
+            const std::lock_guard lock(mutex);
+            change(counters);
+            now = counters;
+        }
+        publisher.report(now);
+    }
+
+    const RigConfig config;
+    Publisher publisher;
+
+    BoundedQueue<CapturedFrame> captured{1};
+    BoundedQueue<RigFrame> matched{1};
+
+    mutable std::mutex mutex;
+    RigCounters counters;
+    std::vector<SourceCounter> source_counters;
+    PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms;
+    std::vector<std::string> source_report, gpu_report;
+    std::exception_ptr failure;
+
+    std::atomic<bool> stopping = false;
+    std::atomic<bool> finished = false;
+    std::thread capture_thread, gpu_thread, publish_thread;
+};
+
+void RigDaemon::Impl::start() {
+    std::promise<cv::Size> source_ready;
+    std::future<cv::Size> size = source_ready.get_future();
+    capture_thread = std::thread([this, p = std::move(source_ready)]() mutable {
+        guarded([&] { capture(std::move(p)); });
+        captured.close();
+    });
+    const StereoCalibration calibration = rig_calibration(config, size.get());
+    std::promise<void> gpu_ready;
+    std::future<void> gpu = gpu_ready.get_future();
+    gpu_thread = std::thread([this, calibration, p = std::move(gpu_ready)]() mutable {
+        guarded([&] { run_gpu(calibration, std::move(p)); });
+        matched.close();
+    });
+    gpu.get();
+    publish_thread = std::thread([this] {
+        guarded([&] { publish(); });
+        finished = true;
+    });
+}
+
+void RigDaemon::Impl::capture(std::promise<cv::Size> ready) {
+    std::unique_ptr<StereoSource> source;
+    try {
+        source = make_source(config);
+        const std::lock_guard lock(mutex);
+        source_report = source->report();
+    } catch (...) {
+        ready.set_exception(std::current_exception());
+        return;
+    }
+    ready.set_value(source->size());
+    while (!stopping && !source->ended()) {
+        std::optional<StereoFrame> frame = source->next(wait_slice);
+        const std::uint64_t missed = source->missed();
+        if (!frame) {
+            count([&](RigCounters& c) { c.missed = missed; });
+            continue;
+        }
+        const auto age = TaiClock::now() - frame->exposure;
+        const float age_ms = std::chrono::duration<float, std::milli>(age).count();
+        const bool made_room = captured.push({std::move(*frame), age_ms}).has_value();
+        count([&](RigCounters& c) {
+            c.missed = missed;
+            ++c.captured;
+            c.late += made_room;
+            source_counters = source->counters();
+        });
+    }
+}
+
+void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise<void> ready) {
+    std::optional<GpuStage> gpu;
+    try {
+        gpu.emplace(config, calibration);
+        const std::lock_guard lock(mutex);
+        gpu_report = gpu->report();
+    } catch (...) {
+        ready.set_exception(std::current_exception());
+        return;
+    }
+    ready.set_value();
+    while (!(captured.closed() && captured.size() == 0)) {
+        std::optional<CapturedFrame> next = captured.pop_for(wait_slice);
+        if (!next) continue;
+        RigFrame frame = gpu->process(std::move(next->frame));
+        frame.times.capture_ms = next->capture_ms;
+        if (matched.push(std::move(frame))) count([](RigCounters& c) { ++c.late; });
+    }
+}
+
+void RigDaemon::Impl::publish() {
+    while (!(matched.closed() && matched.size() == 0)) {
+        std::optional<RigFrame> frame = matched.pop_for(wait_slice);
+        if (!frame) continue;
+        if (frame->synchronized)
+            frame->timecode = time_of_day_code(frame->exposure, config.source.rate_hz);
+        const RigStageTimes times = frame->times;
+        {
+            const std::lock_guard lock(mutex);
+            frame->counters = counters;
+        }
+        const MonotonicTime start = MonotonicClock::now();
+        publisher.publish(std::move(*frame));
+        const auto packing = MonotonicClock::now() - start;
+        const std::lock_guard lock(mutex);
+        capture_ms.add(times.capture_ms);
+        rectify_ms.add(times.rectify_ms);
+        match_ms.add(times.match_ms);
+        pack_ms.add(std::chrono::duration<double, std::milli>(packing).count());
+    }
+}
+
+void RigDaemon::Impl::stop() {
+    stopping = true;
+    // The source's thread ends first and closes what it feeds; so each stage drains what it was
+    // given.
+    if (capture_thread.joinable()) capture_thread.join();
+    captured.close();
+    if (gpu_thread.joinable()) gpu_thread.join();
+    matched.close();
+    if (publish_thread.joinable()) publish_thread.join();
+}
+
+RigDaemon::RigDaemon(const RigConfig& config) : impl_(std::make_unique<Impl>(config)) {
+    try {
+        impl_->start();
+    } catch (...) {
+        impl_->stop();
+        throw;
+    }
+}
+
+RigDaemon::~RigDaemon() { impl_->stop(); }
+
+bool RigDaemon::running() const { return !impl_->finished && !impl_->stopping; }
+
+void RigDaemon::rethrow_failure() const {
+    std::exception_ptr failure;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        failure = impl_->failure;
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+void RigDaemon::stop() { impl_->stop(); }
+
+DaemonStatus RigDaemon::status() const {
+    DaemonStatus status;
+    status.publisher = impl_->publisher.status();
+    const std::lock_guard lock(impl_->mutex);
+    const RigCounters& own = impl_->counters;
+    RigCounters& shown = status.publisher.counters;
+    shown.captured = own.captured;
+    shown.missed = own.missed;
+    shown.late = own.late;
+    status.source_counters = impl_->source_counters;
+    status.capture_ms = impl_->capture_ms.summary();
+    status.rectify_ms = impl_->rectify_ms.summary();
+    status.match_ms = impl_->match_ms.summary();
+    status.pack_ms = impl_->pack_ms.summary();
+    return status;
+}
+
+std::vector<std::string> RigDaemon::report() const {
+    const std::lock_guard lock(impl_->mutex);
+    std::vector<std::string> lines = impl_->source_report;
+    lines.insert(lines.end(), impl_->gpu_report.begin(), impl_->gpu_report.end());
+    const std::string key = impl_->publisher.public_key();
+    lines.push_back(
+        fmt::format("publishing on {}, {}", impl_->publisher.endpoint(),
+                    key.empty() ? "without keys (this computer only)" : "public key " + key));
+    return lines;
+}
+
+}  // namespace vantage

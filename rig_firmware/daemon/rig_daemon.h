@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/base/percentiles.h"
+#include "common/config/rig_config.h"
+#include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/stream/publisher.h"
+
+namespace vantage {
+
+struct DaemonStatus {
+    PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
+    std::vector<SourceCounter> source_counters;
+    Percentiles capture_ms;  ///< exposure to delivered
+    Percentiles rectify_ms;  ///< upload, rectify, read back
+    Percentiles match_ms;    ///< match, read back
+    Percentiles pack_ms;     ///< encode, hand to the publisher
+};
+
+/// The road of a rig: capture -> GPU (rectify, match) -> pack and publish, a thread each. Between
+/// two of them waits at most one frame; a newer one takes its place, and the old one is counted as
+/// late.
+class RigDaemon {
+  public:
+    /// Returns once every part stands. Throws Error for whatever of the config cannot be had.
+    explicit RigDaemon(const RigConfig& config);
+    /// Stops the road; frames under way are finished or counted.
+    ~RigDaemon();
+
+    /// False once the source has come to its end and every frame is through, or a part has failed.
+    bool running() const;
+    /// Throws the Error that ended the road, if one did.
+    void rethrow_failure() const;
+    void stop();
+
+    DaemonStatus status() const;
+    /// Lines for the start-up report.
+    std::vector<std::string> report() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vantage
