@@ -1,0 +1,288 @@
+// Quality and time of the presets beside OpenCV's matchers, as the tables of docs/stereo.md.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/limits.h"
+#include "common/image/colour_map.h"
+#include "common/image/image_file.h"
+#include "rig_firmware/stereo/matcher.h"
+#include "tests/bench/opencv_matchers.h"
+#include "tests/bench/stereo_scenes.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+struct Preset {
+    const char* name;
+    MatchPreset preset;
+};
+constexpr Preset presets[] = {{"quality", MatchPreset::quality},
+                              {"balanced", MatchPreset::balanced},
+                              {"fast", MatchPreset::fast}};
+
+/// User and system time of all threads, llvmpipe's among them.
+double cpu_ms() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
+    };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+double resident_mb() {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// A matcher with its input textures, for one size.
+class Bench {
+  public:
+    Bench(const ShaderLibrary& library, const std::string& matcher, MatchPreset preset,
+          cv::Size size, int disparities)
+        : left_(TextureFormat::rgba8, size.width, size.height),
+          right_(TextureFormat::rgba8, size.width, size.height),
+          matcher_(make_matcher(matcher.empty() ? default_matcher(preset) : matcher, library,
+                                {size.width, size.height, disparities, preset, true})) {}
+
+    void upload(const StereoScene& scene) {
+        left_.upload(scene.left);
+        right_.upload(scene.right);
+    }
+    const Texture& run() {
+        const Texture& result = matcher_->match(left_, right_);
+        glFinish();
+        return result;
+    }
+    cv::Mat1f disparity() { return to_float_px(run().download()); }
+    std::size_t gpu_bytes() const { return matcher_->gpu_bytes(); }
+
+  private:
+    Texture left_, right_;
+    std::unique_ptr<Matcher> matcher_;
+};
+
+struct Quality {
+    double way = 0, hh4 = 0, bm = 0;
+    double ours[std::size(presets)] = {};
+};
+
+Quality judge(const ShaderLibrary& library, const std::string& matcher, const StereoScene& scene,
+              const std::string& pictures) {
+    const GreyImage left = to_grey(scene.left), right = to_grey(scene.right);
+    const auto opencv = [&](OpenCvMode mode) {
+        return 100 *
+               bad_share(OpenCvMatcher(mode, scene.disparities).match(left, right, true), scene, 2);
+    };
+    Quality q{opencv(OpenCvMode::sgbm_3way), opencv(OpenCvMode::hh4), opencv(OpenCvMode::bm)};
+    const auto picture = [&](const std::string& name, const cv::Mat1f& d) {
+        if (!pictures.empty())
+            write_colour_image(pictures + "/" + scene.name + "_" + name + ".png",
+                               colour_map_disparity(d, 1, static_cast<float>(scene.disparities)));
+    };
+    picture("truth", scene.disparity_px);
+    for (std::size_t i = 0; i < std::size(presets); ++i) {
+        Bench bench(library, matcher, presets[i].preset, scene.left.size(), scene.disparities);
+        bench.upload(scene);
+        const cv::Mat1f d = bench.disparity();
+        q.ours[i] = 100 * bad_share(d, scene, 2);
+        picture(presets[i].name, d);
+    }
+    return q;
+}
+
+void print_quality(const ShaderLibrary& library, const std::string& matcher,
+                   const std::vector<StereoScene>& scenes, const std::string& pictures) {
+    fmt::print(
+        "bad-2.0 in percent, non-occluded known pixels, dense; (t) = seen while tuning\n\n"
+        "| scene | BM | 3WAY | HH4 | quality | balanced | fast | quality / best | balanced / best "
+        "| fast / best |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    double sums[std::size(presets)] = {}, best_sum = 0;
+    double ratio_sums[std::size(presets)] = {};
+    int judged = 0;
+    for (const StereoScene& scene : scenes) {
+        const Quality q = judge(library, matcher, scene, pictures);
+        const double best = std::min(q.way, q.hh4);
+        fmt::print(
+            "| {}{} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | "
+            "{:.2f} |\n",
+            scene.name, scene.for_tuning ? " (t)" : "", q.bm, q.way, q.hh4, q.ours[0], q.ours[1],
+            q.ours[2], q.ours[0] / best, q.ours[1] / best, q.ours[2] / best);
+        std::cout.flush();
+        if (scene.for_tuning) continue;
+        ++judged;
+        best_sum += best;
+        for (std::size_t i = 0; i < std::size(presets); ++i) {
+            sums[i] += q.ours[i];
+            ratio_sums[i] += q.ours[i] / best;
+        }
+    }
+    if (judged > 0)
+        fmt::print(
+            "| **unseen scenes, ratio of means** | | | | | | | **{:.2f}** | **{:.2f}** | "
+            "**{:.2f}** |\n"
+            "| **unseen scenes, mean of ratios** | | | | | | | **{:.2f}** | **{:.2f}** | "
+            "**{:.2f}** |\n\n",
+            sums[0] / best_sum, sums[1] / best_sum, sums[2] / best_sum, ratio_sums[0] / judged,
+            ratio_sums[1] / judged, ratio_sums[2] / judged);
+}
+
+void print_times(const ShaderLibrary& library, const std::string& matcher, const StereoScene& scene,
+                 int repeats) {
+    const GreyImage left = to_grey(scene.left), right = to_grey(scene.right);
+    OpenCvMatcher bm(OpenCvMode::bm, scene.disparities),
+        way(OpenCvMode::sgbm_3way, scene.disparities), hh4(OpenCvMode::hh4, scene.disparities);
+    std::vector<std::unique_ptr<Bench>> benches;
+    std::vector<std::function<void()>> runs = {[&] { bm.match(left, right, false); },
+                                               [&] { way.match(left, right, false); },
+                                               [&] { hh4.match(left, right, false); }};
+    for (const Preset& preset : presets) {
+        benches.push_back(std::make_unique<Bench>(library, matcher, preset.preset,
+                                                  scene.left.size(), scene.disparities));
+        benches.back()->upload(scene);
+        runs.emplace_back([bench = benches.back().get()] { bench->run(); });
+    }
+    std::vector<double> least(runs.size(), std::numeric_limits<double>::max());
+    for (int repeat = -1; repeat < repeats; ++repeat)  // the first warms up
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const double begin = cpu_ms();
+            runs[i]();
+            if (repeat >= 0) least[i] = std::min(least[i], cpu_ms() - begin);
+        }
+    fmt::print(
+        "| {}x{}x{} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | "
+        "{:.2f} |\n",
+        scene.left.cols, scene.left.rows, scene.disparities, least[0], least[1], least[2], least[3],
+        least[4], least[5], least[3] / least[2], least[4] / least[1], least[5] / least[1]);
+}
+
+StereoScene altered(const StereoScene& scene, const std::string& how) {
+    StereoScene result = scene;
+    result.name = scene.name + ", " + how;
+    result.right = scene.right.clone();
+    for (int y = 0; y < result.right.rows; ++y)
+        for (int x = 0; x < result.right.cols; ++x) {
+            if (how == "1 px lower") {
+                result.right(y, x) = scene.right(std::max(y - 1, 0), x);
+                continue;
+            }
+            for (int c = 0; c < 3; ++c) {
+                const double level = scene.right(y, x)[c];
+                result.right(y, x)[c] = cv::saturate_cast<unsigned char>(
+                    how == "exposure x 0.6" ? level * 0.6 : 255 * std::pow(level / 255, 0.7) + 5);
+            }
+        }
+    return result;
+}
+
+void print_robustness(const ShaderLibrary& library, const std::string& matcher,
+                      const std::vector<StereoScene>& scenes) {
+    fmt::print(
+        "What an altered right picture costs: bad-2.0 altered - bad-2.0 as it was, in points\n\n"
+        "| scene | HH4 | quality | balanced | fast |\n| --- | --- | --- | --- | --- |\n");
+    for (const StereoScene& scene : scenes) {
+        const bool wanted = scene.name == "teddy" || scene.name.starts_with("aloe");
+        if (!wanted) continue;
+        const Quality as_it_was = judge(library, matcher, scene, "");
+        for (const char* how : {"exposure x 0.6", "gamma 0.7", "1 px lower"}) {
+            const StereoScene other = altered(scene, how);
+            const Quality q = judge(library, matcher, other, "");
+            fmt::print("| {} | {:+.2f} | {:+.2f} | {:+.2f} | {:+.2f} |\n", other.name,
+                       q.hh4 - as_it_was.hh4, q.ours[0] - as_it_was.ours[0],
+                       q.ours[1] - as_it_was.ours[1], q.ours[2] - as_it_was.ours[2]);
+        }
+    }
+    fmt::print("\n");
+}
+
+void print_memory(const ShaderLibrary& library, const std::string& matcher) {
+    constexpr int width = 1456, height = 1088, disparities = 128;
+    fmt::print(
+        "| memory at {}x{}x{} | GL objects, MB | resident growth, MB |\n| --- | --- | --- |\n",
+        width, height, disparities);
+    for (const Preset& preset : presets) {
+        const double before = resident_mb();
+        Bench bench(library, matcher, preset.preset, {width, height}, disparities);
+        bench.run();
+        fmt::print("| {} | {:.0f} | {:.0f} |\n", preset.name,
+                   static_cast<double>(bench.gpu_bytes()) / 1e6, resident_mb() - before);
+    }
+    fmt::print("\n");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Quality and time of the stereo presets beside OpenCV's matchers");
+    std::string data = data_folder().value_or("").string(), pictures, matcher;
+    int repeats = 11, random_scenes = 6;
+    std::uint64_t first_seed = 1001;
+    bool no_times = false;
+    app.add_option("--data", data, "folder with the stereo data");
+    app.add_option("--pictures", pictures, "write colour-mapped disparities to this folder");
+    app.add_option("--matcher", matcher, "use this matcher for all presets");
+    app.add_option("--repeats", repeats, "interleaved repeats of the timing")
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--random-scenes", random_scenes, "generated scenes to judge as well");
+    app.add_option("--first-seed", first_seed, "of the generated scenes");
+    app.add_flag("--quality-only", no_times, "leave out times, memory and robustness");
+    CLI11_PARSE(app, argc, argv);
+
+    const EglContext context;
+    const ShaderLibrary library;
+    fmt::print("{}, OpenCV {}\n\n", GlInfo::query().renderer, CV_VERSION);
+    std::vector<StereoScene> scenes;
+    if (!data.empty()) scenes = load_stereo_scenes(data);
+    const auto photographs =
+        data.empty() ? std::vector<ColourImage>() : load_texture_photographs(data);
+    for (int i = 0; i < random_scenes; ++i) {
+        scenes.push_back(
+            make_random_scene(first_seed + static_cast<std::uint64_t>(i), {}, photographs));
+        // The generator itself was in sight; these seeds were not, but only photographs count as
+        // unseen.
+        scenes.back().for_tuning = true;
+    }
+    if (!pictures.empty()) std::filesystem::create_directories(pictures);
+    print_quality(library, matcher, scenes, pictures);
+    if (no_times) return 0;
+
+    fmt::print(
+        "CPU time of all threads, ms, least of {} interleaved repeats\n\n"
+        "| size | BM | 3WAY | HH4 | quality | balanced | fast | quality / HH4 | balanced / 3WAY | "
+        "fast / 3WAY |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        repeats);
+    for (const RandomSceneLook& look : {RandomSceneLook{.width_px = 450, .height_px = 375},
+                                        RandomSceneLook{.width_px = 640, .height_px = 480}})
+        print_times(library, matcher, make_random_scene(first_seed, look, photographs), repeats);
+    fmt::print("\n");
+    print_robustness(library, matcher, scenes);
+    print_memory(library, matcher);
+    return 0;
+}
+
+}  // namespace
+}  // namespace vantage
+
+int main(int argc, char** argv) {
+    try {
+        return vantage::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::cerr << "stereo_bench: " << error.what() << '\n';
+        return 1;
+    }
+}

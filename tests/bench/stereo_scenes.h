@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tests/bench/random_scene.h"
+
+namespace vantage {
+
+/// Every stereo pair with truth below the data folder: middlebury2001, 2003, 2006, eval3.
+std::vector<StereoScene> load_stereo_scenes(const std::filesystem::path& data);
+
+/// Photographs for the textures of random scenes (none of them from the stereo pairs).
+std::vector<ColourImage> load_texture_photographs(const std::filesystem::path& data);
+
+/// The share of the judged pixels that are unknown or further than `threshold_px` from the truth.
+double bad_share(const cv::Mat1f& disparity_px, const StereoScene& scene, float threshold_px);
+
+}  // namespace vantage
