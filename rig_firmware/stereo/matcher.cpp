@@ -30,6 +30,8 @@ MatchPreset parse_preset(const std::string& name) {
     fail("there is no preset named '{}'; the ones there are: fast, balanced, quality", name);
 }
 
-std::string default_matcher(MatchPreset) { return "perm"; }
+std::string default_matcher(MatchPreset preset) {
+    return preset == MatchPreset::fast ? "coarse" : "perm";
+}
 
 }  // namespace vantage

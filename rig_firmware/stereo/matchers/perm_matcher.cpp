@@ -17,6 +17,7 @@ class PermMatcher : public Matcher {
     PermMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : fill_unknown_(settings.fill),
           layout_{settings.width_px, settings.height_px},
+          luma_(library, layout_),
           features_(library, layout_, sigma),
           perm_(library, layout_, settings.disparities),
           check_(library, layout_),
@@ -25,7 +26,8 @@ class PermMatcher : public Matcher {
 
     const Texture& match(const Texture& left, const Texture& right) override {
         profiler_.begin_frame();
-        features_.run(profiler_, left, right);
+        luma_.run(profiler_, left, right);
+        features_.run(profiler_, luma_);
         perm_.run(profiler_, features_);
         check_.run(profiler_, perm_.winners(), perm_.weight());
         if (fill_unknown_) fill_.run(profiler_, check_.disparity());
@@ -38,17 +40,18 @@ class PermMatcher : public Matcher {
     std::vector<PassReport> passes() const override { return profiler_.reports(); }
     void set_profiling(bool on) override { profiler_.set_enabled(on); }
     std::size_t gpu_bytes() const override {
-        return features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes() + fill_.gpu_bytes() +
-               result_.gpu_bytes();
+        return luma_.gpu_bytes() + features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes() +
+               fill_.gpu_bytes() + result_.gpu_bytes();
     }
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 20;
+    static constexpr double sigma = 12;
 
     bool fill_unknown_;
     StereoLayout layout_;
     PassProfiler profiler_;
+    LumaPass luma_;
     FeaturePass features_;
     PermPass perm_;
     LeftRightPass check_;

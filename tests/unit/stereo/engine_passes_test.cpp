@@ -13,6 +13,8 @@
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
+#include "rig_firmware/stereo/passes/upsample_pass.h"
+#include "rig_firmware/stereo/passes/upsample_reference.h"
 
 namespace vantage {
 namespace {
@@ -100,7 +102,9 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     right.upload(pair_.right);
     constexpr double sigma = 20;
     FeaturePass features(library_, layout_, sigma);
-    features.run(profiler_, left, right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    features.run(profiler_, luma);
     const cv::Mat1i left_words = feature_words(left_luma_),
                     right_words = feature_words(right_luma_);
     expect_equal(channel_of(features.left_features(), layout_, 1, 0), left_words, "left feature");
@@ -141,16 +145,33 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
                  as_int(median_of_known(checked.disparity)), "result with unknowns");
 }
 
-TEST_P(EnginePassesTest, HalveAsTheCpuDoes) {
+TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     Texture picture(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     picture.upload(pair_.left);
-    FeaturePass fine(library_, layout_, 20);
+    LumaPass fine(library_, layout_);
     fine.run(profiler_, picture, picture);
     const StereoLayout half{(layout_.width_px + 1) / 2, (layout_.height_px + 1) / 2};
-    FeaturePass coarse(library_, half, 20);
+    LumaPass coarse(library_, half);
     coarse.run_halved(profiler_, fine);
-    expect_equal(channel_of(coarse.left_features(), half, 1, 0), feature_words(halved(left_luma_)),
-                 "half-size feature");
+    FeaturePass features(library_, half, 20);
+    features.run(profiler_, coarse);
+    expect_equal(channel_of(features.left_features(), half, 1, 0),
+                 feature_words(halved(left_luma_)), "half-size feature");
+
+    std::vector<std::uint32_t> words(half.pixels());
+    DisparityImage disparity(half.height_px, half.width_px);
+    cv::RNG random(11);
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = 0; x < half.width_px; ++x) {
+            disparity(y, x) = static_cast<unsigned short>(random.uniform(0, 4096));
+            words[static_cast<std::size_t>(y * half.stride_px() + x)] = disparity(y, x) | 77U << 16;
+        }
+    UpsamplePass upsample(library_, half, layout_);
+    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), coarse.left(), fine.left());
+    const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
+    expect_equal(lower_half(fine_words),
+                 as_int(upsampled(disparity, halved(left_luma_), left_luma_)), "upsampled");
+    expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
