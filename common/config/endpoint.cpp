@@ -1,47 +1,66 @@
 #include "common/config/endpoint.h"
 
+#include <algorithm>
 #include <charconv>
 
-#include <fmt/format.h>
+#include <arpa/inet.h>
+
+#include "common/base/error.h"
 
 namespace vantage {
 namespace {
 
-constexpr std::string_view tcp = "tcp://";
-constexpr std::string_view ipc = "ipc://";
-constexpr std::string_view z85_alphabet =
-    "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&<>()[]{}@%$#";
-constexpr std::size_t z85_key_length = 40;
-
 bool is_port(std::string_view text) {
+    if (text == "*") return true;
     int port = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc{} && end == text.data() + text.size() && port >= 1 && port <= 65535;
+    constexpr int highest_port = 65535;
+    return error == std::errc() && end == text.data() + text.size() && port >= 1 &&
+           port <= highest_port;
+}
+
+bool is_host(std::string_view text) {
+    // ZeroMQ gives ';' and '/' meanings of their own inside an address; none of them is let
+    // through.
+    return text == "*" || (!text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+               return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ||
+                      c == '_';
+           }));
+}
+
+bool is_loopback_v4(const std::string& host) {
+    in_addr address{};
+    constexpr std::uint32_t loopback_net = 127;
+    return inet_pton(AF_INET, host.c_str(), &address) == 1 &&
+           ntohl(address.s_addr) >> 24 == loopback_net;
 }
 
 }  // namespace
 
-std::string endpoint_fault(std::string_view endpoint, EndpointUse use) {
-    if (endpoint.starts_with(ipc))
-        return endpoint.size() > ipc.size() ? "" : "is 'ipc://' without the path of a socket";
-    if (!endpoint.starts_with(tcp))
-        return fmt::format("is '{}', and it must be tcp://HOST:PORT or ipc://PATH", endpoint);
-    const std::string_view rest = endpoint.substr(tcp.size());
+Endpoint parse_endpoint(std::string_view text, std::string_view key) {
+    const auto refuse = [&] {
+        fail("{} = \"{}\" is not an endpoint of the form tcp://HOST:PORT", key, text);
+    };
+    constexpr std::string_view scheme = "tcp://";
+    if (!text.starts_with(scheme)) refuse();
+    const std::string_view rest = text.substr(scheme.size());
     const std::size_t colon = rest.rfind(':');
-    if (colon == std::string_view::npos || colon == 0)
-        return fmt::format("is '{}', and it must be tcp://HOST:PORT or ipc://PATH", endpoint);
-    const std::string_view port = rest.substr(colon + 1);
-    if (is_port(port) || (use == EndpointUse::bind && port == "*")) return "";
-    return fmt::format("is '{}', and its port must be 1 to 65535", endpoint);
-}
-
-std::string z85_key_fault(std::string_view key) {
-    if (key.size() != z85_key_length)
-        return fmt::format("has {} characters, and a key in Z85 has {}", key.size(),
-                           z85_key_length);
-    const std::size_t strange = key.find_first_not_of(z85_alphabet);
-    if (strange == std::string_view::npos) return "";
-    return fmt::format("has the character '{}', which is none of Z85", key[strange]);
+    if (colon == std::string_view::npos) refuse();
+    Endpoint endpoint;
+    endpoint.host = rest.substr(0, colon);
+    endpoint.port = rest.substr(colon + 1);
+    if (!is_port(endpoint.port)) refuse();
+    if (endpoint.host.starts_with('[') && endpoint.host.ends_with(']')) {
+        endpoint.ipv6 = true;
+        in6_addr address{};
+        const std::string inner = endpoint.host.substr(1, endpoint.host.size() - 2);
+        if (inet_pton(AF_INET6, inner.c_str(), &address) != 1) refuse();
+        endpoint.loopback = IN6_IS_ADDR_LOOPBACK(&address);
+    } else {
+        if (!is_host(endpoint.host)) refuse();
+        endpoint.loopback = endpoint.host == "localhost" || is_loopback_v4(endpoint.host);
+    }
+    return endpoint;
 }
 
 }  // namespace vantage

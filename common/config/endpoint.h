@@ -5,16 +5,18 @@
 
 namespace vantage {
 
-enum class EndpointUse {
-    bind,    ///< the port may be `*`: the system chooses one
-    connect  ///< the port must be a number
+/// "tcp://HOST:PORT". HOST is an address, a name, "[v6 address]" or "*" (all interfaces, to bind
+/// only); PORT is a number, or "*" to bind to a free one.
+struct Endpoint {
+    std::string host, port;
+    /// Reached from this computer only: 127.0.0.0/8, [::1] or localhost.
+    bool loopback = false;
+    bool ipv6 = false;
+
+    std::string text() const { return "tcp://" + host + ":" + port; }
 };
 
-/// What is wrong with a stream endpoint ("tcp://HOST:PORT" or "ipc://PATH"), as the end of a
-/// sentence that begins with its key; empty if nothing is.
-std::string endpoint_fault(std::string_view endpoint, EndpointUse use);
-
-/// The same for a CURVE public or secret key in Z85: 40 characters of that alphabet.
-std::string z85_key_fault(std::string_view key);
+/// Throws Error, naming `key` (of the configuration), for what is no such endpoint.
+Endpoint parse_endpoint(std::string_view text, std::string_view key);
 
 }  // namespace vantage

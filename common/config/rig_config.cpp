@@ -1,7 +1,6 @@
 #include "common/config/rig_config.h"
 
-#include "common/config/endpoint.h"
-#include "common/config/stream_name.h"
+#include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 
 namespace vantage {
@@ -49,8 +48,7 @@ void read_match(TomlTable& table, RigConfig::Match& match) {
 
 void read_stream(TomlTable& table, RigConfig::Stream& stream) {
     table.read("bind", stream.bind);
-    const std::string fault = endpoint_fault(stream.bind, EndpointUse::bind);
-    if (!fault.empty()) table.refuse("bind", fault);
+    check_endpoint(table, "bind", stream.bind);
     table.read("jpeg_quality", stream.jpeg_quality, {0, 100});
     table.read("queue_frames", stream.queue_frames, {1, 64});
     table.read("key_file", stream.key_file);

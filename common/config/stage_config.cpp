@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "common/config/endpoint.h"
-#include "common/config/stream_name.h"
+#include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 
 namespace vantage {
@@ -22,15 +21,8 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
                      fmt::format("is '{}' a second time: every rig has its own name", rig.name));
     table.require("endpoint");
     table.read("endpoint", rig.endpoint);
-    if (table.has("endpoint")) {
-        const std::string fault = endpoint_fault(rig.endpoint, EndpointUse::connect);
-        if (!fault.empty()) table.refuse("endpoint", fault);
-    }
+    if (table.has("endpoint")) check_endpoint(table, "endpoint", rig.endpoint);
     table.read("public_key", rig.public_key);
-    if (!rig.public_key.empty()) {
-        const std::string fault = z85_key_fault(rig.public_key);
-        if (!fault.empty()) table.refuse("public_key", fault);
-    }
     rigs.push_back(std::move(rig));
 }
 

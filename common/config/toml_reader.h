@@ -57,12 +57,14 @@ class TomlTable {
     /// Throws Error "FILE:LINE: 'key' in [table] <what>", for limits of the caller's own.
     [[noreturn]] void refuse(std::string_view key, std::string_view what) const;
 
+    /// "FILE:LINE" of a key, or of the table if it has none such.
+    std::string place(std::string_view key) const;
+
     /// Refuses keys that were never asked for, then keys that are required and missing.
     void finish() const;
 
   private:
     const toml::node* find(std::string_view key);
-    std::string place(std::string_view key) const;
     [[noreturn]] void refuse_type(std::string_view key, const toml::node& node,
                                   std::string_view wanted) const;
     template <class T>

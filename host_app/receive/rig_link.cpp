@@ -8,7 +8,7 @@
 #include <zmq_addon.hpp>
 
 #include "common/base/error.h"
-#include "common/wire/endpoint.h"
+#include "common/config/endpoint.h"
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
 

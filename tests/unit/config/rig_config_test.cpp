@@ -161,8 +161,7 @@ TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
     EXPECT_EQ(fault(head + "[match]\npreset = 'qualty'\n"),
               "rig.toml:4: 'preset' in [match] must not be 'qualty'; the nearest is 'quality'");
     EXPECT_EQ(fault(head + "[stream]\nbind = 'tcp://here'\n"),
-              "rig.toml:4: 'bind' in [stream] is 'tcp://here', and it must be tcp://HOST:PORT or "
-              "ipc://PATH");
+              "rig.toml:4: bind = \"tcp://here\" is not an endpoint of the form tcp://HOST:PORT");
     EXPECT_EQ(fault(head + "[source]\npixel_format = 'GREYS'\n"),
               "rig.toml:4: 'pixel_format' in [source] must be a code of four characters such as "
               "'GREY' or 'MJPG'");

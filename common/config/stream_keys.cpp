@@ -1,9 +1,10 @@
-#include "common/config/stream_name.h"
+#include "common/config/stream_keys.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include <fmt/format.h>
+#include "common/base/error.h"
+#include "common/config/endpoint.h"
 
 namespace vantage {
 
@@ -19,6 +20,14 @@ void read_stream_name(TomlTable& table, std::string& name) {
         table.refuse("name",
                      fmt::format("is '{}', and it must be 1 to {} letters, digits, '-' and '_'",
                                  name, max_length));
+}
+
+void check_endpoint(const TomlTable& table, std::string_view key, const std::string& endpoint) {
+    try {
+        parse_endpoint(endpoint, key);
+    } catch (const Error& error) {
+        fail("{}: {}", table.place(key), error.what());
+    }
 }
 
 }  // namespace vantage

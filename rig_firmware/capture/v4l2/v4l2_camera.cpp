@@ -1,0 +1,298 @@
+#include "rig_firmware/capture/v4l2/v4l2_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <linux/videodev2.h>
+#include <sys/mman.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/config/nearest_name.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::uint32_t wanted_buffers = 4;
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+MonotonicTime to_monotonic(const timeval& t) {
+    return monotonic_from_ns((t.tv_sec * std::int64_t{1'000'000} + t.tv_usec) * 1000);
+}
+
+/// A v4l2_buffer with room for its one plane, right for both forms of the interface.
+struct BufferRequest {
+    v4l2_plane plane{};
+    v4l2_buffer buffer{};
+
+    BufferRequest(const V4l2Device& device, std::uint32_t index) {
+        buffer.type = device.buffer_type();
+        buffer.memory = V4L2_MEMORY_MMAP;
+        buffer.index = index;
+        if (!device.is_multiplanar()) return;
+        buffer.m.planes = &plane;
+        buffer.length = 1;
+    }
+    BufferRequest(const BufferRequest&) = delete;
+    BufferRequest& operator=(const BufferRequest&) = delete;
+
+    std::size_t length() const { return buffer.m.planes == &plane ? plane.length : buffer.length; }
+    std::int64_t offset() const {
+        return buffer.m.planes == &plane ? plane.m.mem_offset : buffer.m.offset;
+    }
+    std::size_t bytes_used() const {
+        return buffer.m.planes == &plane ? plane.bytesused : buffer.bytesused;
+    }
+};
+
+/// Controls that must not move by themselves in a take, and the value that fixes each.
+struct Automatic {
+    std::uint32_t id;
+    std::int32_t fixed_value;
+    const char* what;
+};
+constexpr std::array<Automatic, 3> automatics = {{
+    {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, "exposure"},
+    {V4L2_CID_AUTOGAIN, 0, "gain"},
+    {V4L2_CID_AUTO_WHITE_BALANCE, 0, "white balance"},
+}};
+
+}  // namespace
+
+V4l2Camera::Mapping::Mapping(int fd, std::size_t length, std::int64_t offset) : length_(length) {
+    void* start = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, fd, offset);
+    if (start != MAP_FAILED) start_ = static_cast<std::byte*>(start);
+}
+
+V4l2Camera::Mapping::~Mapping() {
+    if (start_) ::munmap(start_, length_);
+}
+
+V4l2Camera::Mapping::Mapping(Mapping&& other) noexcept
+    : start_(std::exchange(other.start_, nullptr)), length_(other.length_) {}
+
+V4l2Camera::V4l2Camera(const V4l2Wish& wish) : device_(wish.path) {
+    if (!device_.captures())
+        fail(
+            "{} ('{}') delivers no pictures: it is another kind of video node, and `vantage-rig "
+            "probe` lists the cameras",
+            wish.path.string(), device_.card());
+    // An HDMI receiver follows its sender only when told to; cameras know no such timings.
+    v4l2_dv_timings timings{};
+    if (device_.try_request(VIDIOC_QUERY_DV_TIMINGS, &timings))
+        device_.try_request(VIDIOC_S_DV_TIMINGS, &timings);
+    choose_format(wish);
+    set_rate(wish.rate_hz);
+    set_controls(wish.controls);
+    map_buffers();
+    std::uint32_t type = device_.buffer_type();
+    device_.request(VIDIOC_STREAMON, &type, "to start");
+}
+
+V4l2Camera::~V4l2Camera() {
+    try {
+        std::uint32_t type = device_.buffer_type();
+        device_.try_request(VIDIOC_STREAMOFF, &type);
+    } catch (const DeviceLost&) {
+        log_debug("{} is gone already", device_.path().string());
+    }
+}
+
+bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& wish, bool only_try,
+                            cv::Size& offered) {
+    v4l2_format f{};
+    f.type = device_.buffer_type();
+    const auto width = static_cast<std::uint32_t>(wish.width_px);
+    const auto height = static_cast<std::uint32_t>(wish.height_px);
+    const bool planar = device_.is_multiplanar();
+    if (planar) {
+        f.fmt.pix_mp.width = width;
+        f.fmt.pix_mp.height = height;
+        f.fmt.pix_mp.pixelformat = fourcc_of(format);
+        f.fmt.pix_mp.field = V4L2_FIELD_NONE;
+        f.fmt.pix_mp.num_planes = 1;
+    } else {
+        f.fmt.pix.width = width;
+        f.fmt.pix.height = height;
+        f.fmt.pix.pixelformat = fourcc_of(format);
+        f.fmt.pix.field = V4L2_FIELD_NONE;
+    }
+    if (only_try) {
+        if (!device_.try_request(VIDIOC_TRY_FMT, &f)) return false;
+    } else {
+        device_.request(VIDIOC_S_FMT, &f, "its picture format");
+    }
+    const std::uint32_t got_format = planar ? f.fmt.pix_mp.pixelformat : f.fmt.pix.pixelformat;
+    const std::uint32_t got_width = planar ? f.fmt.pix_mp.width : f.fmt.pix.width;
+    const std::uint32_t got_height = planar ? f.fmt.pix_mp.height : f.fmt.pix.height;
+    const bool one_plane = !planar || f.fmt.pix_mp.num_planes == 1;
+    offered = {static_cast<int>(got_width), static_cast<int>(got_height)};
+    if (got_format != fourcc_of(format) || got_width != width || got_height != height || !one_plane)
+        return false;
+    mode_.format = format;
+    mode_.width_px = wish.width_px;
+    mode_.height_px = wish.height_px;
+    mode_.bytes_per_line = planar ? f.fmt.pix_mp.plane_fmt[0].bytesperline : f.fmt.pix.bytesperline;
+    return true;
+}
+
+void V4l2Camera::choose_format(const V4l2Wish& wish) {
+    std::vector<PixelFormat> candidates;
+    std::string listed;
+    const std::vector<V4l2Format> formats = device_.formats();
+    for (const V4l2Format& format : formats)
+        listed += fmt::format("{}'{}'", listed.empty() ? "" : ", ", fourcc_text(format.fourcc));
+    for (const PixelFormat known : known_pixel_formats()) {
+        const bool has = std::any_of(formats.begin(), formats.end(), [&](const V4l2Format& format) {
+            return format.fourcc == fourcc_of(known);
+        });
+        if (has && (wish.pixel_format.empty() || parse_pixel_format(wish.pixel_format) == known))
+            candidates.push_back(known);
+    }
+    if (candidates.empty())
+        fail(
+            "the camera {} has no picture format that {}; it offers {}", wish.path.string(),
+            wish.pixel_format.empty() ? "is understood" : fmt::format("is '{}'", wish.pixel_format),
+            listed.empty() ? "none" : listed);
+    cv::Size offered, ignored;
+    for (const PixelFormat candidate : candidates) {
+        if (!set_format(candidate, wish, true, offered)) continue;
+        if (set_format(candidate, wish, false, ignored)) return;
+    }
+    fail("the camera {} offers no pictures of {}x{}; the nearest is {}x{}", wish.path.string(),
+         wish.width_px, wish.height_px, offered.width, offered.height);
+}
+
+void V4l2Camera::set_rate(double rate_hz) {
+    v4l2_streamparm parameters{};
+    parameters.type = device_.buffer_type();
+    v4l2_fract& period = parameters.parm.capture.timeperframe;
+    constexpr double millihertz = 1000;
+    period.numerator = static_cast<std::uint32_t>(millihertz);
+    period.denominator = static_cast<std::uint32_t>(std::lround(rate_hz * millihertz));
+    if (device_.try_request(VIDIOC_S_PARM, &parameters) && period.numerator > 0)
+        mode_.rate_hz = static_cast<double>(period.denominator) / period.numerator;
+}
+
+void V4l2Camera::set_controls(const std::map<std::string, int>& wishes) {
+    const std::vector<V4l2Control> controls = device_.controls();
+    std::vector<std::string> names;
+    for (const V4l2Control& control : controls) names.push_back(control.name);
+    std::vector<std::pair<V4l2Control, int>> settings;
+    for (const auto& [name, value] : wishes) {
+        const auto found = std::find_if(
+            controls.begin(), controls.end(),
+            [&](const V4l2Control& control) { return lower(control.name) == lower(name); });
+        if (found == controls.end())
+            fail("the camera {} has no control '{}'; {}", device_.path().string(), name,
+                 suggest_name(name, names));
+        if (!found->is_writable)
+            fail("the control '{}' of the camera {} can only be read", found->name,
+                 device_.path().string());
+        if (value < found->least || value > found->most)
+            fail("the control '{}' of the camera {} takes {} to {}, and {} is given", found->name,
+                 device_.path().string(), found->least, found->most, value);
+        settings.emplace_back(*found, value);
+    }
+    // A manual value is refused while its automatic is on, and the names' order knows nothing of
+    // that: what is refused the first time is tried again after all others.
+    std::vector<std::pair<V4l2Control, int>> again;
+    for (const auto& [control, value] : settings) {
+        v4l2_control wanted{.id = control.id, .value = value};
+        if (!device_.try_request(VIDIOC_S_CTRL, &wanted)) again.emplace_back(control, value);
+    }
+    for (const auto& [control, value] : again) device_.set_control(control, value);
+}
+
+void V4l2Camera::map_buffers() {
+    v4l2_requestbuffers wanted{};
+    wanted.count = wanted_buffers;
+    wanted.type = device_.buffer_type();
+    wanted.memory = V4L2_MEMORY_MMAP;
+    device_.request(VIDIOC_REQBUFS, &wanted, "buffers to map");
+    if (wanted.count < 2)
+        fail("the camera {} gives {} buffers, and 2 are needed at least", device_.path().string(),
+             wanted.count);
+    for (std::uint32_t i = 0; i < wanted.count; ++i) {
+        BufferRequest request(device_, i);
+        device_.request(VIDIOC_QUERYBUF, &request.buffer, "to describe a buffer");
+        buffers_.emplace_back(device_.fd(), request.length(), request.offset());
+        if (!buffers_.back().is_mapped())
+            fail("a buffer of {} bytes of the camera {} cannot be mapped: {}", request.length(),
+                 device_.path().string(), std::strerror(errno));
+        queue(i);
+    }
+}
+
+void V4l2Camera::queue(std::uint32_t index) {
+    BufferRequest request(device_, index);
+    device_.request(VIDIOC_QBUF, &request.buffer, "to take back a buffer");
+}
+
+std::optional<V4l2Picture> V4l2Camera::take() {
+    for (;;) {
+        BufferRequest request(device_, 0);
+        if (!device_.try_request(VIDIOC_DQBUF, &request.buffer)) {
+            if (errno == EAGAIN) return std::nullopt;
+            throw DeviceLost(fmt::format("the camera {} stopped: {}", device_.path().string(),
+                                         std::strerror(errno)));
+        }
+        const v4l2_buffer& buffer = request.buffer;
+        const bool is_monotonic =
+            (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+        V4l2Picture picture{
+            .sequence = buffer.sequence,
+            .time = is_monotonic ? to_monotonic(buffer.timestamp) : MonotonicClock::now(),
+            .colour = {}};
+        const std::span<const std::byte> all = buffers_.at(buffer.index).bytes();
+        const bool is_faulty = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
+        try {
+            if (!is_faulty)
+                picture.colour =
+                    to_colour({.format = mode_.format,
+                               .width_px = mode_.width_px,
+                               .height_px = mode_.height_px,
+                               .bytes_per_line = mode_.bytes_per_line,
+                               .bytes = all.first(std::min(request.bytes_used(), all.size()))});
+        } catch (const Error& error) {
+            // One damaged picture is the camera's or the cable's fault and no reason to stop.
+            log_debug("{}: {}", device_.path().string(), error.what());
+        }
+        queue(buffer.index);
+        if (!picture.colour.empty()) return picture;
+        ++damaged_;
+    }
+}
+
+std::vector<std::string> V4l2Camera::report() const {
+    const std::string rate = mode_.rate_hz > 0 ? fmt::format("{:.4g} Hz", mode_.rate_hz)
+                                               : std::string("a rate the driver does not tell");
+    std::vector<std::string> lines = {
+        fmt::format("{} ('{}' on {}): {}x{} {} at {}, {} mapped buffers, converted on the CPU",
+                    device_.path().string(), device_.card(), device_.bus(), mode_.width_px,
+                    mode_.height_px, fourcc_text(fourcc_of(mode_.format)), rate, buffers_.size())};
+    const std::vector<V4l2Control> controls = device_.controls();
+    for (const Automatic& automatic : automatics)
+        for (const V4l2Control& control : controls)
+            if (control.id == automatic.id)
+                lines.push_back(
+                    control.value == automatic.fixed_value
+                        ? fmt::format("{}: {} is fixed", device_.path().string(), automatic.what)
+                        : fmt::format("{}: {} is AUTOMATIC and will differ between cameras: fix it "
+                                      "with \"{}\" = {} in [source.controls]",
+                                      device_.path().string(), automatic.what, control.name,
+                                      automatic.fixed_value));
+    return lines;
+}
+
+}  // namespace vantage

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/base/time.h"
+#include "common/image/image.h"
+#include "rig_firmware/capture/pixel_conversion.h"
+#include "rig_firmware/capture/v4l2/v4l2_device.h"
+
+namespace vantage {
+
+struct V4l2Wish {
+    std::filesystem::path path;
+    int width_px = 0, height_px = 0;  ///< of what the device delivers
+    double rate_hz = 0;
+    std::string
+        pixel_format;  ///< four characters, or empty: the first that is known and has the size
+    std::map<std::string, int> controls;  ///< by the driver's name, upper and lower case alike
+};
+
+/// One picture of a camera.
+struct V4l2Picture {
+    std::uint32_t sequence = 0;  ///< the driver's running count
+    MonotonicTime time{};        ///< the kernel's time stamp
+    ColourImage colour;
+};
+
+/// A V4L2 camera that streams into mapped buffers; pictures are converted and their buffers go back
+/// to the driver at once. Throws as V4l2Device does.
+class V4l2Camera {
+  public:
+    /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
+    /// has if it cannot do as wished.
+    explicit V4l2Camera(const V4l2Wish& wish);
+    ~V4l2Camera();
+    V4l2Camera(const V4l2Camera&) = delete;
+    V4l2Camera& operator=(const V4l2Camera&) = delete;
+
+    /// For poll().
+    int fd() const { return device_.fd(); }
+    cv::Size size() const { return {mode_.width_px, mode_.height_px}; }
+
+    /// The next picture if one is there.
+    std::optional<V4l2Picture> take();
+
+    /// Pictures that came marked as faulty or could not be decoded.
+    std::uint64_t damaged() const { return damaged_; }
+
+    /// Lines for the start-up report: device and mode; what is automatic and should be fixed.
+    std::vector<std::string> report() const;
+
+  private:
+    struct Mode {
+        PixelFormat format = PixelFormat::grey;
+        int width_px = 0, height_px = 0;
+        std::size_t bytes_per_line = 0;
+        double rate_hz = 0;  ///< 0: the driver does not say
+    };
+
+    /// One buffer of the driver, mapped into this process.
+    class Mapping {
+      public:
+        Mapping(int fd, std::size_t length, std::int64_t offset);
+        ~Mapping();
+        Mapping(Mapping&& other) noexcept;
+        Mapping& operator=(Mapping&&) = delete;
+        bool is_mapped() const { return start_ != nullptr; }
+        std::span<const std::byte> bytes() const { return {start_, length_}; }
+
+      private:
+        std::byte* start_ = nullptr;
+        std::size_t length_ = 0;
+    };
+
+    void choose_format(const V4l2Wish& wish);
+    bool set_format(PixelFormat format, const V4l2Wish& wish, bool only_try, cv::Size& offered);
+    void set_rate(double rate_hz);
+    void set_controls(const std::map<std::string, int>& wishes);
+    void map_buffers();
+    void queue(std::uint32_t index);
+
+    V4l2Device device_;
+    Mode mode_;
+    std::vector<Mapping> buffers_;
+    std::uint64_t damaged_ = 0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,67 @@
+#include <iostream>
+#include <memory>
+
+#include "common/base/command.h"
+#include "rig_firmware/probe/probe.h"
+
+namespace vantage {
+namespace {
+
+struct ProbeReport {
+    ProbePart libcamera = probe_libcamera();
+    ProbePart v4l2 = probe_v4l2();
+    ProbePart gpio = probe_gpio();
+    ProbePart gpu = probe_gpu();
+    ProbePart clocks = probe_clocks();
+    std::vector<std::string> unfit;
+
+    ProbeReport() {
+        if (libcamera.facts.empty() && v4l2.facts.empty())
+            unfit.emplace_back(
+                "there is no camera: neither libcamera nor V4L2 lists one that this user may open");
+        for (const ProbePart* part : parts())
+            unfit.insert(unfit.end(), part->unfit.begin(), part->unfit.end());
+    }
+    std::vector<const ProbePart*> parts() const {
+        return {&libcamera, &v4l2, &gpio, &gpu, &clocks};
+    }
+};
+
+void print_for_people(const ProbeReport& report) {
+    for (const ProbePart* part : report.parts()) {
+        std::cout << part->title << ":\n";
+        for (const std::string& line : part->lines) std::cout << "  " << line << "\n";
+        if (part->lines.empty()) std::cout << "  none\n";
+    }
+    std::cout << "What is unfit for a rig here:\n";
+    for (const std::string& sentence : report.unfit) std::cout << "  - " << sentence << "\n";
+    if (report.unfit.empty()) std::cout << "  nothing\n";
+}
+
+void print_for_machines(const ProbeReport& report) {
+    const nlohmann::json json = {
+        {"cameras", {{"libcamera", report.libcamera.facts}, {"v4l2", report.v4l2.facts}}},
+        {"gpio", report.gpio.facts},
+        {"gpu", report.gpu.facts},
+        {"clocks", report.clocks.facts},
+        {"unfit", report.unfit}};
+    // Device names are bytes that need not be UTF-8.
+    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+}
+
+}  // namespace
+
+CommandEntry probe_command_entry() {
+    return {[](CLI::App& program) {
+        auto* command = program.add_subcommand(
+            "probe", "What this computer has: cameras, GPIO, GPU, clocks; and what is unfit");
+        auto as_json = std::make_shared<bool>(false);
+        command->add_flag("--json", *as_json, "for machines");
+        command->callback([as_json] {
+            const ProbeReport report;
+            *as_json ? print_for_machines(report) : print_for_people(report);
+        });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/timex.h>
+#include <time.h>
+
+#include "rig_firmware/probe/probe.h"
+
+namespace vantage {
+namespace {
+
+/// Where ptp4l listens for `pmc`, by its own default.
+constexpr const char* ptp4l_socket = "/var/run/ptp4l";
+
+struct Clock {
+    const char* name;
+    clockid_t id;
+};
+constexpr std::array<Clock, 3> clocks = {{{"CLOCK_TAI", CLOCK_TAI},
+                                          {"CLOCK_REALTIME", CLOCK_REALTIME},
+                                          {"CLOCK_MONOTONIC", CLOCK_MONOTONIC}}};
+
+std::string first_line(const std::filesystem::path& file) {
+    std::string line;
+    std::ifstream in(file);
+    std::getline(in, line);
+    return line;
+}
+
+void add_clocks(ProbePart& part) {
+    for (const Clock& clock : clocks) {
+        timespec resolution{};
+        clock_getres(clock.id, &resolution);
+        part.facts["resolution_ns"][clock.name] = resolution.tv_nsec;
+        part.lines.push_back(fmt::format("{}: in steps of {} ns", clock.name, resolution.tv_nsec));
+        if (resolution.tv_nsec > 1000)
+            part.unfit.push_back(
+                fmt::format("{} moves in steps of {} ns: the kernel has no high-resolution timers",
+                            clock.name, resolution.tv_nsec));
+    }
+    timex state{};
+    const bool is_known = ::adjtimex(&state) >= 0;
+    const bool is_disciplined = is_known && (state.status & STA_UNSYNC) == 0;
+    part.facts["tai_offset_s"] = state.tai;
+    part.facts["is_disciplined"] = is_disciplined;
+    part.lines.push_back(fmt::format("TAI is {} s ahead of UTC; the system clock is {}", state.tai,
+                                     is_disciplined ? "disciplined" : "not disciplined"));
+    if (state.tai == 0)
+        part.unfit.emplace_back(
+            "CLOCK_TAI has no offset from UTC: set by ptp4l and phc2sys, or by chrony with a "
+            "leapsectz; until then pulses agree only among computers that all lack it");
+    if (!is_disciplined)
+        part.unfit.emplace_back(
+            "clocks not disciplined, skew unknown: neither PTP nor NTP has set this computer's "
+            "clock");
+}
+
+void add_ptp(ProbePart& part) {
+    part.facts["ptp_devices"] = nlohmann::json::array();
+    std::error_code ignored;
+    std::vector<std::filesystem::path> devices;
+    for (const auto& entry : std::filesystem::directory_iterator("/sys/class/ptp", ignored))
+        devices.push_back(entry.path());
+    std::sort(devices.begin(), devices.end());
+    for (const std::filesystem::path& device : devices) {
+        const std::string node = "/dev/" + device.filename().string();
+        const std::string name = first_line(device / "clock_name");
+        part.facts["ptp_devices"].push_back({{"path", node}, {"name", name}});
+        part.lines.push_back(fmt::format("{} '{}'", node, name));
+    }
+    const bool has_ptp4l = std::filesystem::is_socket(ptp4l_socket, ignored);
+    part.facts["ptp4l"] = {{"management_socket", ptp4l_socket}, {"is_there", has_ptp4l}};
+    part.lines.push_back(fmt::format("ptp4l's management socket {}: {}", ptp4l_socket,
+                                     has_ptp4l ? "there" : "not there"));
+    if (devices.empty())
+        part.unfit.emplace_back(
+            "there is no PTP hardware clock: ptp4l can only stamp in software, to some tens of "
+            "microseconds");
+    if (!has_ptp4l)
+        part.unfit.push_back(fmt::format(
+            "ptp4l does not run (no socket {}): rigs will not share one time", ptp4l_socket));
+}
+
+void add_scheduling(ProbePart& part) {
+    const bool is_realtime_kernel = first_line("/sys/kernel/realtime") == "1";
+    rlimit priority{}, memory{};
+    ::getrlimit(RLIMIT_RTPRIO, &priority);
+    ::getrlimit(RLIMIT_MEMLOCK, &memory);
+    const bool may_lock_all = memory.rlim_cur == RLIM_INFINITY;
+    part.facts["scheduling"] = {{"realtime_kernel", is_realtime_kernel},
+                                {"realtime_priority_limit", priority.rlim_cur},
+                                {"may_lock_all_memory", may_lock_all}};
+    part.lines.push_back(fmt::format(
+        "real-time kernel: {}; highest real-time priority of this user: {}; may lock all memory: "
+        "{}",
+        is_realtime_kernel ? "yes" : "no", priority.rlim_cur, may_lock_all ? "yes" : "no"));
+}
+
+}  // namespace
+
+ProbePart probe_clocks() {
+    ProbePart part{.title = "Clocks", .facts = nlohmann::json::object(), .lines = {}, .unfit = {}};
+    add_clocks(part);
+    add_ptp(part);
+    add_scheduling(part);
+    return part;
+}
+
+}  // namespace vantage
