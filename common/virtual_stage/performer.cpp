@@ -174,14 +174,14 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
     on(pelvis, style.bottom);
     if (style.skirt) {
         builder.loft(std::array<LoftRing, 8>{{{0.13f, 0.0f, 0.0f},
-                                              {0.13f, 0.115f, 0.09f},
-                                              {0.05f, 0.155f, 0.12f},
-                                              {-0.06f, 0.185f, 0.155f},
-                                              {-0.20f, 0.225f, 0.20f},
-                                              {-0.36f, 0.27f, 0.25f},
-                                              {-0.38f, 0.265f, 0.245f},
-                                              {-0.30f, 0.0f, 0.0f}}},
-                     24);
+                                              {0.13f, 0.120f, 0.095f},
+                                              {0.05f, 0.165f, 0.140f},
+                                              {-0.06f, 0.215f, 0.215f, 0.02f},
+                                              {-0.20f, 0.270f, 0.290f, 0.03f},
+                                              {-0.34f, 0.320f, 0.350f, 0.03f},
+                                              {-0.36f, 0.315f, 0.345f, 0.03f},
+                                              {-0.26f, 0.0f, 0.0f}}},
+                     18);
     } else {
         builder.loft(std::array<LoftRing, 8>{{{0.14f, 0.0f, 0.0f},
                                               {0.14f, 0.125f, 0.09f},
@@ -191,7 +191,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.09f, 0.140f, 0.105f},
                                               {-0.12f, 0.085f, 0.08f},
                                               {-0.13f, 0.0f, 0.0f}}},
-                     20);
+                     14);
     }
 
     on(chest, style.top);
@@ -207,7 +207,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                            {0.415f, 0.065f, 0.062f, -0.008f},
                                            {0.43f, 0.058f, 0.058f, -0.005f},
                                            {0.435f, 0.0f, 0.0f}}},
-                 22);
+                 16);
     on(chest, style.skin);
     builder.rod({0, 0.41f, -0.005f}, {0, 0.49f, 0.008f}, 0.05f, 0.046f, 12, false);
 
@@ -224,21 +224,21 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                            {0.235f, 0.040f, 0.060f, -0.006f},
                                            {0.245f, 0.020f, 0.032f, -0.008f},
                                            {0.248f, 0.0f, 0.0f, -0.008f}}},
-                 18);
-    builder.ellipsoid({0, 0.098f, 0.104f}, {0.013f, 0.024f, 0.018f}, 8, 6);  // nose
-    builder.ellipsoid({0.078f, 0.115f, 0.0f}, {0.012f, 0.030f, 0.018f}, 8, 6);
-    builder.ellipsoid({-0.078f, 0.115f, 0.0f}, {0.012f, 0.030f, 0.018f}, 8, 6);
+                 14);
+    builder.ellipsoid({0, 0.098f, 0.104f}, {0.013f, 0.024f, 0.018f}, 6, 4);  // nose
+    builder.ellipsoid({0.078f, 0.115f, 0.0f}, {0.012f, 0.030f, 0.018f}, 6, 4);
+    builder.ellipsoid({-0.078f, 0.115f, 0.0f}, {0.012f, 0.030f, 0.018f}, 6, 4);
     on(head, eyes);
     for (const float side : {-1.0f, 1.0f}) {
-        builder.ellipsoid({side * 0.030f, 0.130f, 0.089f}, {0.013f, 0.008f, 0.010f}, 8, 6);
-        builder.ellipsoid({side * 0.030f, 0.150f, 0.089f}, {0.018f, 0.004f, 0.010f}, 8, 4);
+        builder.ellipsoid({side * 0.030f, 0.130f, 0.089f}, {0.013f, 0.008f, 0.010f}, 6, 4);
+        builder.ellipsoid({side * 0.030f, 0.150f, 0.089f}, {0.018f, 0.004f, 0.010f}, 6, 3);
     }
     StageMaterial lips = style.skin;
     lips.tint = {0.70f, 0.32f, 0.30f};
     on(head, lips);
-    builder.ellipsoid({0, 0.055f, 0.092f}, {0.022f, 0.007f, 0.010f}, 10, 6);
+    builder.ellipsoid({0, 0.055f, 0.092f}, {0.022f, 0.007f, 0.010f}, 6, 4);
     on(head, style.hair);
-    builder.ellipsoid({0, 0.168f, -0.014f}, {0.086f, 0.092f, 0.106f}, 18, 10);
+    builder.ellipsoid({0, 0.168f, -0.014f}, {0.086f, 0.092f, 0.106f}, 14, 8);
     if (style.long_hair) {
         builder.loft(std::array<LoftRing, 7>{{{0.18f, 0.060f, 0.040f, -0.070f},
                                               {0.10f, 0.085f, 0.045f, -0.075f},
@@ -247,7 +247,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.14f, 0.084f, 0.036f, -0.085f},
                                               {-0.20f, 0.055f, 0.026f, -0.080f},
                                               {-0.23f, 0.0f, 0.0f, -0.078f}}},
-                     16);
+                     10);
     }
 
     for (const Bone upper : {upper_arm_left, upper_arm_right}) {
@@ -259,7 +259,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.15f, 0.050f, 0.052f},
                                               {-0.27f, 0.043f, 0.044f},
                                               {-0.30f, 0.0f, 0.0f}}},
-                     14);
+                     10);
         const auto lower = static_cast<Bone>(upper + 1);
         on(lower, style.top);
         builder.loft(std::array<LoftRing, 6>{{{0.035f, 0.0f, 0.0f},
@@ -268,7 +268,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.10f, 0.042f, 0.042f},
                                               {-0.19f, 0.036f, 0.036f},
                                               {-0.19f, 0.0f, 0.0f}}},
-                     12);
+                     10);
         on(lower, style.skin);
         builder.loft(std::array<LoftRing, 8>{{{-0.17f, 0.026f, 0.028f},
                                               {-0.23f, 0.022f, 0.026f},
@@ -278,7 +278,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.37f, 0.016f, 0.036f, 0.002f},
                                               {-0.405f, 0.012f, 0.024f},
                                               {-0.42f, 0.0f, 0.0f}}},
-                     12);
+                     8);
         builder.rod({0, -0.26f, 0.03f}, {0, -0.325f, 0.062f}, 0.014f, 0.010f, 8);  // thumb
     }
 
@@ -292,7 +292,7 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.30f, 0.066f, 0.070f},
                                               {-0.42f, 0.058f, 0.060f, 0.004f},
                                               {-0.48f, 0.0f, 0.0f}}},
-                     16);
+                     12);
         const auto lower = static_cast<Bone>(upper + 1);
         on(lower, leg);
         builder.loft(std::array<LoftRing, 8>{{{0.05f, 0.0f, 0.0f},
@@ -303,14 +303,14 @@ void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int f
                                               {-0.38f, 0.043f, 0.046f},
                                               {-0.43f, 0.046f, 0.052f, 0.004f},
                                               {-0.43f, 0.0f, 0.0f}}},
-                     14);
+                     10);
         on(lower, style.shoes);
         builder.loft(std::array<LoftRing, 5>{{{-0.40f, 0.036f, 0.040f, -0.004f},
                                               {-0.45f, 0.044f, 0.075f, 0.028f},
                                               {-0.478f, 0.050f, 0.125f, 0.056f},
                                               {-0.503f, 0.050f, 0.130f, 0.058f},
                                               {-0.505f, 0.0f, 0.0f, 0.05f}}},
-                     16);
+                     10);
     }
 }
 

@@ -47,7 +47,7 @@ StageMaterial any_material(Dice& dice, float texture_per_m) {
 void add_room(StageMeshBuilder& mesh, Dice& dice) {
     const int sides = 4 + dice.below(9);
     const float height = dice.between(3.5f, 6.0f), radius = dice.between(6.0f, 9.0f);
-    mesh.begin_chunk(false, false, false);
+    mesh.begin_chunk({.casts_shadow = false});
     mesh.set_material(any_material(dice, 0.45f));
     mesh.ring({0, 0, 0}, 0.0f, radius * 1.6f, 48, 14);
     mesh.set_placement(Affine3f(Eigen::Translation3f(0, height, 0)) *
@@ -58,7 +58,7 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     const float turn = dice.between(0, tau);
     const float half = radius * std::tan(0.5f * tau / static_cast<float>(sides));
     for (int i = 0; i < sides; ++i) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk(far_scenery);
         mesh.set_placement(
             Affine3f(AngleAxisf(turn + tau * static_cast<float>(i) / static_cast<float>(sides),
                                 Vector3f::UnitY())) *
@@ -73,7 +73,7 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
 void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice) {
     const int boards = 5 + dice.below(5);
     for (int i = 0; i < boards; ++i) {
-        mesh.begin_chunk(false, false, true);
+        mesh.begin_chunk();
         const float azimuth = dice.between(0, tau), radius = dice.between(2.4f, 5.5f);
         mesh.set_placement(
             Affine3f(Eigen::Translation3f(radius * std::sin(azimuth), dice.between(0.4f, 2.2f),
@@ -139,9 +139,9 @@ StageLighting any_lighting(Dice& dice) {
     };
     StageLighting lighting;
     lighting.key_direction = from_above();
-    lighting.key_colour = hue(dice.between(0.8f, 1.3f));
+    lighting.key_colour = hue(dice.between(1.1f, 1.6f));
     lighting.fill_direction = from_above();
-    lighting.fill_colour = hue(dice.between(0.2f, 0.5f));
+    lighting.fill_colour = hue(dice.between(0.3f, 0.6f));
     lighting.rim_direction = from_above();
     lighting.rim_colour = hue(dice.between(0.2f, 0.6f));
     lighting.sky_colour = hue(dice.between(0.4f, 0.6f));
@@ -183,7 +183,7 @@ StageScene make_random_set(std::uint64_t seed) {
     add_room(scene.mesh, dice);
     add_slanted_boards(scene.mesh, dice);
     for (const bool glossy : {false, true}) {
-        scene.mesh.begin_chunk(glossy);
+        scene.mesh.begin_chunk({.glossy = glossy});
         const int things = glossy ? 1 + dice.below(3) : 6 + dice.below(7);
         for (int i = 0; i < things; ++i) {
             StageMaterial material = any_material(dice, 1.2f);

@@ -35,12 +35,10 @@ std::pair<Vector3f, Vector3f> across(const Vector3f& axis) {
 
 }  // namespace
 
-void StageMeshBuilder::begin_chunk(bool glossy, bool animated, bool casts_shadow) {
+void StageMeshBuilder::begin_chunk(const ChunkKind& kind) {
     StageChunk chunk;
     chunk.first_index = static_cast<std::uint32_t>(indices_.size());
-    chunk.glossy = glossy;
-    chunk.animated = animated;
-    chunk.casts_shadow = casts_shadow;
+    chunk.kind = kind;
     chunks_.push_back(chunk);
     chunk_first_vertex_ = vertices_.size();
     bone_ = 0;

@@ -29,15 +29,28 @@ struct StageVertex {
     std::array<std::uint8_t, 4> gloss_mirror_glow;
 };
 
+/// Where the key light's shadow is looked up: at every pixel of a surface, at the vertices of
+/// finely meshed ones, or nowhere, out of the key light's reach.
+enum class ShadowLookup { none, vertex, pixel };
+
+/// How a chunk is drawn.
+struct ChunkKind {
+    ShadowLookup shadow = ShadowLookup::pixel;
+    bool casts_shadow = true;
+    bool glossy = false;
+    bool animated = false;
+};
+
 /// A run of triangles drawn, culled and lit together.
 struct StageChunk {
     std::uint32_t first_index = 0, index_count = 0;
     Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();  ///< of a sphere around it, for culling
     float radius_m = 0;
-    bool glossy = false;
-    bool animated = false;
-    bool casts_shadow = true;
+    ChunkKind kind;
 };
+
+/// Scenery that neither casts a shadow on the stage nor gets one.
+inline constexpr ChunkKind far_scenery{.shadow = ShadowLookup::none, .casts_shadow = false};
 
 /// One point of a parametric surface; uv in repeats of the texture.
 struct SurfacePoint {
@@ -54,7 +67,7 @@ struct LoftRing {
 /// looks like the current material and hangs on the current bone. All surfaces face outward.
 class StageMeshBuilder {
   public:
-    void begin_chunk(bool glossy = false, bool animated = false, bool casts_shadow = true);
+    void begin_chunk(const ChunkKind& kind = {});
     void end_chunk();
 
     void set_material(const StageMaterial& material) { material_ = material; }

@@ -16,7 +16,7 @@ StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float textur
 void add_performers(StageScene& scene) {
     int bone = 1;
     for (const PerformerStyle& performer : scene.performers) {
-        scene.mesh.begin_chunk(false, true);
+        scene.mesh.begin_chunk({.shadow = ShadowLookup::vertex, .animated = true});
         add_performer(scene.mesh, performer, bone);
         scene.mesh.end_chunk();
         bone += bones_of_performer;
@@ -27,7 +27,7 @@ void add_sky(StageMeshBuilder& mesh, const Eigen::Vector3f& tint) {
     constexpr float radius_m = 40;
     StageMaterial material = matte(0, tint, 0.2f);
     material.glow = 0.5f;
-    mesh.begin_chunk(false, false, false);
+    mesh.begin_chunk(far_scenery);
     mesh.set_material(material);
     constexpr float pi = std::numbers::pi_v<float>;
     mesh.patch(32, 16, [&](float s, float t) {

@@ -1,36 +1,36 @@
 #pragma once
 
-#include <GLES3/gl31.h>
 #include <opencv2/core.hpp>
 
 #include "common/gl/framebuffer.h"
-#include "common/gl/gl_handle.h"
+#include "common/gl/fullscreen_pass.h"
 #include "common/gl/texture.h"
 
 namespace vantage {
 
-inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
-
-/// What a picture of one size is drawn into: four samples a pixel for colour, one for depth.
+/// What a picture of one size is drawn into: several samples a pixel for colour, one, at the
+/// pixel's centre, for depth. Samples lie in a square grid in a larger texture: a software
+/// rasteriser draws four of them in the time of its four-fold multisampling, and textures and
+/// highlights gain as well as edges.
 class StageTargets {
   public:
-    /// Throws Error if the driver cannot or memory is short.
-    explicit StageTargets(cv::Size size);
+    /// `samples_per_side` is 1 or 2. Throws Error if the driver cannot or memory is short.
+    StageTargets(cv::Size size, int samples_per_side);
 
     cv::Size size() const { return size_; }
-    void bind_colour() const;
-    /// Averages the samples and reads the picture back.
-    void read_colour(cv::Mat& image) const;
+    int samples_per_side() const { return samples_per_side_; }
+    void bind_colour() const { sampled_target_.bind(); }
+    /// Averages the samples with `reduce` (stage_reduce.frag) and reads the picture back.
+    void read_colour(FullscreenPass& reduce, cv::Mat& image) const;
     void bind_depth() const { depth_target_.bind(); }
     /// As CV_32SC1 holding the bits of floats.
     void read_depth_bits(cv::Mat& image) const { depth_target_.read(0, image); }
 
   private:
     cv::Size size_;
-    GlHandle<delete_renderbuffer> colour_samples_, depth_samples_;
-    GlHandle<delete_framebuffer> sampled_;
-    Texture resolved_, depth_bits_, depth_order_;
-    Framebuffer resolved_target_, depth_target_;
+    int samples_per_side_;
+    Texture samples_, sample_order_, reduced_, depth_bits_, depth_order_;
+    Framebuffer sampled_target_, reduced_target_, depth_target_;
 };
 
 }  // namespace vantage

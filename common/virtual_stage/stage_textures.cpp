@@ -105,9 +105,13 @@ Picture draw_carpet(cv::RNG& random) {
         for (int x = 0; x < side; ++x) {
             const float u = tau * static_cast<float>(x) / side,
                         v = tau * static_cast<float>(y) / side;
-            const float figure = std::sin(4 * u) * std::sin(4 * v) + 0.5f * std::sin(8 * (u + v)) +
-                                 0.8f * waves(y, x);
-            bands(y, x) = std::clamp(6 * (figure - 0.35f), 0.0f, 1.0f);
+            // A lattice of diamonds, a dot in each, drawn a little unevenly.
+            const float diagonal = std::sin(4 * (u + v)) * std::sin(4 * (u - v));
+            const float dots = std::cos(8 * u) * std::cos(8 * v);
+            const float uneven = 0.12f * waves(y, x);
+            const float lattice = std::clamp(8 * (0.22f + uneven - std::abs(diagonal)), 0.0f, 1.0f);
+            const float dot = std::clamp(6 * (std::abs(dots) - 0.72f + uneven), 0.0f, 1.0f);
+            bands(y, x) = 0.85f * std::max(lattice, std::abs(diagonal) > 0.5f ? dot : 0.0f);
         }
     blend(picture, bands, {0.86f, 0.66f, 0.36f});
     shade(picture, noise_octave(random, 256, 256), 0.22f);

@@ -33,13 +33,13 @@ Affine3f facing_middle(float azimuth, float radius_m) {
 }
 
 void add_floor(StageMeshBuilder& mesh) {
-    mesh.begin_chunk(false, false, false);
+    mesh.begin_chunk({.casts_shadow = false});
     mesh.set_material(of(StageTexture::poster_logo, {1, 1, 1}));
     mesh.ring({0, 0, 0}, 0.0f, 0.85f, 64, 3, true);
     mesh.set_material(of(StageTexture::carpet, {1, 1, 1}, 0.55f));
     mesh.ring({0, 0, 0}, 0.85f, 2.1f, 64, 4);
     mesh.end_chunk();
-    mesh.begin_chunk(true, false, false);
+    mesh.begin_chunk({.casts_shadow = false, .glossy = true});
     StageMaterial polished = of(StageTexture::tiles, {0.62f, 0.66f, 0.72f}, 0.45f);
     polished.gloss = 0.5f;
     polished.mirror = 0.22f;
@@ -48,7 +48,7 @@ void add_floor(StageMeshBuilder& mesh) {
     mesh.end_chunk();
     // In quarters, so that those out of the picture are not drawn.
     for (int quarter = 0; quarter < 4; ++quarter) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk({.casts_shadow = false});
         mesh.set_material(of(StageTexture::wood, {1, 1, 1}, 0.5f));
         mesh.patch(16, 9, [&](float s, float t) {
             const float azimuth = 0.25f * tau * (static_cast<float>(quarter) + s);
@@ -91,7 +91,7 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
                                         {StageTexture::wood, {0.95f, 0.82f, 0.70f}, 0.45f},
                                         {StageTexture::plaster, {0.58f, 0.40f, 0.66f}, 0.45f}}};
     const Look& look = looks[static_cast<std::size_t>(index) % looks.size()];
-    mesh.begin_chunk(false, false, false);
+    mesh.begin_chunk(far_scenery);
     mesh.set_placement(facing_middle(azimuth, wall_radius_m));
     StageMaterial wall = of(look.texture, look.tint, look.per_m);
     wall.glow = 0.10f;
@@ -149,7 +149,7 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
 void add_columns(StageMeshBuilder& mesh) {
     const float radius = wall_radius_m / std::cos(0.5f * tau / panels) - 0.10f;
     for (int quarter = 0; quarter < 4; ++quarter) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk(far_scenery);
         for (int i = 0; i < panels / 4; ++i) {
             const float azimuth = tau * static_cast<float>(quarter * panels / 4 + i) / panels;
             mesh.set_placement(facing_middle(azimuth, radius));
@@ -165,7 +165,7 @@ void add_columns(StageMeshBuilder& mesh) {
 }
 
 void add_ceiling(StageMeshBuilder& mesh) {
-    mesh.begin_chunk(false, false, false);
+    mesh.begin_chunk(far_scenery);
     StageMaterial ceiling = of(StageTexture::speckle, {0.30f, 0.36f, 0.52f}, 0.3f);
     ceiling.glow = 0.12f;
     mesh.set_material(ceiling);
@@ -184,7 +184,7 @@ void add_lighting_grid(StageMeshBuilder& mesh) {
         return Vector3f(radius * std::sin(azimuth), height, radius * std::cos(azimuth));
     };
     for (int i = 0; i < segments; ++i) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk(far_scenery);
         mesh.set_material(of(StageTexture::metal, {0.80f, 0.82f, 0.86f}, 1.0f));
         mesh.truss(corner(i), corner(i + 1), 0.30f, 0.022f, 8);
         const Vector3f at = corner(i);
@@ -266,7 +266,7 @@ void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
         mesh.set_placement(placement * Eigen::Translation3f(0, 0.34f, 0) *
                            AngleAxisf(turn, Vector3f::UnitY()) *
                            AngleAxisf(1.15f - rise * 1.6f, Vector3f::UnitX()));
-        mesh.ellipsoid({0, 0.42f, 0}, {0.055f, 0.44f, 0.010f}, 10, 8);
+        mesh.ellipsoid({0, 0.42f, 0}, {0.055f, 0.44f, 0.010f}, 6, 6);
     }
     mesh.end_chunk();
 }
@@ -288,23 +288,23 @@ void add_balls_and_blocks(StageMeshBuilder& mesh) {
     mesh.rod({0, 0.75f, 0}, {0, 0.80f, 0}, 0.27f, 0.27f, 20);
     mesh.end_chunk();
 
-    mesh.begin_chunk(true);
+    mesh.begin_chunk({.glossy = true});
     StageMaterial mirror = of(StageTexture::plain, {0.90f, 0.92f, 0.95f});
     mirror.mirror = 0.85f;
     mirror.gloss = 1.0f;
     mesh.set_material(mirror);
-    mesh.ellipsoid({1.95f, 1.06f, -0.95f}, {0.26f, 0.26f, 0.26f}, 32, 20);
+    mesh.ellipsoid({1.95f, 1.06f, -0.95f}, {0.26f, 0.26f, 0.26f}, 24, 14);
     StageMaterial lacquer = of(StageTexture::plain, {0.86f, 0.20f, 0.16f});
     lacquer.mirror = 0.15f;
     lacquer.gloss = 0.9f;
     mesh.set_material(lacquer);
-    mesh.ellipsoid({-1.85f, 0.91f, 0.75f}, {0.19f, 0.19f, 0.19f}, 28, 18);
+    mesh.ellipsoid({-1.85f, 0.91f, 0.75f}, {0.19f, 0.19f, 0.19f}, 20, 12);
     mesh.end_chunk();
 }
 
 void add_speakers(StageMeshBuilder& mesh) {
     for (const float azimuth : {0.07f * tau, 0.30f * tau, 0.47f * tau, 0.71f * tau, 0.93f * tau}) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk(far_scenery);
         mesh.set_placement(facing_middle(azimuth, 6.3f));
         mesh.set_material(of(StageTexture::speckle, {0.36f, 0.37f, 0.42f}, 1.0f));
         mesh.box({0, 0.75f, 0}, {0.62f, 1.5f, 0.55f});
@@ -323,7 +323,7 @@ void add_speakers(StageMeshBuilder& mesh) {
 void add_risers(StageMeshBuilder& mesh) {
     // Steps along a part of the wall: slanted and stepped depths.
     for (const float azimuth : {0.16f * tau, 0.56f * tau, 0.84f * tau}) {
-        mesh.begin_chunk(false, false, false);
+        mesh.begin_chunk(far_scenery);
         mesh.set_placement(facing_middle(azimuth, 6.4f));
         for (int step = 0; step < 3; ++step) {
             mesh.set_material(of(step % 2 ? StageTexture::carpet : StageTexture::stripes,
@@ -348,7 +348,7 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle dancer;
     dancer.move = PerformerMove::dance;
-    dancer.home_m = {-0.42f, -0.10f};
+    dancer.home_m = {-0.50f, -0.15f};
     dancer.phase = 0.05f;
     dancer.height_m = 1.70f;
     dancer.long_hair = true;
@@ -361,7 +361,7 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle singer;
     singer.move = PerformerMove::sing;
-    singer.home_m = {0.50f, 0.15f};
+    singer.home_m = {0.58f, 0.15f};
     singer.height_m = 1.80f;
     singer.skin = of(StageTexture::plain, {0.90f, 0.72f, 0.60f});
     singer.hair = of(StageTexture::speckle, {0.78f, 0.62f, 0.34f}, 4.0f);
@@ -376,13 +376,13 @@ std::vector<PerformerStyle> cast() {
 StageScene make_studio_set() {
     StageScene scene;
     scene.lighting.key_direction = Vector3f(0.45f, 1.0f, 0.62f).normalized();
-    scene.lighting.key_colour = Vector3f(1.30f, 1.18f, 1.00f);
+    scene.lighting.key_colour = Vector3f(1.55f, 1.40f, 1.18f);
     scene.lighting.fill_direction = Vector3f(-0.85f, 0.45f, 0.35f).normalized();
     scene.lighting.fill_colour = Vector3f(0.30f, 0.38f, 0.50f);
     scene.lighting.rim_direction = Vector3f(0.15f, 0.55f, -1.0f).normalized();
     scene.lighting.rim_colour = Vector3f(0.62f, 0.56f, 0.52f);
-    scene.lighting.sky_colour = Vector3f(0.42f, 0.45f, 0.52f);
-    scene.lighting.ground_colour = Vector3f(0.30f, 0.25f, 0.22f);
+    scene.lighting.sky_colour = Vector3f(0.34f, 0.37f, 0.44f);
+    scene.lighting.ground_colour = Vector3f(0.26f, 0.21f, 0.19f);
     StageMeshBuilder& mesh = scene.mesh;
     add_floor(mesh);
     for (int i = 0; i < panels; ++i) add_wall_panel(mesh, i);
@@ -390,7 +390,7 @@ StageScene make_studio_set() {
     add_ceiling(mesh);
     add_lighting_grid(mesh);
     add_railing(mesh);
-    add_microphone_stand(mesh, 0.42f, 0.62f);
+    add_microphone_stand(mesh, 0.50f, 0.62f);
     add_desk(mesh);
     add_plant(mesh, 0.28f * tau, 3.3f);
     add_plant(mesh, 0.72f * tau, 3.2f);

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
-#include "common/geometry/rectification_map.h"
 #include "common/gl/limits.h"
 
 namespace vantage {
@@ -133,9 +132,7 @@ VirtualRig::Sensor VirtualRig::make_sensor(const CameraModel& model,
 }
 
 VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise)
-    : rectified_(calibration.rectified),
-      left_is_rectified_(is_identity(calibration, Side::left)),
-      noise_(noise) {
+    : rectified_(calibration.rectified), noise_(noise) {
     calibration.validate();
     left_ = make_sensor(calibration.left, calibration.world_from_left);
     right_ = make_sensor(calibration.right,
@@ -146,8 +143,16 @@ VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& 
     rectified_left_.world_from_camera = calibration.world_from_rectified_left();
 }
 
-ColourImage VirtualRig::see(const Sensor& sensor, const ColourImage& pinhole) {
-    if (sensor.positions.empty()) return pinhole;
+ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
+                            std::chrono::nanoseconds stage_time) {
+    const bool has_lens = !sensor.positions.empty();
+    // Through a lens, the points of a pixel are its samples.
+    ColourImage pinhole =
+        stage
+            .render(sensor.camera, stage_time,
+                    {.pictures = StagePictures::colour, .anti_aliased = !has_lens})
+            .colour;
+    if (!has_lens) return pinhole;
     ColourImage points, picture;
     cv::remap(pinhole, points, sensor.positions, cv::noArray(), cv::INTER_LINEAR);
     cv::resize(points, picture, sensor.size, 0, 0, cv::INTER_AREA);
@@ -157,19 +162,11 @@ ColourImage VirtualRig::see(const Sensor& sensor, const ColourImage& pinhole) {
 VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
                                       std::uint64_t frame_index) const {
     VirtualStereoFrame frame;
-    DepthImage depth_m;
-    if (left_is_rectified_) {
-        StageRendering both = stage.render(left_.camera, stage_time, StagePictures::both);
-        frame.left = both.colour;
-        depth_m = both.depth_m;
-    } else {
-        frame.left =
-            see(left_, stage.render(left_.camera, stage_time, StagePictures::colour).colour);
-        depth_m = stage.render(rectified_left_, stage_time, StagePictures::depth).depth_m;
-    }
-    frame.right =
-        see(right_, stage.render(right_.camera, stage_time, StagePictures::colour).colour);
-    frame.exact_disparity = disparity_from_depth(depth_m, rectified_);
+    frame.left = see(left_, stage, stage_time);
+    frame.right = see(right_, stage, stage_time);
+    const StageRendering exact =
+        stage.render(rectified_left_, stage_time, {.pictures = StagePictures::depth});
+    frame.exact_disparity = disparity_from_depth(exact.depth_m, rectified_);
     add_sensor_noise(frame.left, noise_, 0, frame_index);
     add_sensor_noise(frame.right, noise_, 1, frame_index);
     return frame;

@@ -56,12 +56,12 @@ class VirtualRig {
         cv::Size size;        ///< of the sensor's picture
     };
     static Sensor make_sensor(const CameraModel& model, const Pose& world_from_camera);
-    static ColourImage see(const Sensor& sensor, const ColourImage& pinhole);
+    static ColourImage see(const Sensor& sensor, VirtualStage& stage,
+                           std::chrono::nanoseconds stage_time);
 
     Sensor left_, right_;
     StageCamera rectified_left_;
     RectifiedStereo rectified_;
-    bool left_is_rectified_;
     SensorNoise noise_;
 };
 

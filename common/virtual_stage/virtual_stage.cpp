@@ -8,10 +8,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/gl/buffer.h"
+#include "common/gl/fullscreen_pass.h"
 #include "common/gl/limits.h"
 #include "common/gl/program.h"
 #include "common/gl/vertex_array.h"
@@ -63,6 +65,13 @@ class StateGuard {
     GLint viewport_[4] = {};
 };
 
+/// The shaders for one way of looking a surface up.
+struct ColourProgram {
+    ShadowLookup shadow;
+    bool glossy;
+    Program program;
+};
+
 GlHandle<delete_texture> upload_textures(std::uint64_t seed) {
     GLuint name = 0;
     glGenTextures(1, &name);
@@ -77,7 +86,9 @@ GlHandle<delete_texture> upload_textures(std::uint64_t seed) {
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer++, image.cols, image.rows, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, image.data);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    // The steps between mip levels vanish in the samples of a pixel, and it is far cheaper than
+    // blending levels.
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_REPEAT);
@@ -141,10 +152,12 @@ struct VirtualStage::Impl {
           shadow(make_shadow_texture(true)),
           still_shadow_target({}, &still_shadow),
           shadow_target({}, &shadow),
-          matte_program(program(library, "stage_colour", "stage_colour.frag", false)),
-          glossy_program(program(library, "stage_colour", "stage_colour.frag", true)),
-          depth_program(program(library, "stage_depth", "stage_depth.frag", false)),
-          shadow_program(program(library, "stage_depth", "stage_shadow.frag", false)),
+          colour_programs(make_colour_programs(library)),
+          depth_program(
+              Program::render(library, "stage_depth.vert", "stage_depth.frag", {bones_define()})),
+          shadow_program(
+              Program::render(library, "stage_depth.vert", "stage_shadow.frag", {bones_define()})),
+          reduce(library, "stage_reduce.frag"),
           shadow_from_world(clip_from_world_parallel(scene.lighting.key_direction, {0, 1, 0},
                                                      shadow_half_size_m)),
           bone_rows(3 * (1 + scene.performers.size() * bones_of_performer)) {
@@ -158,11 +171,23 @@ struct VirtualStage::Impl {
         draw_shadows(false);
     }
 
-    static Program program(const ShaderLibrary& library, const std::string& vertex,
-                           const std::string& fragment, bool glossy) {
-        return Program::render(
-            library, vertex + ".vert", fragment,
-            {{"BONES", std::to_string(max_bones)}, {"GLOSSY", glossy ? "1" : "0"}});
+    /// The programs by what is drawn first: near and small before far and large.
+    static std::vector<ColourProgram> make_colour_programs(const ShaderLibrary& library) {
+        std::vector<ColourProgram> programs;
+        for (const ShadowLookup shadow :
+             {ShadowLookup::vertex, ShadowLookup::pixel, ShadowLookup::none})
+            for (const bool glossy : {true, false})
+                programs.push_back(
+                    {shadow, glossy,
+                     Program::render(library, "stage_colour.vert", "stage_colour.frag",
+                                     {bones_define(),
+                                      {"SHADOW", std::to_string(static_cast<int>(shadow))},
+                                      {"GLOSSY", glossy ? "1" : "0"}})});
+        return programs;
+    }
+
+    static std::pair<std::string, std::string> bones_define() {
+        return {"BONES", std::to_string(max_bones)};
     }
 
     void set_bone(std::size_t bone, const Eigen::Affine3f& world_from_bone) {
@@ -197,7 +222,7 @@ struct VirtualStage::Impl {
         glPolygonOffset(1.5f, 4.0f);
         vertex_array.bind();
         for (const StageChunk& chunk : scene.mesh.chunks())
-            if (chunk.casts_shadow && chunk.animated == animated) draw(chunk);
+            if (chunk.kind.casts_shadow && chunk.kind.animated == animated) draw(chunk);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
 
@@ -206,24 +231,62 @@ struct VirtualStage::Impl {
                        reinterpret_cast<const void*>(chunk.first_index * sizeof(std::uint32_t)));
     }
 
-    /// Performers move within this sphere.
-    static bool in_view(const Frustum& frustum, const StageChunk& chunk) {
-        if (chunk.animated) return may_see_sphere(frustum, {0, 1, 0}, 2.9f);
-        return may_see_sphere(frustum, chunk.centre_m, chunk.radius_m);
+    /// The chunks that the camera may see, nearest first, so that little is drawn to be covered.
+    std::vector<const StageChunk*> in_view(const StageCamera& camera,
+                                           const Eigen::Matrix4f& clip) const {
+        const Frustum frustum = frustum_of(clip);
+        const Eigen::Vector3f eye_m = camera.world_from_camera.translation().cast<float>();
+        std::vector<std::pair<float, const StageChunk*>> seen;
+        for (const StageChunk& chunk : scene.mesh.chunks()) {
+            // Performers move within a sphere around the middle of the stage.
+            const Eigen::Vector3f centre_m =
+                chunk.kind.animated ? Eigen::Vector3f(0, 1, 0) : chunk.centre_m;
+            const float radius_m = chunk.kind.animated ? 2.9f : chunk.radius_m;
+            if (!may_see_sphere(frustum, centre_m, radius_m)) continue;
+            // What is large lies behind what is small, mostly.
+            seen.emplace_back((centre_m - eye_m).norm() + (chunk.kind.animated ? 0 : radius_m),
+                              &chunk);
+        }
+        std::stable_sort(seen.begin(), seen.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<const StageChunk*> chunks;
+        for (const auto& [distance_m, chunk] : seen) chunks.push_back(chunk);
+        return chunks;
     }
 
-    StageTargets& targets_for(cv::Size size) {
-        const auto same = [&](const auto& t) { return t->size() == size; };
+    StageTargets& targets_for(cv::Size size, int samples_per_side) {
+        const auto same = [&](const auto& t) {
+            return t->size() == size && t->samples_per_side() == samples_per_side;
+        };
         const auto at = std::find_if(targets.begin(), targets.end(), same);
         if (at != targets.end()) return **at;
         if (targets.size() == kept_targets) targets.erase(targets.begin());
-        targets.push_back(std::make_unique<StageTargets>(size));
+        targets.push_back(std::make_unique<StageTargets>(size, samples_per_side));
         return *targets.back();
+    }
+
+    void prepare(Program& program, const StageCamera& camera, const Eigen::Matrix4f& clip) {
+        const StageLighting& light = scene.lighting;
+        program.use();
+        program.set("clip_from_world", clip);
+        program.set("shadow_from_world", shadow_from_world);
+        program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
+        program.set("key_direction", light.key_direction);
+        program.set("key_colour", light.key_colour);
+        program.set("fill_direction", light.fill_direction);
+        program.set("fill_colour", light.fill_colour);
+        program.set("rim_direction", light.rim_direction);
+        program.set("rim_colour", light.rim_colour);
+        program.set("sky_colour", light.sky_colour);
+        program.set("ground_colour", light.ground_colour);
+        program.set("eye_m", Eigen::Vector3f(camera.world_from_camera.translation().cast<float>()));
+        program.set("textures", static_cast<int>(unit_textures));
+        program.set("shadow_map", static_cast<int>(unit_shadow));
     }
 
     void draw_colour(const StageCamera& camera, StageTargets& target, ColourImage& picture) {
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
-        const Frustum frustum = frustum_of(clip);
+        const std::vector<const StageChunk*> chunks = in_view(camera, clip);
         target.bind_colour();
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -231,35 +294,21 @@ struct VirtualStage::Impl {
         glBindTexture(GL_TEXTURE_2D_ARRAY, textures.name());
         shadow.bind(unit_shadow);
         vertex_array.bind();
-        const StageLighting& light = scene.lighting;
-        for (const bool glossy : {false, true}) {
-            Program& program = glossy ? glossy_program : matte_program;
-            program.use();
-            program.set("clip_from_world", clip);
-            program.set("shadow_from_world", shadow_from_world);
-            program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
-            program.set("key_direction", light.key_direction);
-            program.set("key_colour", light.key_colour);
-            program.set("fill_direction", light.fill_direction);
-            program.set("fill_colour", light.fill_colour);
-            program.set("rim_direction", light.rim_direction);
-            program.set("rim_colour", light.rim_colour);
-            program.set("sky_colour", light.sky_colour);
-            program.set("ground_colour", light.ground_colour);
-            program.set("eye_m",
-                        Eigen::Vector3f(camera.world_from_camera.translation().cast<float>()));
-            program.set("textures", static_cast<int>(unit_textures));
-            program.set("shadow_map", static_cast<int>(unit_shadow));
-            for (const StageChunk& chunk : scene.mesh.chunks())
-                if (chunk.glossy == glossy && in_view(frustum, chunk)) draw(chunk);
+        for (ColourProgram& way : colour_programs) {
+            bool in_use = false;
+            for (const StageChunk* chunk : chunks) {
+                if (chunk->kind.glossy != way.glossy || chunk->kind.shadow != way.shadow) continue;
+                if (!in_use) prepare(way.program, camera, clip);
+                in_use = true;
+                draw(*chunk);
+            }
         }
         picture.create(camera.height_px, camera.width_px);
-        target.read_colour(picture);
+        target.read_colour(reduce, picture);
     }
 
     void draw_depth(const StageCamera& camera, StageTargets& target, DepthImage& depth_m) {
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
-        const Frustum frustum = frustum_of(clip);
         target.bind_depth();
         constexpr GLuint nothing[4] = {0, 0, 0, 0};
         glClearBufferuiv(GL_COLOR, 0, nothing);
@@ -268,8 +317,7 @@ struct VirtualStage::Impl {
         depth_program.use();
         depth_program.set("clip_from_world", clip);
         depth_program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
-        for (const StageChunk& chunk : scene.mesh.chunks())
-            if (in_view(frustum, chunk)) draw(chunk);
+        for (const StageChunk* chunk : in_view(camera, clip)) draw(*chunk);
         depth_m.create(camera.height_px, camera.width_px);
         cv::Mat bits(depth_m.size(), CV_32SC1, depth_m.data);
         target.read_depth_bits(bits);
@@ -281,7 +329,9 @@ struct VirtualStage::Impl {
     GlHandle<delete_texture> textures;
     Texture still_shadow, shadow;
     Framebuffer still_shadow_target, shadow_target;
-    Program matte_program, glossy_program, depth_program, shadow_program;
+    std::vector<ColourProgram> colour_programs;
+    Program depth_program, shadow_program;
+    FullscreenPass reduce;
     Eigen::Matrix4f shadow_from_world;
     std::vector<Eigen::Vector4f> bone_rows;
     std::optional<std::chrono::nanoseconds> posed_time;
@@ -297,14 +347,19 @@ VirtualStage::VirtualStage(VirtualStage&&) noexcept = default;
 VirtualStage& VirtualStage::operator=(VirtualStage&&) noexcept = default;
 
 StageRendering VirtualStage::render(const StageCamera& camera, std::chrono::nanoseconds stage_time,
-                                    StagePictures wanted) {
+                                    const StageOptions& options) {
     validate(camera);
-    StageTargets& target = impl_->targets_for({camera.width_px, camera.height_px});
+    const bool samples_fit =
+        2 * std::max(camera.width_px, camera.height_px) <= PiLimits::max_image_side_px;
+    StageTargets& target = impl_->targets_for({camera.width_px, camera.height_px},
+                                              options.anti_aliased && samples_fit ? 2 : 1);
     const StateGuard guard;
     impl_->go_to(stage_time);
     StageRendering rendering;
-    if (wanted != StagePictures::depth) impl_->draw_colour(camera, target, rendering.colour);
-    if (wanted != StagePictures::colour) impl_->draw_depth(camera, target, rendering.depth_m);
+    if (options.pictures != StagePictures::depth)
+        impl_->draw_colour(camera, target, rendering.colour);
+    if (options.pictures != StagePictures::colour)
+        impl_->draw_depth(camera, target, rendering.depth_m);
     return rendering;
 }
 

@@ -24,8 +24,13 @@ struct StageRendering {
     DepthImage depth_m;  ///< exact z at every pixel's centre; never 0: the set surrounds the stage
 };
 
-/// What render() draws; the other picture stays empty.
+/// What render() draws; a picture not asked for stays empty.
 enum class StagePictures { colour, depth, both };
+
+struct StageOptions {
+    StagePictures pictures = StagePictures::both;
+    bool anti_aliased = true;  ///< four samples a pixel for colour, up to 2048 pixels a side
+};
 
 /// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
 /// glossy and untextured parts. World: right-handed, metres, y up, floor at y = 0; the performers
@@ -45,7 +50,7 @@ class VirtualStage {
     /// Throws Error for a size the GPU cannot draw, or for a K or pose that cannot be. Waits for
     /// the GPU. The context that made the stage must be current.
     StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time,
-                          StagePictures wanted = StagePictures::both);
+                          const StageOptions& options = {});
 
   private:
     struct Impl;
