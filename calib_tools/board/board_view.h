@@ -21,11 +21,9 @@ using BoardCorners = std::vector<BoardCorner>;
 struct BoardSighting {
     BoardCorners corners;
     std::string reason;
-    double square_px = 0;  ///< median distance of neighbouring corners
-    double blur_px = 0;    ///< median Gaussian sigma of the edges
-    double contrast = 0;   ///< median half step from black to white, grey levels
-    /// Inner corners of the board that is there instead of the one that was looked for; 0: none.
-    int other_columns = 0, other_rows = 0;
+    double square_px = 0;   ///< median distance of neighbouring corners
+    double blur_px = 0;     ///< median Gaussian sigma of the edges
+    double contrast = 0;    ///< median half step from black to white, grey levels
     bool mirrored = false;  ///< markers can be read in the mirrored picture only
 
     bool found() const { return !corners.empty(); }

@@ -91,17 +91,6 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
     return false;
 }
 
-/// The size of whatever chessboard there is; empty if there is none.
-cv::Size find_any_size(const GreyImage& picture) {
-    std::vector<cv::Point2f> corners;
-    cv::Mat meta;
-    if (!cv::findChessboardCornersSB(picture, cv::Size(3, 3), corners,
-                                     cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE, meta) ||
-        meta.empty())
-        return {};
-    return meta.size();
-}
-
 std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& rough) {
     std::vector<cv::Point2f> points;
     for (const Eigen::Vector2d& p : rough.pixels)
@@ -152,21 +141,8 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
     BoardSighting sighting;
     const std::optional<CornerGrid> rough =
         find_grid(picture, cv::Size(pattern.columns, pattern.rows));
-    const auto name_other_size = [&] {
-        const cv::Size seen = find_any_size(picture);
-        const bool same = (seen.width == pattern.columns && seen.height == pattern.rows) ||
-                          (seen.width == pattern.rows && seen.height == pattern.columns);
-        if (seen.area() == 0 || same) return false;
-        sighting.other_columns = std::max(seen.width, seen.height);
-        sighting.other_rows = std::min(seen.width, seen.height);
-        sighting.reason =
-            fmt::format("shows a board of {}x{} inner corners, not {}", sighting.other_columns,
-                        sighting.other_rows, pattern.size_name());
-        return true;
-    };
     if (!rough) {
-        if (!name_other_size())
-            sighting.reason = fmt::format("shows no whole {} board", pattern.size_name());
+        sighting.reason = fmt::format("shows no whole {} board", pattern.size_name());
         return sighting;
     }
     const std::optional<RefinedGrid> refined = refine(picture, canonical(picture, *rough));
@@ -175,9 +151,8 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
         return sighting;
     }
     if (continues_beyond(picture, *refined)) {
-        if (!name_other_size())
-            sighting.reason =
-                fmt::format("shows a board with more than {} inner corners", pattern.size_name());
+        sighting.reason =
+            fmt::format("shows a board with more than {} inner corners", pattern.size_name());
         return sighting;
     }
     for (int id = 0; id < pattern.corner_count(); ++id)
@@ -187,6 +162,49 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
     sighting.blur_px = refined->blur_px;
     sighting.contrast = refined->contrast;
     return sighting;
+}
+
+std::optional<BoardPattern> find_other_size(const GreyImage& picture, const BoardPattern& pattern) {
+    // Large pictures are searched smaller: the count of squares is wanted, not their places.
+    const double scale = std::min(1.0, 800.0 / picture.cols);
+    GreyImage small = picture;
+    if (scale < 1) cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
+    std::vector<cv::Size> sizes;
+    const auto add = [&](int columns, int rows) {
+        const cv::Size size(std::max(columns, rows), std::min(columns, rows));
+        const bool same = size.width == std::max(pattern.columns, pattern.rows) &&
+                          size.height == std::min(pattern.columns, pattern.rows);
+        if (size.height >= 3 && !same && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
+            sizes.push_back(size);
+    };
+    // Squares counted instead of corners, one of the sides miscounted, and the boards in common
+    // use.
+    add(pattern.columns - 1, pattern.rows - 1);
+    for (const int d : {1, -1, 2, -2}) {
+        add(pattern.columns + d, pattern.rows);
+        add(pattern.columns, pattern.rows + d);
+        add(pattern.columns + d, pattern.rows + d);
+        add(pattern.columns + d, pattern.rows - d);
+    }
+    constexpr int common[][2] = {{9, 6},  {8, 6},  {7, 6},  {8, 5}, {7, 5}, {6, 5},
+                                 {6, 4},  {5, 4},  {7, 7},  {8, 8}, {9, 7}, {10, 7},
+                                 {11, 8}, {11, 7}, {12, 8}, {12, 9}};
+    for (const auto& [columns, rows] : common) add(columns, rows);
+    for (const cv::Size& size : sizes) {
+        std::vector<cv::Point2f> corners;
+        if (!cv::findChessboardCorners(small, size, corners,
+                                       cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE |
+                                           cv::CALIB_CB_FAST_CHECK))
+            continue;
+        const std::optional<RefinedGrid> refined =
+            refine(small, canonical(small, *to_grid(corners, size, 1)));
+        if (!refined || continues_beyond(small, *refined)) continue;
+        BoardPattern other = pattern;
+        other.columns = size.width;
+        other.rows = size.height;
+        return other;
+    }
+    return std::nullopt;
 }
 
 }  // namespace vantage

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "calib_tools/board/board_pattern.h"
 #include "calib_tools/board/board_view.h"
 #include "common/image/image.h"
@@ -11,6 +13,10 @@ namespace vantage {
 /// (columns + rows odd) the numbering is the same from every side. A board of another size in the
 /// picture is recognised and named.
 BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& pattern);
+
+/// The board of another size that the picture shows, if one of the sizes in use fits; a search that
+/// is worth its time only for a few pictures of a series in which the right size is not found.
+std::optional<BoardPattern> find_other_size(const GreyImage& picture, const BoardPattern& pattern);
 
 /// The same corners numbered from the opposite end: what a board that looks alike when turned half
 /// round may also be.

@@ -5,6 +5,7 @@
 
 #include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
+#include <glog/logging.h>
 
 #include "calib_tools/bundle/bundle_problem.h"
 
@@ -67,6 +68,8 @@ bool solve_bundle(Bundle& bundle, const BundleOptions& options) {
         add(problem.camera_pose(i), 1);
     }
     solver.linear_solver_ordering = ordering;
+    // Steps that fail are part of the search; the result is judged by its residuals.
+    FLAGS_minloglevel = google::GLOG_FATAL;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem.problem(), &summary);
     if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost)) return false;

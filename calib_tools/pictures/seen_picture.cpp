@@ -5,9 +5,11 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <optional>
 
 #include <opencv2/imgproc.hpp>
 
+#include "calib_tools/board/chessboard_finder.h"
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -90,7 +92,7 @@ void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
                                       "this series and {:.1f} px the limit; hold the board still, "
                                       "in focus",
                                       s.blur_px, usual_blur, limit));
-        } else if (p.width_px > 0 && s.other_columns == 0 && !s.mirrored) {
+        } else if (p.width_px > 0 && !s.mirrored) {
             if (usual_sharpness > 0 && p.sharpness < 0.5 * usual_sharpness)
                 p.sighting.reason += ": the picture is blurred";
             else if (p.saturated > 0.1 + 2 * usual_saturation)
@@ -148,12 +150,13 @@ void require_one_size(std::vector<SeenPicture>& pictures) {
 }
 
 void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPattern& pattern) {
-    std::map<std::pair<int, int>, std::size_t> votes;
     std::size_t mirrored = 0, found = 0;
+    std::vector<std::filesystem::path> without;
     for (const SeenPicture& p : pictures) {
-        if (p.sighting.found()) ++found;
-        if (p.sighting.other_columns > 0)
-            ++votes[{p.sighting.other_columns, p.sighting.other_rows}];
+        if (p.sighting.found())
+            ++found;
+        else if (p.width_px > 0)
+            without.push_back(p.path);
         if (p.sighting.mirrored) ++mirrored;
     }
     if (mirrored > found)
@@ -161,12 +164,19 @@ void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPat
             "the pictures are mirrored: the board's markers can be read in a mirror only ({} of {} "
             "pictures); turn mirroring off at the camera",
             mirrored, pictures.size());
-    for (const auto& [size, count] : votes)
-        if (count > found)
+    if (2 * found > pictures.size() || pattern.kind != BoardKind::chessboard) return;
+    constexpr std::size_t samples = 6;
+    std::map<std::pair<int, int>, int> votes;
+    for (std::size_t i = 0; i < std::min(samples, without.size()); ++i) {
+        const std::filesystem::path& path = without[i * without.size() / samples % without.size()];
+        const std::optional<BoardPattern> other =
+            find_other_size(to_grey(read_colour_image(path)), pattern);
+        if (other && ++votes[{other->columns, other->rows}] >= 2)
             fail(
-                "the pictures show a board of {}x{} inner corners, not {} (corners where four "
-                "squares meet are counted, not squares); {} of {} pictures say so",
-                size.first, size.second, pattern.size_name(), count, pictures.size());
+                "the pictures show a board of {} inner corners, not {} (corners where four squares "
+                "meet are counted, not squares)",
+                other->size_name(), pattern.size_name());
+    }
 }
 
 }  // namespace vantage

@@ -100,8 +100,10 @@ LensChoice use_lens(const std::vector<CameraViews>& cameras, const LensFamily& f
     const Attempt attempt =
         attempt_family(cameras, family, std::vector<std::optional<Bundle>>(cameras.size()));
     if (!attempt.trial.excluded.empty())
-        fail("lens family '{}' cannot be used with these pictures: {}", family.name,
-             attempt.trial.excluded);
+        fail(
+            "lens family '{}' cannot be used with these pictures: {}; take pictures of the board "
+            "tilted in several directions",
+            family.name, attempt.trial.excluded);
     return {&family, {attempt.trial}, attempt.cameras};
 }
 

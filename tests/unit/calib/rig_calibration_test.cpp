@@ -1,0 +1,160 @@
+#include "calib_tools/rig/rig_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calib_tools/pictures/picture_list.h"
+#include "calib_tools/report/calibration_json.h"
+#include "common/base/error.h"
+#include "tests/support/data_folder.h"
+#include "tests/unit/calib/synthetic_views.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+const BoardPattern pattern = chessboard_pattern("9x6", 0.04);
+
+std::string failure_of(const SyntheticRig::Series& series, const BoardPattern& board = pattern) {
+    try {
+        calibrate_rig(series.left, series.right, board, {.family = &lens_family("brown4")});
+        return "no failure";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+TEST(RigCalibration, recovers_a_known_rig_and_states_uncertainties_that_cover_it) {
+    const SyntheticRig rig;
+    SyntheticViews views(pattern, 0.1);
+    const SyntheticRig::Series series = rig.film(views, 20);
+    ASSERT_EQ(series.left.size(), 20u);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+    EXPECT_EQ(c.views_used, 20u);
+    EXPECT_TRUE(c.rejected.empty());
+    EXPECT_NEAR(c.uncertainty.residual_sigma_px, 0.1, 0.01);
+    const BundleUncertainty::Camera& sigma = c.uncertainty.cameras[0];
+    EXPECT_GT(sigma.fx_px, 0.01);
+    EXPECT_LT(sigma.fx_px, 1.0);
+    EXPECT_NEAR(c.calibration.left.fx_px, rig.left.fx_px, 4 * sigma.fx_px);
+    EXPECT_NEAR(c.calibration.left.cy_px, rig.left.cy_px, 4 * sigma.cy_px);
+    EXPECT_NEAR(c.baseline_m, rig.right_from_left.translation().norm(), 4 * c.baseline_sigma_m);
+    EXPECT_LT(c.baseline_sigma_m, 0.001);
+    EXPECT_LT(c.row_rms_px, 0.16);
+}
+
+TEST(RigCalibration, chooses_a_lens_that_predicts_withheld_views) {
+    const SyntheticRig rig;
+    SyntheticViews views(pattern);
+    const SyntheticRig::Series series = rig.film(views, 12);
+    const RigCalibration c = calibrate_rig(series.left, series.right, pattern, {});
+    EXPECT_GE(c.bundle.cameras[0].family->free_count(), 2);
+    EXPECT_LE(c.bundle.cameras[0].family->free_count(), 5);
+    EXPECT_NEAR(c.calibration.left.fx_px, rig.left.fx_px, 2);
+}
+
+TEST(RigCalibration, names_swapped_sides) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 8);
+    std::swap(series.left, series.right);
+    EXPECT_THAT(failure_of(series), HasSubstr("swapped"));
+}
+
+TEST(RigCalibration, names_pictures_mirrored_against_each_other) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 8);
+    for (SeenPicture& picture : series.right) {
+        BoardCorners mirrored;
+        // As the finder numbers a mirrored 9x6 board: rows from the other side keep squares black.
+        for (int row = pattern.rows - 1; row >= 0; --row)
+            for (int column = 0; column < pattern.columns; ++column) {
+                BoardCorner corner =
+                    picture.sighting
+                        .corners[static_cast<std::size_t>(row * pattern.columns + column)];
+                corner.pixel.x() = picture.width_px - 1 - corner.pixel.x();
+                corner.id = static_cast<int>(mirrored.size());
+                corner.board_m = pattern.corner_m(corner.id);
+                mirrored.push_back(corner);
+            }
+        picture.sighting.corners = mirrored;
+    }
+    EXPECT_THAT(failure_of(series), HasSubstr("mirrored against each other"));
+}
+
+TEST(RigCalibration, names_one_camera_given_twice) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 8);
+    series.right = series.left;
+    EXPECT_THAT(failure_of(series), HasSubstr("one and the same camera"));
+}
+
+TEST(RigCalibration, names_pairs_that_are_out_of_step) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 9);
+    series.left.pop_back();
+    series.right.erase(series.right.begin());
+    EXPECT_THAT(failure_of(series), HasSubstr("out of step"));
+}
+
+TEST(RigCalibration, names_two_resolutions) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 8);
+    for (SeenPicture& picture : series.right) {
+        picture.width_px = 320;
+        picture.height_px = 240;
+        for (BoardCorner& corner : picture.sighting.corners) corner.pixel *= 0.5;
+    }
+    EXPECT_THAT(failure_of(series), HasSubstr("640x480 and the right ones 320x240"));
+}
+
+TEST(RigCalibration, refuses_boards_that_all_face_the_camera) {
+    SyntheticRig rig;
+    SyntheticViews views(pattern, 0.2);
+    SyntheticRig::Series series;
+    for (int i = 0; i < 6; ++i) {
+        Pose pose = Pose::Identity();
+        pose.translation() = Eigen::Vector3d(-0.16 + 0.01 * i, -0.1, 0.8);
+        series.left.push_back(views.see(rig.left, pose, "l"));
+        series.right.push_back(views.see(rig.right, rig.right_from_left * pose, "r"));
+    }
+    EXPECT_THAT(failure_of(series), HasSubstr("tilted"));
+}
+
+TEST(RigCalibration, leaves_out_a_view_that_contradicts_the_others_and_says_which) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 12);
+    for (BoardCorner& corner : series.right[5].sighting.corners)
+        corner.pixel += Eigen::Vector2d(3 * std::sin(corner.id), 9);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+    ASSERT_EQ(c.rejected.size(), 1u);
+    EXPECT_THAT(c.rejected[0].name, HasSubstr("right5.png"));
+    EXPECT_THAT(c.rejected[0].reason, HasSubstr("contradicts"));
+    EXPECT_EQ(c.views_used, 11u);
+    EXPECT_EQ(to_json(c)["rejected"].size(), 1u);
+}
+
+TEST(RigCalibration, reaches_its_numbers_on_real_chessboards) {
+    VANTAGE_REQUIRE_DATA(data);
+    const std::string folder = (data / "opencv_chessboard").string();
+    const BoardPattern board = chessboard_pattern("9x6", 1.0);
+    const PicturePairs pictures = pair_pictures(expand_pictures(folder + "/left*.png"),
+                                                expand_pictures(folder + "/right*.png"));
+    std::vector<std::filesystem::path> left, right;
+    for (const auto& [l, r] : pictures.pairs) {
+        left.push_back(l);
+        right.push_back(r);
+    }
+    const RigCalibration c =
+        calibrate_rig(look_at_pictures(left, board), look_at_pictures(right, board), board, {});
+    EXPECT_EQ(c.views_given, 13u);
+    EXPECT_GE(c.views_used, 12u);
+    EXPECT_LE(c.bundle.rms_px(), 0.19);
+    EXPECT_LE(c.row_rms_px, 0.11);
+    EXPECT_NEAR(c.baseline_m, 3.327, 0.003 * 3.327);
+}
+
+}  // namespace
+}  // namespace vantage
