@@ -98,8 +98,7 @@ function(vantage_unit_test name)
     add_dependencies(vantage_thread_tests ${name})
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
-  list(JOIN ARG_LABELS "-" labels)
-  string(PREPEND labels "unit-")
+  string(JOIN "-" labels unit ${ARG_LABELS})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT}
     ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
