@@ -13,28 +13,35 @@ uniform float edge_ratio;       // two depths whose ratio is larger lie on two s
 layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
-#ifndef NEIGHBOURHOOD
-#define NEIGHBOURHOOD 2
-#endif
-#ifndef VAR_COST
-#define VAR_COST 60.0
-#endif
-#ifndef SINGLE_COST
-#define SINGLE_COST 0.6
-#endif
-#ifndef THROUGH_COST
-#define THROUGH_COST 0.5
-#endif
-#ifndef STAY
-#define STAY 0.3
-#endif
+// Doubts, in units of each other.
+const float unlike_doubt = 8.0;   // per squared difference of the rigs' colours (0..1)
+const float lonely_doubt = 0.3;   // only one rig shows the surface
+const float fringe_doubt = 3.0;   // only one rig shows it, and that one beside the surface's edge
+const float through_doubt = 0.5;  // per rig that sees through it
+const float stay_doubt = 0.6;     // it is not the one that was drawn here
+const float hidden_doubt = 0.6;   // it lies behind one that a rig shows right here
+const float decisiveness = 8.0;   // how fast a surface fades with its doubt
+const float direct_support = 0.01;
 
 struct Evidence {
     vec3 sum, squares;
     float weight;    // of the colours
     float rigs;      // that see the point
     float through;   // rigs that see through it
+    float direct;    // the best support by a rig whose depth map has it right there
 };
+
+// The share of a rig's four pixels around a point that lie on its surface.
+float agreement(sampler2D map, vec2 uv, float z, float tolerance) {
+    vec4 surface = abs(textureGather(map, uv));
+    float least = min(min(surface.x, surface.y), min(surface.z, surface.w));
+    float most = max(max(surface.x, surface.y), max(surface.z, surface.w));
+    if (most < least * edge_ratio) {
+        float off = max(max(z / most, least / z) - 1.0, 0.0);
+        return 1.0 - smoothstep(1.0, 2.0, off / tolerance);
+    }
+    return dot(1.0 - smoothstep(1.0, 2.0, abs(surface / z - 1.0) / tolerance), vec4(0.25));
+}
 
 void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near_edge, inout Evidence e) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
@@ -44,10 +51,9 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     float inside = min(margin.x, margin.y);
     if (inside < 0.0) return;
     float tolerance = softness + spread[i] * q.z;
-    vec4 surface = abs(textureGather(map, uv)) / q.z - 1.0;
-    vec4 agree = 1.0 - smoothstep(1.0, 2.0, abs(surface) / tolerance);
-    float sure = dot(agree, vec4(0.25));
-    sure *= sure;
+    float sure = agreement(map, uv, q.z, tolerance);
+    sure *= sure * sure;
+    e.direct = max(e.direct, sure);
     if (near_edge && sure < 0.5) {
         vec2 texel = 1.0 / vec2(textureSize(map, 0));
         float around = 0.0, farther = 1.0;
@@ -58,7 +64,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
             farther *= dot(step(vec4(2.0 * tolerance), s), vec4(0.25));
         }
         e.through += step(0.9, farther);
-        sure = max(sure, 0.25 * around);
+        sure = max(sure, 0.03 * around);
     }
     if (sure <= 0.0) return;
     vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
@@ -67,11 +73,11 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     e.sum += weight * c;
     e.squares += weight * c * c;
     e.weight += weight;
-    e.rigs += min(4.0 * sure, 1.0);
+    e.rigs += min(40.0 * sure, 1.0);
 }
 
 Evidence gather(vec2 pixel, float z, bool near_edge) {
-    Evidence e = Evidence(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    Evidence e = Evidence(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0);
 #define ADD(i) add(i, colour[i], source_depth[i], pixel, z, near_edge, e);
     FOR_LAYERS(ADD)
     return e;
@@ -82,7 +88,9 @@ float doubt(Evidence e) {
     if (e.weight == 0.0) return 1e3;
     vec3 mean = e.sum / e.weight;
     vec3 variance = max(e.squares / e.weight - mean * mean, 0.0);
-    return VAR_COST * dot(variance, vec3(1.0)) + SINGLE_COST * max(2.0 - e.rigs, 0.0) + THROUGH_COST * e.through;
+    float lonely = clamp(2.0 - e.rigs, 0.0, 1.0);
+    return unlike_doubt * dot(variance, vec3(1.0)) + lonely * (e.direct > direct_support ? lonely_doubt : fringe_doubt) +
+           through_doubt * e.through;
 }
 
 void main() {
@@ -91,8 +99,8 @@ void main() {
     ivec2 last = textureSize(fused_depth, 0) - 1;
     float own = texelFetch(fused_depth, at, 0).r;
     float least = nothing, most = 0.0;
-    for (int y = -NEIGHBOURHOOD; y <= NEIGHBOURHOOD; ++y)
-        for (int x = -NEIGHBOURHOOD; x <= NEIGHBOURHOOD; ++x) {
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
             float z = texelFetch(fused_depth, clamp(at + ivec2(x, y), ivec2(0), last), 0).r;
             if (z > 0.0) {
                 least = min(least, z);
@@ -118,10 +126,14 @@ void main() {
     Evidence n = gather(pixel, least, true), f = gather(pixel, most, true);
     float doubt_n = doubt(n), doubt_f = doubt(f);
     float to_near = z > 0.0 ? abs(z / least - 1.0) : 0.5, to_far = z > 0.0 ? abs(most / z - 1.0) : 0.5;
-    doubt_n += STAY * step(to_far, to_near);
-    doubt_f += STAY * step(to_near, to_far);
-    float wn = n.weight > 0.0 ? exp2(-8.0 * (doubt_n - min(doubt_n, doubt_f))) : 0.0;
-    float wf = f.weight > 0.0 ? exp2(-8.0 * (doubt_f - min(doubt_n, doubt_f))) : 0.0;
+    doubt_n += stay_doubt * step(to_far, to_near);
+    doubt_f += stay_doubt * step(to_near, to_far);
+    doubt_f += hidden_doubt * step(direct_support, n.direct);
+    float wn = n.weight > 0.0 ? exp2(-decisiveness * (doubt_n - min(doubt_n, doubt_f))) : 0.0;
+    float wf = f.weight > 0.0 ? exp2(-decisiveness * (doubt_f - min(doubt_n, doubt_f))) : 0.0;
+    // Where nothing was drawn, only the surface behind reaches in, and only if a rig shows it right here.
+    if (z == 0.0) wn = 0.0;
+    if (z == 0.0 && f.direct == 0.0) wf = 0.0;
     if (wn + wf == 0.0) return;
     vec3 c = (wn > 0.0 ? wn * n.sum / n.weight : vec3(0.0)) + (wf > 0.0 ? wf * f.sum / f.weight : vec3(0.0));
     fused = vec4(c / (wn + wf), is_known ? 1.0 : 0.25);

@@ -4,7 +4,7 @@ namespace vantage {
 namespace {
 
 /// Holes up to about 2^halvings pixels wide are closed.
-constexpr int halvings = 6;
+constexpr std::size_t halvings = 6;
 
 }  // namespace
 
@@ -13,37 +13,34 @@ DepthCloser::DepthCloser(const ShaderLibrary& library)
 
 DepthCloser::Pyramid& DepthCloser::pyramid(cv::Size size) {
     Pyramid& pyramid = pyramids_[{size.width, size.height}];
-    if (!pyramid.empty()) return pyramid;
-    for (int i = 0; i <= halvings; ++i) {
-        Level& level = pyramid.emplace_back();
-        if (i > 0) level.pulled.resize(size);
-        if (i < halvings) level.pushed.resize(size);
+    while (pyramid.size() < halvings) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        Level& level = pyramid.emplace_back();
+        level.pulled.resize(size);
+        level.pushed.resize(size);
     }
     return pyramid;
 }
 
-const Texture& DepthCloser::close(const Texture& depth_m) {
-    Pyramid& levels = pyramid(depth_m.size());
-    const auto pulled = [&](std::size_t i) -> const Texture& {
-        return i == 0 ? depth_m : levels[i].pulled.texture();
-    };
-    for (std::size_t i = 1; i < levels.size(); ++i) {
+void DepthCloser::close(const Texture& depth_m, const Framebuffer& closed) {
+    const Pyramid& levels = pyramid(depth_m.size());
+    const Texture* fine = &depth_m;
+    for (const Level& level : levels) {
         pull_.use().set("depth_map", 0);
-        pulled(i - 1).bind(0);
-        pull_.draw(levels[i].pulled.target());
+        fine->bind(0);
+        pull_.draw(level.pulled.target());
+        fine = &level.pulled.texture();
     }
-    const Texture* coarse = &pulled(levels.size() - 1);
-    for (std::size_t i = levels.size() - 1; i-- > 0;) {
+    const Texture* coarse = fine;
+    for (std::size_t i = levels.size(); i-- > 0;) {
         Program& program = push_.use();
         program.set("depth_map", 0);
         program.set("coarse", 1);
-        pulled(i).bind(0);
+        (i == 0 ? depth_m : levels[i - 1].pulled.texture()).bind(0);
         coarse->bind(1);
-        push_.draw(levels[i].pushed.target());
-        coarse = &levels[i].pushed.texture();
+        push_.draw(i == 0 ? closed : levels[i - 1].pushed.target());
+        if (i > 0) coarse = &levels[i - 1].pushed.texture();
     }
-    return *coarse;
 }
 
 }  // namespace vantage

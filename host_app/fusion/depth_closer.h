@@ -15,12 +15,12 @@ class DepthCloser {
   public:
     explicit DepthCloser(const ShaderLibrary& library);
 
-    /// `depth_m`: r32f, 0 = unknown. Gives r32f of the same size: what was known, and the guesses
-    /// with a negative sign. Valid until the next call.
-    const Texture& close(const Texture& depth_m);
+    /// `depth_m`: r32f, 0 = unknown. Into `closed`, r32f of the same size: what was known, and the
+    /// guesses with a negative sign.
+    void close(const Texture& depth_m, const Framebuffer& closed);
 
   private:
-    /// The first level is of the map's size, every next one of half the last one's.
+    /// The first level is of half the map's size, every next one of half the last one's.
     struct Level {
         DrawnTexture pulled{TextureFormat::r32f}, pushed{TextureFormat::r32f};
     };

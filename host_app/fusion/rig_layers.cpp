@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 /// Disparities are trusted to this many pixels.
-constexpr double disparity_sigma_px = 0.5;
+constexpr double disparity_sigma_px = 0.15;
 
 }  // namespace
 

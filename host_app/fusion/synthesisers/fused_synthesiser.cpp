@@ -4,7 +4,6 @@
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_picture.h"
-#include "host_app/fusion/depth_snapper.h"
 #include "host_app/fusion/gpu_view.h"
 #include "host_app/fusion/hole_filler.h"
 #include "host_app/fusion/rig_layers.h"
@@ -15,17 +14,17 @@ namespace vantage {
 namespace {
 
 /// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.01f;
+constexpr float softness = 0.005f;
 /// Depths that differ by more than this ratio lie on two surfaces.
 constexpr float edge_ratio = 1.03f;
 
-/// The best that is done live: the rigs' depth maps are closed and their edges moved to those of
-/// the colours; the surfaces that they agree on are found for every pixel, and each rig that sees a
-/// surface gives its colour to it.
+/// The best that is done live: the rigs' depth maps are closed, the surfaces that they agree on are
+/// found for every pixel, each rig that sees a surface gives its colour to it, and close to depth
+/// edges the rigs' colours decide which surface it is.
 class FusedSynthesiser final : public Synthesiser {
   public:
     explicit FusedSynthesiser(const ShaderLibrary& library)
-        : closer_(library), snapper_(library), layers_(library), filler_(library) {
+        : closer_(library), layers_(library), filler_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers) {
             const ShaderDefines defines{{"LAYERS", std::to_string(layers)}};
             depth_pass_.emplace_back(library, "fused_depth.frag", defines);
@@ -36,7 +35,7 @@ class FusedSynthesiser final : public Synthesiser {
     void set_views(std::span<const DepthView> views) override {
         upload_views(views, views_);
         for (const auto& view : views_) {
-            snapper_.snap(closer_.close(view->depth()), view->colour(), view->surface_target());
+            closer_.close(view->depth(), view->surface_target());
             layers_.rasteriser().build_triangles(*view);
         }
     }
@@ -72,7 +71,6 @@ class FusedSynthesiser final : public Synthesiser {
 
     std::vector<std::unique_ptr<GpuView>> views_;
     DepthCloser closer_;
-    DepthSnapper snapper_;
     RigLayers layers_;
     HoleFiller filler_;
     std::vector<FullscreenPass> depth_pass_, colour_pass_;  ///< one for every number of layers

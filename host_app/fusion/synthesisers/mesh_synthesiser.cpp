@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 /// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.01f;
+constexpr float softness = 0.005f;
 
 /// The system of Edling and Franke (2006): every rig's depth map as a quad grid displaced by depth,
 /// stretched quads cut by an edge filter, and the rigs' meshes blended by viewing angle where they

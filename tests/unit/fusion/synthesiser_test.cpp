@@ -166,7 +166,10 @@ TEST_P(HeldOutViewTest, IsMetByTheOthers) {
 
 INSTANTIATE_TEST_SUITE_P(RealViews, HeldOutViewTest,
                          testing::Values(HeldOut{"mesh", "aloe_half", "view3", 30.0},
-                                         HeldOut{"mesh", "teddy", "im4", 28.0}));
+                                         HeldOut{"mesh", "teddy", "im4", 28.0},
+                                         HeldOut{"fused", "aloe_half", "view3", 33.0},
+                                         HeldOut{"fused", "aloe_half", "view0", 31.5},
+                                         HeldOut{"fused", "teddy", "im4", 30.5}));
 
 TEST(MakeSynthesiser, NamesTheKnownOnesWhenAskedForAnother) {
     const EglContext context;
