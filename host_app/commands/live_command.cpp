@@ -20,7 +20,7 @@ namespace {
 struct LiveOptions {
     std::string stage, path, snapshot, film, contact_sheet, size, synthesiser;
     std::uint64_t frames = 0;
-    double rate_hz = 0, wait_s = 10;
+    double rate_hz = 0, seconds = 0, wait_s = 10;
     bool headless = false, json = false;
 };
 
@@ -122,9 +122,10 @@ void live(const LiveOptions& options) {
     // Before the receiver's threads, so that they leave the signals to it.
     StopSignal stop;
     const StageConfig stage = load_stage_config(options.stage);
-    FlightPlan plan{.start = start_view(stage.view), .move = {}, .frames = {}};
+    FlightPlan plan{.start = start_view(stage.view), .move = {}, .frames = {}, .seconds = {}};
     if (!options.path.empty()) plan.move = Move::load(options.path);
     if (options.frames > 0) plan.frames = options.frames;
+    if (options.seconds > 0) plan.seconds = options.seconds;
     for (const std::string& picture : {options.snapshot, options.contact_sheet})
         if (!picture.empty()) require_picture_target(picture);
     if (options.headless)
@@ -144,9 +145,11 @@ CommandEntry live_command_entry() {
         command->add_flag("--headless", options->headless, "No window");
         command
             ->add_option("--frames", options->frames,
-                         "End after this many pictures (default: at the end of the move, else when "
-                         "interrupted)")
+                         "End after this many pictures (default, without a window: at the end of "
+                         "a move that does not loop)")
             ->check(CLI::PositiveNumber);
+        command->add_option("--seconds", options->seconds, "End after this time")
+            ->check(CLI::Range(0.01, 1e6));
         command->add_option("--path", options->path, "Fly this move (TOML)");
         command->add_option("--snapshot", options->snapshot,
                             "Write the last picture (.png, .jpg); of a window, the panels too");

@@ -12,6 +12,11 @@ struct FlightPlan {
     OrbitView start;
     std::optional<Move> move;             ///< in a window it plays until the operator takes over
     std::optional<std::uint64_t> frames;  ///< pictures after which the session ends by itself
+    std::optional<double> seconds;        ///< time after which it does
+
+    bool is_over(std::uint64_t pictures, double time_s) const {
+        return (frames && pictures >= *frames) || (seconds && time_s >= *seconds);
+    }
 };
 
 }  // namespace vantage

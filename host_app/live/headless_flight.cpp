@@ -26,11 +26,12 @@ std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, double 
     const MonotonicTime start = MonotonicClock::now();
     MonotonicTime next_progress = start + progress_period;
     OutputClock clock(rate_hz, start);
-    const bool ends_with_move = plan.move && !plan.move->loops() && !plan.frames;
-    for (std::uint64_t pictures = 0; !plan.frames || pictures < *plan.frames; ++pictures) {
+    const bool ends_with_move = plan.move && !plan.move->loops() && !plan.frames && !plan.seconds;
+    for (std::uint64_t pictures = 0;; ++pictures) {
         if (stop.wait_for(clock.until_next(MonotonicClock::now()))) break;
         const std::chrono::nanoseconds time = clock.time_of(clock.next_tick(MonotonicClock::now()));
         const double time_s = std::chrono::duration<double>(time).count();
+        if (plan.is_over(pictures, time_s)) break;
         if (ends_with_move && time_s > plan.move->duration_s()) break;
         session.make_picture(plan.move ? plan.move->at(time_s) : plan.start, time);
         if (MonotonicClock::now() >= next_progress) {

@@ -10,7 +10,7 @@
 namespace vantage {
 
 /// Makes pictures at the output's rate and in real time until the flight is over or the program is
-/// asked to stop: after `frames` pictures; else at the end of a move that does not loop. Logs
+/// asked to stop: as the plan says, else at the end of a move that does not loop. Logs
 /// progress every few seconds. Returns the ticks of the output that passed without a picture.
 std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, double rate_hz,
                            StopSignal& stop);

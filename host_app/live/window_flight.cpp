@@ -89,10 +89,11 @@ std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window, const 
     PanelFeed panel;
     OutputClock clock(rate_hz, MonotonicClock::now());
     double last_s = 0;
-    for (std::uint64_t pictures = 0; !plan.frames || pictures < *plan.frames; ++pictures) {
+    for (std::uint64_t pictures = 0;; ++pictures) {
         if (stop.wait_for(clock.until_next(MonotonicClock::now()))) break;
         const std::chrono::nanoseconds time = clock.time_of(clock.next_tick(MonotonicClock::now()));
         const double time_s = std::chrono::duration<double>(time).count();
+        if (plan.is_over(pictures, time_s)) break;
         const OperatorInput input = window.poll(time_s - last_s);
         if (window.closed()) break;
         if (input.toggle_freeze) session.set_frozen(!session.frozen());

@@ -203,9 +203,11 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
     }
 }
 
-TEST_F(MoveFile, TheDemoMoveIsTaken) {
-    const Move move = Move::load(source_folder() / "hw_config/moves/demo.toml");
-    EXPECT_GT(move.duration_s(), 5);
+TEST_F(MoveFile, TheMovesThatComeWithVantageAreTaken) {
+    for (const char* name : {"demo.toml", "pair.toml"}) {
+        const Move move = Move::load(source_folder() / "hw_config/moves" / name);
+        EXPECT_GT(move.duration_s(), 5) << name;
+    }
 }
 
 }  // namespace

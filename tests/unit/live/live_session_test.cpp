@@ -137,7 +137,7 @@ TEST_F(LiveSessionTest, WritesFilmAndContactSheetOfAFlight) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
     ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
-    const FlightPlan plan{.start = view_, .move = {}, .frames = 12};
+    const FlightPlan plan{.start = view_, .move = {}, .frames = 12, .seconds = {}};
     fly_headless(session, plan, settings_.rate_hz, stop_);
     session.finish();
     const LiveReport report = session.report();
@@ -157,12 +157,25 @@ TEST_F(LiveSessionTest, EndsWithAMoveThatDoesNotLoop) {
     OrbitView end = view_;
     end.azimuth_rad = 0.3;
     const Move move({{0, view_, Easing::linear}, {0.2, end, Easing::linear}}, false);
-    const std::uint64_t skipped =
-        fly_headless(session, {.start = view_, .move = move, .frames = {}}, 50, stop_);
+    const std::uint64_t skipped = fly_headless(
+        session, {.start = view_, .move = move, .frames = {}, .seconds = {}}, 50, stop_);
     session.finish();
     const std::uint64_t pictures = session.report().pictures;
     EXPECT_LE(pictures, 11u) << "ticks 0 to 10 of 20 ms, both included";
     EXPECT_GE(pictures + skipped, 11u);
+}
+
+TEST_F(LiveSessionTest, EndsAfterTheSecondsOfThePlan) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    const FlightPlan plan{.start = view_, .move = {}, .frames = {}, .seconds = 0.1};
+    const std::uint64_t skipped = fly_headless(session, plan, 50, stop_);
+    session.finish();
+    const std::uint64_t pictures = session.report().pictures;
+    EXPECT_GE(pictures, 1u);
+    EXPECT_LE(pictures, 5u) << "ticks 0 to 4 of 20 ms";
+    EXPECT_GE(pictures + skipped, 5u);
 }
 
 TEST_F(LiveSessionTest, StopsWhenAsked) {
@@ -170,7 +183,7 @@ TEST_F(LiveSessionTest, StopsWhenAsked) {
     feed_.push(feed_.set(1, {"north", "south"}));
     ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
     kill(getpid(), SIGTERM);
-    fly_headless(session, {.start = view_, .move = {}, .frames = {}}, 50, stop_);
+    fly_headless(session, {.start = view_, .move = {}, .frames = {}, .seconds = {}}, 50, stop_);
     session.finish();
     EXPECT_LE(session.report().pictures, 1u);
 }
