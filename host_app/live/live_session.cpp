@@ -196,7 +196,7 @@ std::vector<StageTime> LiveSession::stage_summary() const {
     return times;
 }
 
-LiveReport LiveSession::report() {
+LiveReport LiveSession::report() const {
     LiveReport report;
     report.width_px = settings_.width_px;
     report.height_px = settings_.height_px;
@@ -208,17 +208,16 @@ LiveReport LiveSession::report() {
     report.pictures = pictures_;
 
     const NewestSet::Superseded superseded = newest_.superseded();
-    const ReceiverStatus& status = refresh_status();
-    report.sets_closed = status.sets;
-    report.sets_complete = status.complete_sets;
-    report.sets_dropped = status.sets_dropped;
+    report.sets_closed = status_.sets;
+    report.sets_complete = status_.complete_sets;
+    report.sets_dropped = status_.sets_dropped;
     report.sets_fused = sets_fused_;
     report.sets_superseded = superseded.sets;
     const auto count_of = [](const RigCounts& counts, const std::string& rig) {
         const auto found = counts.find(rig);
         return found == counts.end() ? 0 : found->second;
     };
-    for (const RigStatus& rig : status.rigs)
+    for (const RigStatus& rig : status_.rigs)
         report.rigs.push_back(
             {rig, count_of(fused_, rig.rig), count_of(superseded.frames, rig.rig)});
 
@@ -234,6 +233,7 @@ LiveReport LiveSession::report() {
 }
 
 void LiveSession::finish() {
+    status_ = newest_.close();
     if (pictures_ == 0) return;
     if (recorder_) recorder_->finish();
     if (settings_.contact_sheet.empty()) return;

@@ -63,12 +63,12 @@ class LiveSession {
     double latest_latency_ms() const { return latest_latency_ms_; }
     const ReceiverStatus& refresh_status();
 
-    /// Ends the film and writes the contact sheet; without a picture there is neither. Throws Error
-    /// if a file cannot be written.
+    /// Closes the books, ends the film and writes the contact sheet; without a picture there is
+    /// neither. No picture can be made afterwards. Throws Error if a file cannot be written.
     void finish();
 
-    /// After finish().
-    LiveReport report();
+    /// Precondition: finish().
+    LiveReport report() const;
 
   private:
     void show(FrameSet set);

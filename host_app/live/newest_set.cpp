@@ -15,12 +15,38 @@ void count_frames(const FrameSet& set, RigCounts& counts) {
 
 NewestSet::NewestSet(StageFeed feed) : feed_(std::move(feed)), thread_([this] { run(); }) {}
 
-NewestSet::~NewestSet() {
+NewestSet::~NewestSet() { stop(); }
+
+void NewestSet::stop() {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
     }
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
+}
+
+void NewestSet::supersede(const FrameSet& set) {
+    ++superseded_.sets;
+    count_frames(set, superseded_.frames);
+}
+
+ReceiverStatus NewestSet::close() {
+    stop();
+    const std::lock_guard lock(mutex_);
+    if (newest_) supersede(*newest_);
+    newest_.reset();
+    ReceiverStatus status = feed_.status();
+    // Sets that were closed since the thread looked last; a set is counted a moment before it can
+    // be taken.
+    for (int tries = 0; tries < 1000 && !failure_; ++tries) {
+        if (taken_off_ + status.sets_dropped >= status.sets) break;
+        while (const std::optional<FrameSet> set = feed_.next(std::chrono::milliseconds(1))) {
+            ++taken_off_;
+            supersede(*set);
+        }
+        status = feed_.status();
+    }
+    return status;
 }
 
 std::optional<FrameSet> NewestSet::take(std::chrono::nanoseconds timeout) {
@@ -43,13 +69,13 @@ void NewestSet::run() {
             std::optional<FrameSet> set = feed_.next(patience);
             {
                 const std::lock_guard lock(mutex_);
-                if (stopping_) return;
-                if (!set) continue;
-                if (newest_) {
-                    ++superseded_.sets;
-                    count_frames(*newest_, superseded_.frames);
+                if (set) {
+                    ++taken_off_;
+                    if (newest_) supersede(*newest_);
+                    newest_.swap(set);
                 }
-                newest_.swap(set);
+                if (stopping_) return;
+                if (!newest_) continue;
             }
             arrived_.notify_all();
         }

@@ -38,8 +38,14 @@ class NewestSet {
     Superseded superseded() const;
     ReceiverStatus status() const { return feed_.status(); }
 
+    /// Ends the thread and balances the books: whatever the feed closed and nobody took counts as
+    /// superseded. Returns the feed's status of that moment; take() gives nothing any more.
+    ReceiverStatus close();
+
   private:
+    void stop();
     void run();
+    void supersede(const FrameSet& set);
 
     StageFeed feed_;
     mutable std::mutex mutex_;
@@ -47,6 +53,7 @@ class NewestSet {
     std::optional<FrameSet> newest_;
     Superseded superseded_;
     std::exception_ptr failure_;
+    std::uint64_t taken_off_ = 0;  ///< sets that the feed gave
     bool stopping_ = false;
     std::thread thread_;
 };

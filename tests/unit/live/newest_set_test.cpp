@@ -45,6 +45,17 @@ TEST(NewestSet, GivesASetOnlyOnce) {
     EXPECT_FALSE(newest.take());
 }
 
+TEST(NewestSet, BalancesItsBooksAtTheEnd) {
+    ScriptedFeed feed({"a"});
+    NewestSet newest(feed.feed());
+    for (std::uint64_t k = 0; k < 30; ++k) feed.push(feed.set(k, {"a"}));
+    std::uint64_t taken = 0;
+    for (int i = 0; i < 3; ++i) taken += newest.take(1ms).has_value();
+    EXPECT_EQ(newest.close().sets, 30u);
+    EXPECT_EQ(newest.superseded().sets + taken, 30u);
+    EXPECT_FALSE(newest.take());
+}
+
 TEST(NewestSet, HandsOnWhatTheFeedThrew) {
     ScriptedFeed feed({"a"});
     feed.fail_with("the receiver broke");

@@ -1,0 +1,161 @@
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/image/image_file.h"
+#include "tests/support/data_folder.h"
+#include "tests/unit/live_processes/child_process.h"
+
+namespace vantage {
+namespace {
+
+/// Two tiny rigs on the virtual stage and a host, each a process of its own, on sockets of this
+/// computer that no other test can meet.
+class LiveProcesses : public testing::Test {
+  protected:
+    LiveProcesses() {
+        std::ofstream(file("stage.toml")) << "version = 1\nrate_hz = 5\nlatency_budget_ms = 5000\n"
+                                             "[view]\nwidth_px = 128\nheight_px = 72\n"
+                                          << stage_entry("left") << stage_entry("right");
+    }
+
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+    std::string endpoint(const std::string& rig) const { return "ipc://" + file(rig + ".socket"); }
+    std::string stage_entry(const std::string& rig) const {
+        return "[[rigs]]\nname = \"" + rig + "\"\nendpoint = \"" + endpoint(rig) + "\"\n";
+    }
+
+    void start_rig(const std::string& name, double azimuth_deg) {
+        std::ofstream(file(name + ".toml"))
+            << "version = 1\nname = \"" << name
+            << "\"\n[source]\nrate_hz = 5\nwidth_px = 160\nheight_px = 120\n"
+            << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
+            << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+            << "[stream]\nbind = \"" << endpoint(name) << "\"\n";
+        rigs_.push_back(std::make_unique<ChildProcess>(
+            folder_.path(), name,
+            std::vector<std::string>{VANTAGE_RIG_PROGRAM, "run", "--config",
+                                     file(name + ".toml")}));
+    }
+
+    std::unique_ptr<ChildProcess> start_host(std::vector<std::string> options) {
+        std::vector<std::string> command{VANTAGE_PROGRAM, "live", "--stage", file("stage.toml"),
+                                         "--headless"};
+        command.insert(command.end(), options.begin(), options.end());
+        return std::make_unique<ChildProcess>(folder_.path(), "host", command);
+    }
+
+    TemporaryFolder folder_;
+    std::vector<std::unique_ptr<ChildProcess>> rigs_;
+};
+
+TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const auto host = start_host({"--frames", "10", "--snapshot", file("last.png"), "--record",
+                                  file("flight.mkv"), "--json", "--wait", "60"});
+    ASSERT_EQ(host->wait(), 0) << host->standard_error() << rigs_[0]->standard_error();
+    const nlohmann::json summary = nlohmann::json::parse(host->standard_output());
+    EXPECT_EQ(summary["pictures"], 10);
+    EXPECT_EQ(summary["film"]["pictures"].get<int>() + summary["film"]["dropped"].get<int>(), 10);
+    EXPECT_EQ(summary["sets"]["closed"], summary["sets"]["fused"].get<int>() +
+                                             summary["sets"]["superseded"].get<int>() +
+                                             summary["sets"]["dropped"].get<int>());
+    EXPECT_GE(summary["sets"]["fused"], 1);
+    ASSERT_EQ(summary["rigs"].size(), 2u);
+    for (const nlohmann::json& rig : summary["rigs"]) {
+        const auto count = [&](const char* place, const char* what) {
+            return rig[place][what].get<std::int64_t>();
+        };
+        EXPECT_GE(count("host", "fused"), 1) << rig;
+        EXPECT_EQ(count("host", "in_sets"), count("host", "fused") + count("host", "superseded"))
+            << rig;
+        // What has come and is in no other counter is in a set that was still open.
+        const std::int64_t open = count("host", "received") - count("host", "in_sets") -
+                                  count("host", "late") - count("host", "duplicate") -
+                                  count("host", "unsynchronized") - count("host", "out_of_step");
+        EXPECT_GE(open, 0) << rig;
+        EXPECT_LE(open, 25 + 1) << "the frames of the latency budget: " << rig;
+        EXPECT_GE(count("link", "sent"), count("host", "received")) << rig;
+        EXPECT_EQ(count("host", "undecodable"), 0) << rig;
+        EXPECT_GE(count("rig", "captured"), count("rig", "published")) << rig;
+        EXPECT_GT(rig["latency_ms"]["p50"], 0) << rig;
+    }
+    for (const char* stage : {"capture", "match", "pack", "network", "decode", "upload", "render"})
+        EXPECT_GT(summary["stages_ms"][stage]["count"], 0) << stage;
+
+    const ColourImage picture = read_colour_image(file("last.png"));
+    EXPECT_EQ(picture.size(), cv::Size(128, 72));
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(picture, mean, deviation);
+    EXPECT_GT(deviation[0], 15) << "a stage is to be seen";
+    EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
+}
+
+TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
+    start_rig("left", 0);
+    const auto host = start_host({"--frames", "2", "--json", "--wait", "8"});
+    ASSERT_EQ(host->wait(), 0) << host->standard_error();
+    EXPECT_NE(host->standard_error().find("missing: right disconnected"), std::string::npos)
+        << host->standard_error();
+    const nlohmann::json summary = nlohmann::json::parse(host->standard_output());
+    EXPECT_EQ(summary["sets"]["complete"], 0);
+    EXPECT_EQ(summary["rigs"][1]["state"], "disconnected");
+    EXPECT_EQ(summary["rigs"][1]["host"]["received"], 0);
+}
+
+TEST_F(LiveProcesses, EndWithASentenceWhenNoRigComes) {
+    const auto host = start_host({"--wait", "1", "--snapshot", file("last.png")});
+    EXPECT_EQ(host->wait(), 1);
+    EXPECT_NE(host->standard_error().find("no frame of any rig came within 1 s"), std::string::npos)
+        << host->standard_error();
+    EXPECT_EQ(host->standard_output(), "");
+    EXPECT_FALSE(std::filesystem::exists(file("last.png")));
+}
+
+TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
+    const struct {
+        std::vector<std::string> options;
+        std::string reason;
+    } cases[] = {{{"--synth", "hologram"}, "hologram"},
+                 {{"--size", "12x80000"}, "12x80000"},
+                 {{"--snapshot", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
+                 {{"--record", file("film.avi")}, ".mkv"},
+                 {{"--contact-sheet", file("sheet.gif")}, ".png"},
+                 {{"--path", file("none.toml")}, "none.toml"}};
+    for (const auto& c : cases) {
+        const auto host = start_host(c.options);
+        EXPECT_EQ(host->wait(), 1) << c.options[0];
+        EXPECT_NE(host->standard_error().find(c.reason), std::string::npos)
+            << host->standard_error();
+    }
+}
+
+TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});
+    // The film's file is there from the start, its pictures once the rigs have come.
+    const auto partial_bytes = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+            if (entry.path().string().find(".partial-") != std::string::npos)
+                return entry.file_size();
+        return std::uintmax_t{0};
+    };
+    for (int i = 0; i < 6000 && partial_bytes() < 20'000; ++i) usleep(10'000);
+    host->send(SIGINT);
+    EXPECT_EQ(host->wait(), 0) << host->standard_error();
+    EXPECT_GE(nlohmann::json::parse(host->standard_output())["pictures"], 1);
+    EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
+}
+
+}  // namespace
+}  // namespace vantage
