@@ -3,10 +3,13 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <nlohmann/json.hpp>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "common/base/error.h"
@@ -17,8 +20,26 @@
 namespace vantage {
 namespace {
 
-/// Two tiny rigs on the virtual stage and a host, each a process of its own, on sockets of this
-/// computer that no other test can meet.
+/// Ports of loopback that nobody listens on.
+std::pair<int, int> two_free_ports() {
+    const auto bind_any = [](int socket) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        if (bind(socket, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+            getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+            fail("no free port on loopback");
+        return static_cast<int>(ntohs(address.sin_port));
+    };
+    const int first = socket(AF_INET, SOCK_STREAM, 0), second = socket(AF_INET, SOCK_STREAM, 0);
+    const std::pair ports(bind_any(first), bind_any(second));
+    close(first);
+    close(second);
+    return ports;
+}
+
+/// Two tiny rigs on the virtual stage and a host, each a process of its own.
 class LiveProcesses : public testing::Test {
   protected:
     LiveProcesses() {
@@ -28,7 +49,9 @@ class LiveProcesses : public testing::Test {
     }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-    std::string endpoint(const std::string& rig) const { return "ipc://" + file(rig + ".socket"); }
+    std::string endpoint(const std::string& rig) const {
+        return fmt::format("tcp://127.0.0.1:{}", rig == "left" ? ports_.first : ports_.second);
+    }
     std::string stage_entry(const std::string& rig) const {
         return "[[rigs]]\nname = \"" + rig + "\"\nendpoint = \"" + endpoint(rig) + "\"\n";
     }
@@ -54,6 +77,7 @@ class LiveProcesses : public testing::Test {
     }
 
     TemporaryFolder folder_;
+    std::pair<int, int> ports_ = two_free_ports();
     std::vector<std::unique_ptr<ChildProcess>> rigs_;
 };
 
@@ -143,14 +167,11 @@ TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});
-    // The film's file is there from the start, its pictures once the rigs have come.
-    const auto partial_bytes = [&] {
-        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
-            if (entry.path().string().find(".partial-") != std::string::npos)
-                return entry.file_size();
-        return std::uintmax_t{0};
-    };
-    for (int i = 0; i < 6000 && partial_bytes() < 20'000; ++i) usleep(10'000);
+    // Its first word of progress.
+    for (int i = 0; i < 6000; ++i) {
+        if (host->standard_error().find(" pictures, ") != std::string::npos) break;
+        usleep(10'000);
+    }
     host->send(SIGINT);
     EXPECT_EQ(host->wait(), 0) << host->standard_error();
     EXPECT_GE(nlohmann::json::parse(host->standard_output())["pictures"], 1);
