@@ -3,7 +3,7 @@
 #include "stereo_common.glsl"
 
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer Winners { uvec4 winners[]; };
+layout(std430, binding = 0) readonly buffer Winners { uvec2 winners[]; };
 layout(std430, binding = 1) readonly buffer Claims { uint claims[]; };
 layout(std430, binding = 2) writeonly buffer Disparity { uint disparity[]; };
 uniform ivec2 size;
@@ -13,13 +13,13 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= size.x || at.y >= size.y) return;
     int here = at.y * stride + at.x;
-    uvec2 winner = winners[here].xy;
-    int d = int(winner.x & 0xffffu), best = int(winner.x >> 16);
-    int before = int(winner.y >> 16), after = int(winner.y & 0xffffu);
+    uvec2 winner = winners[here];
+    int d = int((winner.x >> 12) & 255u), best = int(winner.x >> 20);
+    int before = int(winner.y >> 12), after = int(winner.y & 0xfffu);
     uint result = 0u;
     if (d <= at.x && abs(int(claims[here - d] & 0xffffu) - d) <= 1) {
         int position = d * 32, rise = 0;
-        if (before != 0xffff && after != 0xffff) {
+        if (before != 0xfff && after != 0xfff) {
             // Two straight lines of equal steepness through the three costs: what absolute differences give.
             int steep = max(max(before, after) - best, 1);
             int offset = (16 * abs(before - after) + (steep >> 1)) / steep;

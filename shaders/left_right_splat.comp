@@ -2,7 +2,7 @@
 #include "stereo_common.glsl"
 
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer Winners { uvec4 winners[]; };
+layout(std430, binding = 0) readonly buffer Winners { uvec2 winners[]; };
 layout(std430, binding = 1) readonly buffer Weight { uint weight[]; };
 layout(std430, binding = 2) buffer Claims { uint claims[]; };
 uniform ivec2 size;
@@ -13,8 +13,8 @@ void main() {
     if (at.x >= size.x || at.y >= size.y) return;
     int here = at.y * stride + at.x;
     uint winner = winners[here].x;
-    int d = int(winner & 0xffffu);
+    int d = int((winner >> 12) & 255u);
     if (d > at.x) return;
-    uint cost = min(((winner >> 16) << 12) / max(weight[here], 1u), 0xffffu);
+    uint cost = min(((winner >> 20) << 12) / max(weight[here], 1u), 0xffffu);
     atomicMin(claims[here - d], (cost << 16) | uint(d));
 }

@@ -10,10 +10,11 @@
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
-layout(std430, binding = 1) buffer Volume { uvec4 volume[]; };
-// x: cost << 16 | disparity; y: cost of the disparity before << 16 | after (0xffff: there is none);
-// z: cost of the last disparity seen.
-layout(std430, binding = 2) buffer Winners { uvec4 winners[]; };
+layout(std430, binding = 1) readonly buffer Volume { uvec2 volume[]; };
+layout(std430, binding = 2) buffer Down { uvec4 down[]; };
+// x: cost << 20 | disparity << 12 | cost of the last disparity seen; y: cost of the disparity before the best << 12 |
+// of the one after (0xfff: there is none).
+layout(std430, binding = 3) buffer Winners { uvec2 winners[]; };
 uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
@@ -24,7 +25,7 @@ uniform int first_disparity;
         bool wins = cost < best;                   \
         after = d == best_d + 1u ? cost : after;   \
         before = wins ? last : before;             \
-        after = wins ? 0xffffu : after;            \
+        after = wins ? 0xfffu : after;             \
         best_d = wins ? d : best_d;                \
         best = min(best, cost);                    \
         last = cost;                               \
@@ -40,36 +41,32 @@ void main() {
     for (int y = 0; y < size.y; ++y) {
         int at = y * stride + x;
         uint mu = permeability[at] >> 4;
-        a = volume[at * 2] + permeate(a, mu);
-        b = volume[at * 2 + 1] + permeate(b, mu);
-        volume[at * 2] = a;
-        volume[at * 2 + 1] = b;
+        a = pairs_of(volume[at * 2]) + permeate(a, mu);
+        b = pairs_of(volume[at * 2 + 1]) + permeate(b, mu);
+        down[at * 2] = a;
+        down[at * 2 + 1] = b;
     }
 
-    uvec4 back_a = uvec4(0u), back_b = uvec4(0u);
-    uint mu_below = 0u;
+    // Now a and b are the sums from below.
+    a = uvec4(0u), b = uvec4(0u);
+    uint mu = 0u;
     for (int y = size.y - 1; y >= 0; --y) {
         int at = y * stride + x;
-        int above = y > 0 ? at - stride : at;
-        uvec4 before_a = volume[above * 2], before_b = volume[above * 2 + 1];
-        uint mu = permeability[at] >> 4;
-        back_a = permeate(back_a, mu_below);
-        back_b = permeate(back_b, mu_below);
-        uvec4 sum_a = a + back_a, sum_b = b + back_b;
-        back_a += a - permeate(before_a, mu);
-        back_b += b - permeate(before_b, mu);
-        mu_below = mu;
-        a = before_a;
-        b = before_b;
+        a = permeate(a, mu);
+        b = permeate(b, mu);
+        uvec4 sum_a = down[at * 2] + a, sum_b = down[at * 2 + 1] + b;
+        a += pairs_of(volume[at * 2]);
+        b += pairs_of(volume[at * 2 + 1]);
+        mu = permeability[at] >> 4;
 
-        uint best = 0xffffu, best_d = 0xfff0u, before = 0xffffu, after = 0xffffu, last = 0xffffu;
+        uint best = 0xfffu, best_d = 0xfff0u, before = 0xfffu, after = 0xfffu, last = 0xfffu;
         if (first_disparity > 0) {
-            uvec4 state = winners[at];
-            best = state.x >> 16;
-            best_d = state.x & 0xffffu;
-            before = state.y >> 16;
-            after = state.y & 0xffffu;
-            last = state.z;
+            uvec2 state = winners[at];
+            best = state.x >> 20;
+            best_d = (state.x >> 12) & 255u;
+            last = state.x & 0xfffu;
+            before = state.y >> 12;
+            after = state.y & 0xfffu;
         }
         uint d = uint(first_disparity);
         CONSIDER2(0, sum_a.x)
@@ -80,6 +77,6 @@ void main() {
         CONSIDER2(5, sum_b.y)
         CONSIDER2(6, sum_b.z)
         CONSIDER2(7, sum_b.w)
-        winners[at] = uvec4((best << 16) | best_d, (before << 16) | after, last, 0u);
+        winners[at] = uvec2((best << 20) | (best_d << 12) | last, (before << 12) | after);
     }
 }

@@ -1,10 +1,15 @@
-// Permeability aggregation (Cigla, Alatan 2013) in 16-bit pairs: the low half of a word holds the even disparity,
-// the high half the odd one. A cost is at most 26, a horizontal sum 26 * 16 * 2 / 8, a vertical one 16 times that:
-// the 12 bits that permeate() takes are never left.
+// Permeability aggregation (Cigla, Alatan 2013). Sums live in registers as 16-bit pairs, four words for 8 disparities;
+// horizontal sums lie in memory as bytes, two words: half of the range in the even bytes, half in the odd ones. A cost
+// is at most 26, a horizontal sum 26 * 31 / 8, a vertical one 16 times that: the 12 bits that permeate() takes are
+// never left. Vertical sums keep all their bits: what is lost there decides in untextured places.
 #include "stereo_common.glsl"
 
 // Two 12-bit values times mu / 16, mu = 0..15, in one multiplication.
 uvec4 permeate(uvec4 pairs, uint mu) { return ((pairs * mu) >> 4) & 0x0fff0fffu; }
+
+const uint low_bytes = 0x00ff00ffu;
+uvec2 bytes_of(uvec4 pairs) { return (pairs.xy & low_bytes) | ((pairs.zw & low_bytes) << 8); }
+uvec4 pairs_of(uvec2 bytes) { return uvec4(bytes & low_bytes, (bytes >> 8) & low_bytes); }
 
 // Truncated census distance plus truncated gradient difference, 0..26.
 uint cost_of(uint left, uint right) {

@@ -31,7 +31,7 @@ CheckedDisparity left_right_checked(const Winners& winners) {
             const int best = winners.cost(y, x), before = winners.cost_before(y, x),
                       after = winners.cost_after(y, x);
             int position = d * disparity_steps_per_px, rise = 0;
-            if (before != 0xffff && after != 0xffff) {
+            if (before != no_cost && after != no_cost) {
                 const int steep = std::max(std::max(before, after) - best, 1);
                 const int offset = (16 * std::abs(before - after) + (steep >> 1)) / steep;
                 position += before > after ? offset : -offset;

@@ -17,8 +17,9 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
                            {{"VALID", std::to_string((disparities - 1) % slab_disparities + 1)}})),
       weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
       weight_columns_(Program::compute(library, "perm_weight.comp", {{"ALONG", "1"}})),
-      volume_(layout.pixels() * 32, GL_DYNAMIC_COPY),
-      winners_(layout.pixels() * 16, GL_DYNAMIC_COPY),
+      volume_(layout.pixels() * slab_disparities, GL_DYNAMIC_COPY),
+      down_(layout.pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
+      winners_(layout.pixels() * 8, GL_DYNAMIC_COPY),
       weight_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
 
 void PermPass::run_line_pass(Program& program, int lines, int first_disparity) {
@@ -36,17 +37,18 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
     const int row_lanes =
         lane_mapping() == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
     for (int first = 0; first < disparities_; first += slab_disparities) {
-        profiler.run("cost and rows", {pixels * (3 * 32 + 16), evaluations * 22}, [&] {
+        profiler.run("cost and rows", {pixels * (3 * 16 + 20), evaluations * 28}, [&] {
             features.left_features().bind_storage(0);
             features.right_features().bind_storage(1);
             features.permeability().bind_storage(2);
             volume_.bind_storage(3);
             run_line_pass(rows_, row_lanes, first);
         });
-        profiler.run("columns and winners", {pixels * (3 * 32 + 8 + 32), evaluations * 18}, [&] {
+        profiler.run("columns and winners", {pixels * (2 * 16 + 2 * 32 + 8 + 16), evaluations * 18}, [&] {
             features.permeability().bind_storage(0);
             volume_.bind_storage(1);
-            winners_.bind_storage(2);
+            down_.bind_storage(2);
+            winners_.bind_storage(3);
             const bool is_last = first + slab_disparities >= disparities_;
             run_line_pass(is_last ? last_columns_ : full_columns_, layout_.width_px, first);
         });

@@ -21,12 +21,12 @@ class PermPass {
 
     void run(PassProfiler& profiler, const FeaturePass& features);
 
-    /// uvec4 a pixel, see perm_columns.comp.
+    /// uvec2 a pixel, see perm_columns.comp.
     const Buffer& winners() const { return winners_; }
     /// uint a pixel: what a pixel's sums are divided by before pixels are compared.
     const Buffer& weight() const { return weight_; }
-    std::size_t volume_bytes() const { return volume_.bytes(); }
-    std::size_t gpu_bytes() const { return volume_.bytes() + winners_.bytes() + weight_.bytes(); }
+    std::size_t volume_bytes() const { return volume_.bytes() + down_.bytes(); }
+    std::size_t gpu_bytes() const { return volume_bytes() + winners_.bytes() + weight_.bytes(); }
 
   private:
     void run_line_pass(Program& program, int lines, int first_disparity);
@@ -34,7 +34,7 @@ class PermPass {
     StereoLayout layout_;
     int disparities_;
     Program rows_, full_columns_, last_columns_, weight_rows_, weight_columns_;
-    Buffer volume_, winners_, weight_;
+    Buffer volume_, down_, winners_, weight_;
 };
 
 }  // namespace vantage

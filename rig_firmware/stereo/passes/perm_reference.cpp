@@ -9,35 +9,42 @@
 namespace vantage {
 namespace {
 
+/// How a direction keeps its sums: in memory without the low `kept_shift` bits, the result without
+/// the low `result_shift`.
+struct SumScale {
+    int kept_shift, result_shift;
+};
+
 /// The sum of a line's costs from both sides, each step damped by its permeability; costs[0] is the
-/// first of `count` values `step` apart.
-void permeate_line(int* costs, std::size_t step, int count, const std::vector<int>& mu, int shift) {
-    std::vector<int> forward(static_cast<std::size_t>(count));
+/// first of mu.size() values `step` apart.
+void permeate_line(int* costs, std::size_t step, const std::vector<int>& mu, SumScale scale) {
+    std::vector<int> forward(mu.size());
     int sum = 0;
     for (std::size_t i = 0; i < forward.size(); ++i) {
         sum = costs[i * step] + ((sum * mu[i]) >> 4);
-        forward[i] = sum;
+        forward[i] = (sum >> scale.kept_shift) << scale.kept_shift;
     }
     int back = 0;
     for (std::size_t i = forward.size(); i-- > 0;) {
         back = i + 1 < forward.size() ? (back * mu[i + 1]) >> 4 : 0;
         const int cost = costs[i * step];
-        costs[i * step] = (forward[i] + back) >> shift;
+        costs[i * step] = (forward[i] + back) >> scale.result_shift;
         back += cost;
     }
 }
 
-void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability) {
+void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability, SumScale rows,
+                      SumScale columns) {
     std::vector<int> mu;
     for (int y = 0; y < costs.rows; ++y) {
         mu.clear();
         for (int x = 0; x < costs.cols; ++x) mu.push_back(permeability(y, x) & 15);
-        permeate_line(costs[y], 1, costs.cols, mu, 3);
+        permeate_line(costs[y], 1, mu, rows);
     }
     for (int x = 0; x < costs.cols; ++x) {
         mu.clear();
         for (int y = 0; y < costs.rows; ++y) mu.push_back(permeability(y, x) >> 4);
-        permeate_line(&costs(0, x), static_cast<std::size_t>(costs.cols), costs.rows, mu, 0);
+        permeate_line(&costs(0, x), static_cast<std::size_t>(costs.cols), mu, columns);
     }
 }
 
@@ -53,17 +60,17 @@ int feature_cost(int left, int right) {
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities) {
     const cv::Size size = left_features.size();
-    Winners winners{cv::Mat1i(size, 0), cv::Mat1i(size, 0xffff), cv::Mat1i(size, 0xffff),
-                    cv::Mat1i(size, 0xffff), cv::Mat1i(size, 16)};
-    permeate_picture(winners.weight, permeability);
-    cv::Mat1i last(size, 0xffff);
+    Winners winners{cv::Mat1i(size, 0), cv::Mat1i(size, no_cost), cv::Mat1i(size, no_cost),
+                    cv::Mat1i(size, no_cost), cv::Mat1i(size, 16)};
+    permeate_picture(winners.weight, permeability, {0, 3}, {0, 0});
+    cv::Mat1i last(size, no_cost);
     for (int d = 0; d < disparities; ++d) {
         cv::Mat1i costs(size);
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x)
                 costs(y, x) = feature_cost(left_features(y, x),
                                            x >= d ? right_features(y, x - d) : outside_feature);
-        permeate_picture(costs, permeability);
+        permeate_picture(costs, permeability, {1, 3}, {0, 0});
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
                 const int cost = costs(y, x);
@@ -72,7 +79,7 @@ Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_feat
                     winners.cost(y, x) = cost;
                     winners.disparity(y, x) = d;
                     winners.cost_before(y, x) = last(y, x);
-                    winners.cost_after(y, x) = 0xffff;
+                    winners.cost_after(y, x) = no_cost;
                 }
                 last(y, x) = cost;
             }

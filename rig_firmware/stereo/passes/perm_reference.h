@@ -4,7 +4,10 @@
 
 namespace vantage {
 
-/// The best disparity of every pixel and the aggregated costs around it; 0xffff: there is none.
+/// In place of a cost that there is none of.
+inline constexpr int no_cost = 0xfff;
+
+/// The best disparity of every pixel and the aggregated costs around it.
 struct Winners {
     cv::Mat1i disparity, cost, cost_before, cost_after;
     cv::Mat1i weight;  ///< what the sum of a cost of 16 everywhere would be
