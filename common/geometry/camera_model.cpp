@@ -16,6 +16,11 @@ Eigen::Matrix3d CameraModel::K() const {
     return k;
 }
 
+std::vector<double> CameraModel::opencv_distortion() const {
+    if (lens == LensModel::fisheye && distortion.empty()) return std::vector<double>(4, 0.0);
+    return distortion;
+}
+
 void CameraModel::validate() const {
     if (width_px < 1 || height_px < 1)
         fail("camera size {}x{}: both sides must be at least 1 pixel", width_px, height_px);
@@ -36,7 +41,7 @@ void CameraModel::validate() const {
 std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point_m) const {
     if (point_m.z() <= 0) return std::nullopt;
     Eigen::Vector2d normalised;
-    if (distortion.empty()) {
+    if (distortion.empty() && lens == LensModel::pinhole) {
         normalised = point_m.head<2>() / point_m.z();
     } else {
         const std::vector<cv::Point3d> points = {{point_m.x(), point_m.y(), point_m.z()}};
@@ -44,7 +49,8 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point
         std::vector<cv::Point2d> pixels;
         // Skew is applied below, so that OpenCV, which has none, sees unit intrinsics.
         if (lens == LensModel::fisheye)
-            cv::fisheye::projectPoints(points, pixels, none, none, cv::Matx33d::eye(), distortion);
+            cv::fisheye::projectPoints(points, pixels, none, none, cv::Matx33d::eye(),
+                                       opencv_distortion());
         else
             cv::projectPoints(points, none, none, cv::Matx33d::eye(), distortion, pixels);
         normalised = {pixels[0].x, pixels[0].y};
@@ -56,11 +62,11 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point
 Eigen::Vector3d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
     const double y = (pixel.y() - cy_px) / fy_px;
     const double x = (pixel.x() - cx_px - skew_px * y) / fx_px;
-    if (distortion.empty()) return {x, y, 1.0};
+    if (distortion.empty() && lens == LensModel::pinhole) return {x, y, 1.0};
     const std::vector<cv::Point2d> distorted = {{x, y}};
     std::vector<cv::Point2d> ideal;
     if (lens == LensModel::fisheye)
-        cv::fisheye::undistortPoints(distorted, ideal, cv::Matx33d::eye(), distortion);
+        cv::fisheye::undistortPoints(distorted, ideal, cv::Matx33d::eye(), opencv_distortion());
     else
         cv::undistortPoints(
             distorted, ideal, cv::Matx33d::eye(), distortion, cv::noArray(), cv::noArray(),

@@ -25,6 +25,10 @@ struct CameraModel {
 
     Eigen::Matrix3d K() const;
 
+    /// The coefficients as OpenCV's functions take them: four zeros for a fisheye lens that has
+    /// none.
+    std::vector<double> opencv_distortion() const;
+
     /// Throws Error naming the first value that cannot be (sizes, focal lengths, coefficient count,
     /// not finite).
     void validate() const;

@@ -61,11 +61,9 @@ void compute_rectification(StereoCalibration& c, double alpha) {
     const cv::Matx33d rotation = to_cv(Eigen::Matrix3d(c.right_from_left.linear()));
     const cv::Vec3d translation = to_cv(Eigen::Vector3d(c.right_from_left.translation()));
     if (c.left.lens == LensModel::fisheye) {
-        const std::vector<double> none(4, 0.0);
-        cv::fisheye::stereoRectify(
-            cv_K(c.left), c.left.distortion.empty() ? none : c.left.distortion, cv_K(c.right),
-            c.right.distortion.empty() ? none : c.right.distortion, raw, rotation, translation, r1,
-            r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY, size, alpha);
+        cv::fisheye::stereoRectify(cv_K(c.left), c.left.opencv_distortion(), cv_K(c.right),
+                                   c.right.opencv_distortion(), raw, rotation, translation, r1, r2,
+                                   p1, p2, q, cv::CALIB_ZERO_DISPARITY, size, alpha);
     } else {
         cv::stereoRectify(cv_K(c.left), c.left.distortion, cv_K(c.right), c.right.distortion, raw,
                           rotation, translation, r1, r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY, alpha,

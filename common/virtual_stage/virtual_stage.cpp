@@ -33,20 +33,24 @@ constexpr std::size_t kept_targets = 4;
 
 enum TextureUnit { unit_textures, unit_shadow };
 
-/// The stage leaves the context as it found it in what it changes.
+/// Set before every pass: the pass before may have been another's.
+void prepare_to_draw_solids() {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_CULL_FACE);
+    // Row 0 on top turns the picture over, and with it the winding of front faces.
+    glFrontFace(GL_CW);
+}
+
+/// Puts framebuffer and viewport back, and the rest to GL's own defaults.
 class StateGuard {
   public:
     StateGuard() {
         glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer_);
         glGetIntegerv(GL_VIEWPORT, viewport_);
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_TRUE);
-        glDisable(GL_BLEND);
-        glDisable(GL_SCISSOR_TEST);
-        glEnable(GL_CULL_FACE);
-        // Row 0 on top turns the picture over, and with it the winding of front faces.
-        glFrontFace(GL_CW);
     }
     ~StateGuard() {
         glDisable(GL_DEPTH_TEST);
@@ -215,6 +219,7 @@ struct VirtualStage::Impl {
     }
 
     void draw_shadows(bool animated) {
+        prepare_to_draw_solids();
         shadow_program.use();
         shadow_program.set("clip_from_world", shadow_from_world);
         shadow_program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
@@ -287,6 +292,7 @@ struct VirtualStage::Impl {
     void draw_colour(const StageCamera& camera, StageTargets& target, ColourImage& picture) {
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
         const std::vector<const StageChunk*> chunks = in_view(camera, clip);
+        prepare_to_draw_solids();
         target.bind_colour();
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -309,6 +315,7 @@ struct VirtualStage::Impl {
 
     void draw_depth(const StageCamera& camera, StageTargets& target, DepthImage& depth_m) {
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
+        prepare_to_draw_solids();
         target.bind_depth();
         constexpr GLuint nothing[4] = {0, 0, 0, 0};
         glClearBufferuiv(GL_COLOR, 0, nothing);
