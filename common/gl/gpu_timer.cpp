@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <vector>
+
 #include <GLES3/gl31.h>
 // The extension header needs the core one before it.
 #include <EGL/egl.h>
@@ -70,6 +73,20 @@ std::optional<double> GpuTimer::poll_ms() {
         if (!available) return std::nullopt;
     }
     return wait_ms();
+}
+
+double median_gpu_ms(int repeats, const std::function<void()>& work) {
+    GpuTimer timer;
+    std::vector<double> times_ms;
+    for (int i = 0; i < repeats; ++i) {
+        timer.begin();
+        work();
+        timer.end();
+        times_ms.push_back(timer.wait_ms());
+    }
+    const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
+    std::ranges::nth_element(times_ms, middle);
+    return *middle;
 }
 
 }  // namespace vantage

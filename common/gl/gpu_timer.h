@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 
 #include <GLES3/gl31.h>
@@ -32,5 +33,9 @@ class GpuTimer {
     std::chrono::steady_clock::time_point begin_time_{};
     double last_ms_ = 0;
 };
+
+/// Milliseconds that the GPU takes for the commands `work` issues: the median of `repeats` runs (at
+/// least 1), each waited for.
+double median_gpu_ms(int repeats, const std::function<void()>& work);
 
 }  // namespace vantage

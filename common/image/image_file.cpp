@@ -34,6 +34,7 @@ cv::Mat decode(const std::filesystem::path& path, int flags) {
 }
 
 void encode(const std::filesystem::path& path, const cv::Mat& image) {
+    require_picture_extension(path);
     std::vector<unsigned char> bytes;
     bool encoded = false;
     try {
@@ -41,9 +42,7 @@ void encode(const std::filesystem::path& path, const cv::Mat& image) {
     } catch (const cv::Exception&) {
         encoded = false;
     }
-    if (!encoded)
-        fail("cannot write {}: no picture format goes by the extension '{}'; use .png or .jpg",
-             path.string(), path.extension().string());
+    if (!encoded) fail("cannot write {}: its format does not take this picture", path.string());
     write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
 
@@ -71,6 +70,12 @@ cv::Mat1w read_code_image(const std::filesystem::path& path) {
     cv::Mat1w codes;
     image.convertTo(codes, CV_16U);
     return codes;
+}
+
+void require_picture_extension(const std::filesystem::path& path) {
+    if (path.has_extension() && cv::haveImageWriter(path.string())) return;
+    fail("cannot write {}: no picture format goes by the extension '{}'; use .png or .jpg",
+         path.string(), path.extension().string());
 }
 
 void write_colour_image(const std::filesystem::path& path, const ColourImage& image) {

@@ -15,6 +15,9 @@ ColourImage read_colour_image(const std::filesystem::path& path);
 /// codes); a colour file with equal channels is taken as grey.
 cv::Mat1w read_code_image(const std::filesystem::path& path);
 
+/// Throws Error, before any work is done, if no picture format goes by the path's extension.
+void require_picture_extension(const std::filesystem::path& path);
+
 /// Writes PNG or JPEG by the path's extension, whole or not at all.
 void write_colour_image(const std::filesystem::path& path, const ColourImage& image);
 void write_grey_image(const std::filesystem::path& path, const cv::Mat& one_channel_8_or_16_bit);

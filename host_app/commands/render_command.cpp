@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/print_result.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
@@ -26,19 +25,6 @@ struct RenderOptions {
     std::string views, hold_out, pose, synthesiser = default_synthesiser, output, difference;
     bool json = false;
 };
-
-double median_gpu_ms(Synthesiser& synthesiser, const VirtualView& view) {
-    GpuTimer timer;
-    std::vector<double> times_ms;
-    for (int i = 0; i < timed_renderings; ++i) {
-        timer.begin();
-        synthesiser.render(view);
-        timer.end();
-        times_ms.push_back(timer.wait_ms());
-    }
-    std::nth_element(times_ms.begin(), times_ms.begin() + timed_renderings / 2, times_ms.end());
-    return times_ms[timed_renderings / 2];
-}
 
 void render(const RenderOptions& options) {
     ViewSet set = load_view_set(options.views);
@@ -68,7 +54,7 @@ void render(const RenderOptions& options) {
     const std::unique_ptr<Synthesiser> synthesiser = make_synthesiser(options.synthesiser, shaders);
     synthesiser->set_views(set.views);
     const ColourImage picture = synthesiser->render(target).download();
-    const double gpu_ms = median_gpu_ms(*synthesiser, target);
+    const double gpu_ms = median_gpu_ms(timed_renderings, [&] { synthesiser->render(target); });
 
     nlohmann::ordered_json result{
         {"width", target.width_px}, {"height", target.height_px}, {"synth", options.synthesiser}};
@@ -85,13 +71,7 @@ void render(const RenderOptions& options) {
     write_colour_image(options.output, picture);
     if (!options.difference.empty())
         write_colour_image(options.difference, difference_picture(picture, truth));
-    if (options.json) {
-        std::cout << result.dump() << '\n';
-        return;
-    }
-    for (const auto& [key, value] : result.items())
-        std::cout << fmt::format("{:16} {}\n", key,
-                                 value.is_string() ? value.get<std::string>() : value.dump());
+    print_result(result, options.json);
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ class Matcher {
 
     /// All GL objects this matcher holds, in bytes.
     virtual std::size_t gpu_bytes() const = 0;
+    /// Those of them that hold cost volumes; 0 where costs never leave registers and shared memory.
+    virtual std::size_t cost_volume_bytes() const { return 0; }
 };
 
 /// One registered matcher: rig_firmware/stereo/matchers/NAME_matcher.cpp defines

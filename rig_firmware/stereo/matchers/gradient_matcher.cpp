@@ -91,12 +91,13 @@ class GradientMatcher final : public Matcher {
     void set_profiling(bool on) override { profiler_.set_enabled(on); }
 
     std::size_t gpu_bytes() const override {
-        std::size_t bytes = to_disparity_.gpu_bytes();
-        for (const Buffer* buffer : {&left_, &right_, &filtered_[0], &filtered_[1],
-                                     &discontinuities_, &keys_, &costs_[0], &costs_[1]})
+        std::size_t bytes = to_disparity_.gpu_bytes() + cost_volume_bytes();
+        for (const Buffer* buffer :
+             {&left_, &right_, &filtered_[0], &filtered_[1], &discontinuities_, &keys_})
             bytes += buffer->bytes();
         return bytes;
     }
+    std::size_t cost_volume_bytes() const override { return costs_[0].bytes() + costs_[1].bytes(); }
 
   private:
     void map_discontinuities() {

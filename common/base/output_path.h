@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+
+namespace vantage {
+
+/// Throws Error, before any work is done, if `output` cannot be written (it is a folder, or its
+/// folder is missing or closed to this user) or is the same file as one of `others`: an input that
+/// would be lost, or a second output.
+void require_writable_output(const std::filesystem::path& output,
+                             std::initializer_list<std::filesystem::path> others);
+
+}  // namespace vantage

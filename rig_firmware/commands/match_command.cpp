@@ -1,0 +1,159 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/output_path.h"
+#include "common/base/print_result.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/gpu_timer.h"
+#include "common/gl/limits.h"
+#include "common/image/colour_map.h"
+#include "common/image/disparity_file.h"
+#include "common/image/image_file.h"
+#include "rig_firmware/stereo/matcher.h"
+#include "rig_firmware/stereo/pass_table.h"
+
+namespace vantage {
+namespace {
+
+struct MatchOptions {
+    std::string left, right, matcher, preset = "balanced", output, colour_map;
+    int disparities = 0, repeats = 5;
+    bool no_fill = false, explain = false, json = false;
+};
+
+/// Everything that can be said without reading a picture.
+void check_outputs(const MatchOptions& options) {
+    disparity_form(options.output);
+    require_writable_output(options.output, {options.left, options.right});
+    if (options.colour_map.empty()) return;
+    require_picture_extension(options.colour_map);
+    require_writable_output(options.colour_map, {options.left, options.right, options.output});
+}
+
+Texture upload(const ColourImage& picture) {
+    Texture texture(TextureFormat::rgba8, picture.cols, picture.rows);
+    texture.upload(picture);
+    return texture;
+}
+
+nlohmann::ordered_json passes_as_json(const Matcher& matcher) {
+    auto passes = nlohmann::ordered_json::array();
+    for (const PassReport& pass : matcher.passes())
+        passes.push_back({{"name", pass.name},
+                          {"runs", pass.runs},
+                          {"gpu_ms", pass.gpu_ms},
+                          {"bytes_moved", pass.bytes_moved},
+                          {"operations", pass.operations}});
+    return passes;
+}
+
+void match(const MatchOptions& options) {
+    const MatchPreset preset = parse_preset(options.preset);
+    const std::string matcher_name =
+        options.matcher.empty() ? default_matcher(preset) : options.matcher;
+    check_outputs(options);
+    const ColourImage left = read_colour_image(options.left);
+    const ColourImage right = read_colour_image(options.right);
+    if (left.size() != right.size())
+        fail("{} is {}x{} and {} is {}x{}; the two pictures of a rectified pair have one size",
+             options.left, left.cols, left.rows, options.right, right.cols, right.rows);
+    const MatchSettings settings{.width_px = left.cols,
+                                 .height_px = left.rows,
+                                 .disparities = options.disparities,
+                                 .preset = preset,
+                                 .fill = !options.no_fill};
+    settings.validate();
+
+    const EglContext context;
+    const GlInfo gl = GlInfo::query();
+    gl.require_vantage_minimum();
+    const ShaderLibrary shaders;
+    const std::unique_ptr<Matcher> matcher = make_matcher(matcher_name, shaders, settings);
+    const Texture left_texture = upload(left), right_texture = upload(right);
+    // The first match warms the driver up: some compile shaders when they are first used.
+    const DisparityImage disparity = matcher->match(left_texture, right_texture).download();
+    const double gpu_ms =
+        median_gpu_ms(options.repeats, [&] { matcher->match(left_texture, right_texture); });
+
+    nlohmann::ordered_json result{
+        {"width", left.cols},
+        {"height", left.rows},
+        {"disparities", options.disparities},
+        {"matcher", matcher_name},
+        {"preset", options.preset},
+        {"gpu_ms", gpu_ms},
+        {"renderer", gl.renderer},
+        {"density",
+         static_cast<double>(cv::countNonZero(disparity)) / static_cast<double>(left.total())},
+        {"fill", settings.fill},
+        {"output", options.output},
+        {"px_per_code",
+         disparity_form(options.output) == DisparityForm::pfm ? 1.0 : 1.0 / disparity_steps_per_px},
+    };
+    if (options.explain) {
+        matcher->set_profiling(true);
+        matcher->match(left_texture, right_texture);
+        result["passes"] = passes_as_json(*matcher);
+        result["gpu_bytes"] = matcher->gpu_bytes();
+        result["cost_volume_bytes"] = matcher->cost_volume_bytes();
+    }
+    write_disparity(options.output, disparity);
+    if (!options.colour_map.empty())
+        write_colour_image(options.colour_map,
+                           colour_map_disparity(to_float_px(disparity), 0,
+                                                static_cast<float>(options.disparities)));
+    print_result(result, options.json);
+    if (options.explain && !options.json) std::cout << '\n' << pass_table(*matcher);
+}
+
+std::string matcher_summaries() {
+    std::string lines;
+    for (const MatcherEntry& entry : matcher_entries())
+        lines += fmt::format("\n  {}: {}", entry.name, entry.summary);
+    return lines;
+}
+
+}  // namespace
+
+CommandEntry match_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<MatchOptions>();
+        CLI::App* command = program.add_subcommand(
+            "match", "Disparity of one rectified pair, on the very path of the daemon");
+        command->footer("Unknown is +infinity in a .pfm and 0 in a .png.\nMatchers:" +
+                        matcher_summaries());
+        command->add_option("left", options->left, "Left picture")->required();
+        command->add_option("right", options->right, "Right picture")->required();
+        command
+            ->add_option("--disparities", options->disparities,
+                         fmt::format("Search range, 0 to N - 1 px; N is 1 to {}",
+                                     MatchSettings::max_disparities))
+            ->type_name("N")
+            ->required();
+        command->add_option("--matcher", options->matcher, "Matcher (default: the preset's)");
+        command->add_option("--preset", options->preset, "fast, balanced or quality")
+            ->capture_default_str();
+        command
+            ->add_option("-o,--output", options->output,
+                         "Disparities to write: .pfm (float, px) or .png (16-bit, 1/32 px)")
+            ->required();
+        command->add_option("--colormap", options->colour_map,
+                            "Also write them as colours, blue = 0, red = N, black = unknown");
+        command->add_flag("--no-fill", options->no_fill,
+                          "Leave unknown as unknown instead of filling it");
+        command->add_option("--repeats", options->repeats, "Matches that gpu_ms is the median of")
+            ->check(CLI::Range(1, 1000))
+            ->capture_default_str();
+        command->add_flag("--explain", options->explain,
+                          "Also report every GPU pass: time, traffic, operations, memory");
+        command->add_flag("--json", options->json, "Write the result as one JSON object");
+        command->callback([options] { match(*options); });
+    }};
+}
+
+}  // namespace vantage
