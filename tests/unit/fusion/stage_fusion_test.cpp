@@ -47,8 +47,7 @@ struct Score {
 Score score(Synthesiser& synthesiser, VirtualStage& stage, double azimuth_deg,
             const std::string& name) {
     const StageCamera camera = camera_at(azimuth_deg, 320, 240);
-    const ColourImage truth =
-        stage.render(camera, stage_time, {.pictures = StagePictures::colour}).colour;
+    const ColourImage truth = stage.render(camera, stage_time, {.pictures = StagePictures::colour}).colour;
     const ColourImage picture =
         synthesiser.render({camera.width_px, camera.height_px, camera.K, camera.world_from_camera})
             .download();
