@@ -208,6 +208,9 @@ auto read_yaml(const std::filesystem::path& path, Read read) {
         fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.err);
     } catch (const Error& error) {
         fail("{}: {}", path.string(), error.what());
+    } catch (const std::exception& error) {
+        // OpenCV lets the standard library's own exceptions out where a file is badly damaged.
+        fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.what());
     }
 }
 

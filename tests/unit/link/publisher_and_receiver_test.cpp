@@ -18,6 +18,7 @@
 #include "host_app/receive/stage_receiver.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -319,33 +320,20 @@ TEST_F(LinkTest, GarbageToTheRigIsAnsweredWithASentence) {
 TEST_F(LinkTest, WithoutKeysNothingBeyondThisComputerIsServedOrReached) {
     RigConfig::Stream stream;
     stream.bind = "tcp://0.0.0.0:5600";
-    try {
-        const Publisher rig(stream, "rig-a");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("stream.key_file"));
-    }
+    EXPECT_THAT(thrown_sentence([&] { const Publisher rig(stream, "rig-a"); }),
+                HasSubstr("stream.key_file"));
     StageConfig stage;
     stage.rigs.push_back({"rig-a", "tcp://192.0.2.7:5600", ""});
-    try {
-        const StageReceiver host(stage);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("public_key"));
-    }
+    EXPECT_THAT(thrown_sentence([&] { const StageReceiver host(stage); }), HasSubstr("public_key"));
 }
 
 TEST_F(LinkTest, APortInUseIsNamed) {
     const Publisher first(open_stream(), "rig-a");
     RigConfig::Stream stream = open_stream();
     stream.bind = first.endpoint();
-    try {
-        const Publisher second(stream, "rig-b");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("in use"));
-        EXPECT_THAT(error.what(), HasSubstr(stream.bind.substr(stream.bind.rfind(':') + 1)));
-    }
+    const std::string sentence = thrown_sentence([&] { const Publisher rig(stream, "rig-b"); });
+    EXPECT_THAT(sentence, HasSubstr("in use"));
+    EXPECT_THAT(sentence, HasSubstr(stream.bind.substr(stream.bind.rfind(':') + 1)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -28,12 +29,7 @@ class CurveKeysTest : public testing::Test {
     }
 
     static std::string refusal_of_key_file(const std::filesystem::path& path) {
-        try {
-            load_key_file(path);
-            return "";
-        } catch (const Error& error) {
-            return error.what();
-        }
+        return thrown_sentence([&] { load_key_file(path); });
     }
 
     static std::string key_file_text(const std::string& public_key, const std::string& secret_key) {
@@ -109,12 +105,8 @@ TEST_F(CurveKeysTest, TheListOfHostsTakesNamesCommentsAndEmptyLines) {
 }
 
 TEST_F(CurveKeysTest, ALineThatIsNoKeyIsNamed) {
-    try {
-        load_authorized_hosts(write("hosts", "# fine\nkey-of-the-gallery\n"));
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("line 2"));
-    }
+    const std::filesystem::path list = write("hosts", "# fine\nkey-of-the-gallery\n");
+    EXPECT_THAT(thrown_sentence([&] { load_authorized_hosts(list); }), HasSubstr("line 2"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/wire/limits.h"
 #include "frame.pb.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -24,12 +25,7 @@ RigFrame decode(const PackedFrame& packed) {
 }
 
 std::string refusal_of(const PackedFrame& packed) {
-    try {
-        decode(packed);
-        return "";
-    } catch (const Error& error) {
-        return error.what();
-    }
+    return thrown_sentence([&] { decode(packed); });
 }
 
 void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {

@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/wire/limits.h"
 #include "link.pb.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -23,12 +24,7 @@ std::vector<std::byte> bytes_of(const google::protobuf::MessageLite& message) {
 
 template <class Decode>
 std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
-    try {
-        decode(bytes);
-        return "";
-    } catch (const Error& error) {
-        return error.what();
-    }
+    return thrown_sentence([&] { decode(bytes); });
 }
 
 TEST(LinkMessage, HostMessageComesBackWhole) {

@@ -1,0 +1,187 @@
+// make_seeds FOLDER: writes the first inputs of every fuzz target to FOLDER/TARGET/.
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+#include "common/base/atomic_file.h"
+#include "common/config/calibration_file.h"
+#include "common/image/pfm.h"
+#include "common/wire/colour_codec.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/disparity_codec.h"
+#include "common/wire/link_message.h"
+#include "tests/fuzz/seed_frames.h"
+
+namespace vantage {
+namespace {
+
+class Seeds {
+  public:
+    explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    std::filesystem::path place(std::string_view target, std::string_view name) const {
+        std::filesystem::create_directories(folder_ / target);
+        return folder_ / target / name;
+    }
+    void write(std::string_view target, std::string_view name,
+               std::span<const std::byte> bytes) const {
+        write_file_atomically(place(target, name), bytes);
+    }
+    void write(std::string_view target, std::string_view name, std::string_view text) const {
+        write(target, name, std::as_bytes(std::span(text)));
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+void write_frames(const Seeds& seeds) {
+    constexpr int lossless = 0;
+    for (const int quality : {lossless, 85}) {
+        RigFrame frame = seed_frame();
+        const PackedFrame packed = FrameEncoder(quality).encode(frame);
+        seeds.write("frame_decoder", "whole-" + std::to_string(quality), join_frame(packed));
+    }
+    RigFrame frame = seed_frame();
+    frame.colour = ColourImage();
+    frame.disparity = frame.disparity(cv::Rect(0, 0, 7, 5));
+    seeds.write("frame_decoder", "disparity-only",
+                join_frame(FrameEncoder(lossless).encode(frame)));
+}
+
+/// A payload behind the two bytes that say its size, less one.
+std::vector<std::byte> with_size(int width, int height, std::vector<std::byte> payload) {
+    payload.insert(payload.begin(),
+                   {static_cast<std::byte>(width - 1), static_cast<std::byte>(height - 1)});
+    return payload;
+}
+
+void write_pictures(const Seeds& seeds) {
+    const RigFrame frame = seed_frame();
+    const int width = frame.colour.cols;
+    const int height = frame.colour.rows;
+    seeds.write("disparity_codec", "plain",
+                with_size(width, height, DisparityEncoder().encode(frame.disparity)));
+    seeds.write("colour_codec", "lossless",
+                with_size(width, height, LosslessColourEncoder().encode(frame.colour)));
+    seeds.write("colour_codec", "jpeg",
+                with_size(width, height, JpegEncoder().encode(frame.colour, 85)));
+    write_pfm(seeds.place("pfm", "plain"), cv::Mat1f(3, 4, 2.0f));
+}
+
+void write_messages(const Seeds& seeds) {
+    seeds.write("link_message", "host", encode(HostMessage{1, 2, 3, 4, true, 5}));
+    RigMessage message;
+    message.rig = "rig-a";
+    message.session = 1;
+    message.link = 2;
+    message.counters = {10, 5, 3, 2};
+    seeds.write("link_message", "rig", encode(message));
+    message.refusal = "no";
+    seeds.write("link_message", "refusal", encode(message));
+}
+
+void write_configurations(const Seeds& seeds) {
+    const CurveKeys keys = generate_curve_keys();
+    seeds.write("key_file", "pair",
+                "version = 1\npublic = \"" + keys.public_key + "\"\nsecret = \"" + keys.secret_key +
+                    "\"\n");
+    seeds.write("key_file", "hosts", "# hosts\n" + keys.public_key + " gallery\n");
+    seeds.write("rig_config", "all", R"(version = 1
+name = "rig-a"
+calibration = "c.yaml"
+[source]
+kind = "virtual"
+rate_hz = 30.0
+width_px = 320
+height_px = 240
+seed = 1
+noise_sigma = 0.5
+left = "l%04d.png"
+first = 1
+loop = true
+controls = { exposure = 3 }
+[virtual_rig]
+azimuth_deg = 10.0
+elevation_deg = 5
+[match]
+preset = "fast"
+disparities = 32
+[stream]
+bind = "tcp://127.0.0.1:5600"
+jpeg_quality = 85
+queue_frames = 4
+key_file = "k"
+authorized_hosts = "h"
+)");
+    seeds.write("stage_config", "all",
+                "version = 1\nkey_file = \"k\"\nrate_hz = 30\n"
+                "latency_budget_ms = 200\n[[rigs]]\nname = \"rig-a\"\n"
+                "endpoint = \"tcp://127.0.0.1:5600\"\npublic_key = \"" +
+                    keys.public_key +
+                    "\"\n[view]\nwidth_px = 1280\n"
+                    "target_m = [0.0, 1.0, 0.0]\nsynthesiser = \"mesh\"\n");
+    seeds.write("move_file", "two", R"(version = 1
+loop = false
+[[keyframes]]
+time_s = 0.0
+azimuth_deg = 0.0
+distance_m = 4.5
+easing = "ease"
+[[keyframes]]
+time_s = 2.0
+azimuth_deg = 20.0
+target_m = [0.0, 1.0, 0.0]
+)");
+    constexpr std::string_view matrices =
+        R"("K": [[5,0,2],[0,5,1],[0,0,1]], "world_from_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]])";
+    seeds.write("view_set", "views",
+                R"({"version": 1, "views": [{"name": "a", "image": "p.png",
+"disparity": "d.pfm", "scale": 1, "unknown": 0, "baseline_m": 0.1, "doffs_px": 1, )" +
+                    std::string(matrices) + "}]}");
+    seeds.write("view_set", "pose", R"({"width": 4, "height": 3, )" + std::string(matrices) + "}");
+    seeds.write("view_set", "pose_toml",
+                "width = 4\nheight = 3\nK = [[5,0,2],[0,5,1],[0,0,1]]\n"
+                "world_from_camera = [[1,0,0,0],[0,1,0,0],[0,0,1,0]]\n");
+}
+
+void write_calibration(const Seeds& seeds) {
+    CameraModel camera;
+    camera.width_px = 320;
+    camera.height_px = 240;
+    camera.fx_px = camera.fy_px = 300;
+    camera.cx_px = 160;
+    camera.cy_px = 120;
+    camera.distortion = {0.1, -0.2, 0, 0, 0.01};
+    StereoCalibration calibration;
+    calibration.left = calibration.right = camera;
+    calibration.right_from_left.translation().x() = -0.12;
+    compute_rectification(calibration, 0);
+    save_calibration(seeds.place("calibration_file", "good.yaml"), calibration,
+                     {"2026-01-01", "seed", 0.2, 0.1, 12});
+}
+
+}  // namespace
+}  // namespace vantage
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "usage: make_seeds FOLDER\n";
+        return 2;
+    }
+    try {
+        const vantage::Seeds seeds(argv[1]);
+        vantage::write_frames(seeds);
+        vantage::write_pictures(seeds);
+        vantage::write_messages(seeds);
+        vantage::write_configurations(seeds);
+        vantage::write_calibration(seeds);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "make_seeds: " << error.what() << '\n';
+        return 1;
+    }
+}
