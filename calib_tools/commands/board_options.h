@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// --board and --square-m of the commands that look for a board.
+/// --board and --square-m, or --board-file, of the commands that look for a board.
 struct BoardOptions {
-    std::string size;
+    std::string size, file;
     double square_m = 0;
 
     void add_to(CLI::App& command);

@@ -1,0 +1,122 @@
+#include "calib_tools/board/board_drawing.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <hpdf.h>
+
+#include "calib_tools/board/charuco_finder.h"
+#include "calib_tools/board/marker_dictionary.h"
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr double points_per_m = 72 / 0.0254;
+constexpr double max_page_points = 14400;
+constexpr double caption_m = 0.014;
+constexpr double ruler_m = 0.1;
+
+[[noreturn]] void pdf_failed(HPDF_STATUS error, HPDF_STATUS detail, void*) {
+    fail("the PDF could not be made (library error {:#x}, {})", error, detail);
+}
+
+struct FreePdf {
+    void operator()(void* pdf) const { HPDF_Free(static_cast<HPDF_Doc>(pdf)); }
+};
+
+float points(double m) { return static_cast<float>(m * points_per_m); }
+
+}  // namespace
+
+double board_margin_m(const BoardPattern& pattern) { return pattern.square_m; }
+
+std::vector<BoardPatch> board_patches(const BoardPattern& pattern) {
+    std::vector<BoardPatch> patches;
+    const double s = pattern.square_m;
+    for (int r = 0; r <= pattern.rows; ++r)
+        for (int c = 0; c <= pattern.columns; ++c)
+            if ((r + c) % 2 == 0) patches.push_back({{c * s, r * s, s, s}, true});
+    if (pattern.kind != BoardKind::charuco) return patches;
+    const MarkerDictionary dictionary(pattern.dictionary);
+    const double margin = 0.5 * (s - pattern.marker_m);
+    for (int id = 0; id < marker_count(pattern); ++id) {
+        const cv::Point square = marker_square(pattern, id);
+        const cv::Mat1b bits = dictionary.bits(id);
+        const double x0 = square.x * s + margin, y0 = square.y * s + margin;
+        const double bit = pattern.marker_m / bits.cols;
+        patches.push_back({{x0, y0, pattern.marker_m, pattern.marker_m}, true});
+        for (int y = 0; y < bits.rows; ++y)
+            for (int x = 0; x < bits.cols; ++x)
+                if (bits(y, x)) patches.push_back({{x0 + x * bit, y0 + y * bit, bit, bit}, false});
+    }
+    return patches;
+}
+
+GreyImage draw_board(const BoardPattern& pattern, int square_px) {
+    const double scale = square_px / pattern.square_m, margin = board_margin_m(pattern);
+    const auto pixel = [&](double m) { return static_cast<int>(std::lround(m * scale)); };
+    GreyImage picture(pixel((pattern.rows + 1) * pattern.square_m + 2 * margin),
+                      pixel((pattern.columns + 1) * pattern.square_m + 2 * margin), uchar{255});
+    for (const BoardPatch& patch : board_patches(pattern)) {
+        const cv::Point from(pixel(patch.place_m.x + margin), pixel(patch.place_m.y + margin));
+        const cv::Point to(pixel(patch.place_m.br().x + margin),
+                           pixel(patch.place_m.br().y + margin));
+        picture(cv::Rect(from, to)).setTo(patch.black ? 0 : 255);
+    }
+    return picture;
+}
+
+std::vector<std::byte> board_as_pdf(const BoardPattern& pattern) {
+    const double margin = board_margin_m(pattern);
+    const double width_m = (pattern.columns + 1) * pattern.square_m + 2 * margin;
+    const double height_m = (pattern.rows + 1) * pattern.square_m + 2 * margin + caption_m;
+    if (std::max(width_m, height_m) * points_per_m > max_page_points)
+        fail("a board of {:.2f} x {:.2f} m is larger than a PDF page may be (5.08 m a side)",
+             width_m, height_m);
+    const std::unique_ptr<void, FreePdf> owner(HPDF_New(pdf_failed, nullptr));
+    const auto pdf = static_cast<HPDF_Doc>(owner.get());
+    if (!pdf) fail("the PDF could not be made: no memory");
+    const HPDF_Page page = HPDF_AddPage(pdf);
+    HPDF_Page_SetWidth(page, points(width_m));
+    HPDF_Page_SetHeight(page, points(height_m));
+    for (const BoardPatch& patch : board_patches(pattern)) {
+        HPDF_Page_SetGrayFill(page, patch.black ? 0.0f : 1.0f);
+        // PDF counts from the bottom.
+        HPDF_Page_Rectangle(page, points(margin + patch.place_m.x),
+                            points(height_m - margin - patch.place_m.br().y),
+                            points(patch.place_m.width), points(patch.place_m.height));
+        HPDF_Page_Fill(page);
+    }
+    HPDF_Page_SetGrayFill(page, 0);
+    const double left = std::min(margin, 0.01);
+    if (width_m > ruler_m + 2 * left) {
+        HPDF_Page_SetLineWidth(page, 0.5f);
+        HPDF_Page_MoveTo(page, points(left), points(0.010));
+        HPDF_Page_LineTo(page, points(left + ruler_m), points(0.010));
+        for (const double end : {left, left + ruler_m}) {
+            HPDF_Page_MoveTo(page, points(end), points(0.0085));
+            HPDF_Page_LineTo(page, points(end), points(0.0115));
+        }
+        HPDF_Page_Stroke(page);
+    }
+    const std::string caption = fmt::format(
+        "{}x{} inner corners, square {:g} mm{}. Print at 100 %: the line above is 100 mm.",
+        pattern.columns, pattern.rows, 1000 * pattern.square_m,
+        pattern.kind == BoardKind::charuco
+            ? fmt::format(", marker {:g} mm, {}", 1000 * pattern.marker_m, pattern.dictionary)
+            : "");
+    HPDF_Page_BeginText(page);
+    HPDF_Page_SetFontAndSize(page, HPDF_GetFont(pdf, "Helvetica", nullptr), 7);
+    HPDF_Page_TextOut(page, points(left), points(0.004), caption.c_str());
+    HPDF_Page_EndText(page);
+    HPDF_SaveToStream(pdf);
+    HPDF_UINT32 size = HPDF_GetStreamSize(pdf);
+    std::vector<std::byte> bytes(size);
+    HPDF_ReadFromStream(pdf, reinterpret_cast<HPDF_BYTE*>(bytes.data()), &size);
+    bytes.resize(size);
+    return bytes;
+}
+
+}  // namespace vantage

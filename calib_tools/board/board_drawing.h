@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "calib_tools/board/board_pattern.h"
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// A black or white rectangle of a board, metres from the upper left of its outer squares.
+struct BoardPatch {
+    cv::Rect2d place_m;
+    bool black = true;
+};
+
+/// In the order in which they are painted, on white.
+std::vector<BoardPatch> board_patches(const BoardPattern& pattern);
+
+/// Width of the white border that a finder needs around the squares.
+double board_margin_m(const BoardPattern& pattern);
+
+/// The board with its margin; one square is `square_px` wide.
+GreyImage draw_board(const BoardPattern& pattern, int square_px);
+
+/// One page that holds the board at its true size, with a ruler to check the print by. Throws Error
+/// if the board is larger than a PDF page may be (5 m).
+std::vector<std::byte> board_as_pdf(const BoardPattern& pattern);
+
+}  // namespace vantage

@@ -1,0 +1,127 @@
+#include "calib_tools/board/charuco_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <opencv2/calib3d.hpp>
+
+#include "calib_tools/board/corner_refiner.h"
+#include "calib_tools/board/marker_dictionary.h"
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr double max_radius_px = 15;
+constexpr int fewest_corners = 6;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The corners of a marker on the board, metres, clockwise from the upper left.
+void marker_corners_m(const BoardPattern& pattern, int id, std::vector<cv::Point2d>& out) {
+    const cv::Point square = marker_square(pattern, id);
+    // The board's origin is the first INNER corner, one square in.
+    const double margin = 0.5 * (pattern.square_m - pattern.marker_m);
+    const double x0 = (square.x - 1) * pattern.square_m + margin;
+    const double y0 = (square.y - 1) * pattern.square_m + margin;
+    out.insert(out.end(), {{x0, y0},
+                           {x0 + pattern.marker_m, y0},
+                           {x0 + pattern.marker_m, y0 + pattern.marker_m},
+                           {x0, y0 + pattern.marker_m}});
+}
+
+Eigen::Vector2d apply(const cv::Matx33d& h, double x, double y) {
+    const cv::Vec3d p = h * cv::Vec3d(x, y, 1);
+    return {p[0] / p[2], p[1] / p[2]};
+}
+
+}  // namespace
+
+int marker_count(const BoardPattern& pattern) {
+    return (pattern.columns + 1) * (pattern.rows + 1) / 2;
+}
+
+cv::Point marker_square(const BoardPattern& pattern, int id) {
+    int count = 0;
+    for (int row = 0; row <= pattern.rows; ++row)
+        for (int column = 0; column <= pattern.columns; ++column)
+            if ((row + column) % 2 == 1 && count++ == id) return {column, row};
+    return {-1, -1};
+}
+
+BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern) {
+    BoardSighting sighting;
+    const MarkerDictionary dictionary(pattern.dictionary);
+    std::map<int, FoundMarker> markers;
+    for (const FoundMarker& marker : dictionary.find(picture))
+        if (marker.id < marker_count(pattern)) markers[marker.id] = marker;
+    if (markers.size() < 2) {
+        GreyImage flipped;
+        cv::flip(picture, flipped, 1);
+        sighting.mirrored = dictionary.find(flipped).size() >= 4;
+        sighting.reason =
+            sighting.mirrored
+                ? "is mirrored: the board's markers can be read in a mirror only"
+                : fmt::format("shows {} of the {} markers of the {} board, too few to be placed",
+                              markers.size(), marker_count(pattern), pattern.size_name());
+        return sighting;
+    }
+    std::vector<double> blurs, contrasts, spacings;
+    for (int id = 0; id < pattern.corner_count(); ++id) {
+        // The nearest markers place the corner: lens and bent board hardly count so near.
+        const Eigen::Vector3d corner = pattern.corner_m(id);
+        std::vector<std::pair<double, int>> nearest;
+        for (const auto& [marker_id, marker] : markers) {
+            const cv::Point square = marker_square(pattern, marker_id);
+            nearest.emplace_back(std::hypot((square.x - 0.5) * pattern.square_m - corner.x(),
+                                            (square.y - 0.5) * pattern.square_m - corner.y()),
+                                 marker_id);
+        }
+        std::sort(nearest.begin(), nearest.end());
+        if (nearest.front().first > 1.2 * pattern.square_m) continue;
+        std::vector<cv::Point2d> on_board, in_picture;
+        for (std::size_t i = 0; i < std::min<std::size_t>(4, nearest.size()); ++i) {
+            marker_corners_m(pattern, nearest[i].second, on_board);
+            for (const cv::Point2f& p : markers[nearest[i].second].corners)
+                in_picture.emplace_back(p.x, p.y);
+        }
+        const cv::Mat homography = cv::findHomography(on_board, in_picture);
+        if (homography.empty()) continue;
+        const cv::Matx33d h = homography;
+        const Eigen::Vector2d start = apply(h, corner.x(), corner.y());
+        const Eigen::Vector2d row = apply(h, corner.x() + pattern.square_m, corner.y()) - start;
+        const Eigen::Vector2d column = apply(h, corner.x(), corner.y() + pattern.square_m) - start;
+        // Markers begin inside their squares: the circle must not reach them along either edge.
+        const double clear = 0.5 * (1 - pattern.marker_m / pattern.square_m);
+        const double area = std::abs(row.x() * column.y() - row.y() * column.x());
+        const double across = area / std::max(row.norm(), column.norm());
+        const double radius = std::clamp(std::max(1.35 * clear, 0.25) * across, 2.5, max_radius_px);
+        if (start.x() < radius || start.y() < radius || start.x() > picture.cols - 1 - radius ||
+            start.y() > picture.rows - 1 - radius)
+            continue;
+        const std::optional<CornerFit> fit = fit_corner(picture, start, row, column, radius);
+        if (!fit || fit->residual > 0.4 * fit->contrast) continue;
+        sighting.corners.push_back({id, corner, fit->pixel});
+        blurs.push_back(fit->blur_px);
+        contrasts.push_back(fit->contrast);
+        spacings.push_back(0.5 * (row.norm() + column.norm()));
+    }
+    if (static_cast<int>(sighting.corners.size()) < fewest_corners) {
+        sighting.reason = fmt::format("shows {} measurable corners of the board, fewer than {}",
+                                      sighting.corners.size(), fewest_corners);
+        sighting.corners.clear();
+        return sighting;
+    }
+    sighting.square_px = median(spacings);
+    sighting.blur_px = median(blurs);
+    sighting.contrast = median(contrasts);
+    return sighting;
+}
+
+}  // namespace vantage

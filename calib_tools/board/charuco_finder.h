@@ -1,0 +1,18 @@
+#pragma once
+
+#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/board_view.h"
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// Column and row of the white square (of the outer grid, from 0) that holds marker `id`: markers
+/// are numbered row by row over the squares whose column + row is odd, as OpenCV does.
+cv::Point marker_square(const BoardPattern& pattern, int id);
+int marker_count(const BoardPattern& pattern);
+
+/// Finds the inner corners of a ChArUco board of which at least four lie near markers that can be
+/// read; each is measured by fit_corner. Recognises mirrored pictures.
+BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern);
+
+}  // namespace vantage

@@ -1,0 +1,96 @@
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "calib_tools/board/board_drawing.h"
+#include "calib_tools/board/board_file.h"
+#include "calib_tools/board/charuco_finder.h"
+#include "calib_tools/board/marker_dictionary.h"
+#include "common/base/atomic_file.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/image/image_file.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    std::string kind = "charuco", size, output, dictionary = "5X5_250";
+    double square_m = 0, marker_m = 0, dots_per_inch = 300;
+    bool json = false;
+};
+
+void run(const Options& options) {
+    BoardPattern pattern = chessboard_pattern(options.size, options.square_m);
+    if (options.kind == "charuco") {
+        pattern.kind = BoardKind::charuco;
+        pattern.marker_m = options.marker_m > 0 ? options.marker_m : 0.7 * pattern.square_m;
+        pattern.dictionary = options.dictionary;
+        pattern.validate();
+        const MarkerDictionary dictionary(pattern.dictionary);
+        if (dictionary.marker_count() < marker_count(pattern))
+            fail("a {} board needs {} markers and dictionary {} has {}; take a larger one",
+                 pattern.size_name(), marker_count(pattern), pattern.dictionary,
+                 dictionary.marker_count());
+    }
+    const int square_px =
+        static_cast<int>(std::lround(pattern.square_m / 0.0254 * options.dots_per_inch));
+    const double widest = (std::max(pattern.columns, pattern.rows) + 3) * square_px;
+    if (square_px < 12 || widest > max_image_side_px)
+        fail(
+            "at {} dots per inch a square is {} px and the picture {} px wide; 12 px and {} px are "
+            "the limits: change --dpi",
+            options.dots_per_inch, square_px, widest, max_image_side_px);
+    const std::string png = options.output + ".png", pdf = options.output + ".pdf",
+                      description = options.output + ".toml";
+    write_grey_image(png, draw_board(pattern, square_px));
+    write_file_atomically(pdf, board_as_pdf(pattern));
+    save_board(description, pattern);
+    if (options.json)
+        std::cout << nlohmann::json{{"png", png},
+                                    {"pdf", pdf},
+                                    {"description", description},
+                                    {"columns", pattern.columns},
+                                    {"rows", pattern.rows},
+                                    {"square_m", pattern.square_m}}
+                         .dump(2)
+                  << '\n';
+    else
+        std::cout << fmt::format(
+            "{}, {} and {} written; print at 100 %, glue it to something flat, measure a row of "
+            "squares and correct square_m in {}\n",
+            pdf, png, description, description);
+}
+
+}  // namespace
+
+CommandEntry board_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "board", "Draw a calibration target: PDF true to scale, PNG, and its description");
+        const auto options = std::make_shared<Options>();
+        command->add_option("--kind", options->kind, "what to draw")
+            ->check(CLI::IsMember({"chessboard", "charuco"}))
+            ->capture_default_str();
+        command->add_option("--board", options->size, "inner corners, such as 9x6")->required();
+        command->add_option("--square-m", options->square_m, "side of a square in metres")
+            ->required();
+        command->add_option("--marker-m", options->marker_m,
+                            "side of a marker in metres (default: 0.7 squares)");
+        command->add_option("--dictionary", options->dictionary, "ArUco dictionary")
+            ->capture_default_str();
+        command->add_option("--dpi", options->dots_per_inch, "of the PNG")
+            ->check(CLI::Range(10.0, 2400.0))
+            ->capture_default_str();
+        command
+            ->add_option("-o,--output", options->output,
+                         "path without extension; .pdf, .png and .toml are written")
+            ->required();
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage
