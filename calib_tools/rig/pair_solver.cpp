@@ -35,17 +35,7 @@ Eigen::Vector2d rectify_pixel(const CameraModel& camera, const Eigen::Matrix3d& 
 
 }  // namespace
 
-std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
-    const auto right_views = views_by_board(right, 0);
-    std::vector<Pose> poses;
-    for (const BundleView& view : left.views) {
-        if (!right_views.contains(view.board)) continue;
-        const auto board = static_cast<std::size_t>(view.board);
-        poses.push_back(right.boards[board].world_from_board *
-                        left.boards[board].world_from_board.inverse());
-    }
-    if (poses.empty()) return std::nullopt;
-    // The pose whose median distance to the others is least: half of the views may be wrong.
+PairStart middle_pose(const std::vector<Pose>& poses) {
     PairStart best;
     double best_cost = std::numeric_limits<double>::max();
     for (const Pose& candidate : poses) {
@@ -63,6 +53,19 @@ std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
         }
     }
     return best;
+}
+
+std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
+    const auto right_views = views_by_board(right, 0);
+    std::vector<Pose> poses;
+    for (const BundleView& view : left.views) {
+        if (!right_views.contains(view.board)) continue;
+        const auto board = static_cast<std::size_t>(view.board);
+        poses.push_back(right.boards[board].world_from_board *
+                        left.boards[board].world_from_board.inverse());
+    }
+    if (poses.empty()) return std::nullopt;
+    return middle_pose(poses);
 }
 
 std::optional<Bundle> solve_pair(const Bundle& left, const Bundle& right, const PairStart& start) {

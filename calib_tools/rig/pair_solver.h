@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "calib_tools/rig/camera_solver.h"
 #include "common/geometry/stereo_calibration.h"
@@ -13,6 +14,10 @@ struct PairStart {
     double rotation_spread_rad = 0;           ///< median distance of the views from it
     double translation_spread_m = 0;
 };
+
+/// Of several measurements of one pose the one whose median distance to the others is least: half
+/// of them may be wrong. Precondition: at least one.
+PairStart middle_pose(const std::vector<Pose>& poses);
 
 /// From the poses of the boards that both saw. Empty if none was seen by both.
 std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right);

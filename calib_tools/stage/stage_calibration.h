@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/rig/rig_calibration.h"
+
+namespace vantage {
+
+/// What one rig brings to the calibration of a stage.
+struct StageRig {
+    std::string name;
+    StereoCalibration calibration;
+    /// Board sightings by instant; the same number is the same instant at every rig.
+    std::map<long long, BoardCorners> left, right;
+};
+
+struct StageCalibration {
+    struct Rig {
+        std::string name;
+        StereoCalibration calibration;  ///< with world_from_left
+        /// 1 sigma, relative to the first rig (whose own are 0): the length over the three axes.
+        double translation_sigma_m = 0, rotation_sigma_rad = 0;
+        double rms_px = 0;
+        int instants = 0;  ///< in which it saw the board
+    };
+    /// Instants that two rigs saw together.
+    struct Tie {
+        std::size_t a = 0, b = 0;
+        int shared = 0;
+    };
+    std::vector<Rig> rigs;
+    std::vector<Tie> ties;
+    std::vector<Refusal> rejected;    ///< instants
+    std::vector<std::string> advice;  ///< weakly tied rigs and the picture that would help
+    double rms_px = 0;
+    std::size_t instants_given = 0, instants_used = 0;
+    bool has_floor = false;
+};
+
+/// The extrinsics of all rigs: poses of the boards in each rig give a graph whose edges are
+/// instants that two rigs saw; along its strongest edges the rigs are placed, then rigs and boards
+/// are solved together, lenses and baselines held. With `floor_instant` the board of that instant
+/// lies on the floor: the world's origin is its middle, y up, x along its rows, z along its
+/// columns. Without, the world is the frame of the first rig's left camera. Throws Error naming
+/// rigs that no board ties to the others, boards that look alike when turned, and a floor board
+/// nobody saw.
+StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardPattern& pattern,
+                                 std::optional<long long> floor_instant);
+
+}  // namespace vantage

@@ -1,0 +1,62 @@
+#include "calib_tools/stage/stage_report.h"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace vantage {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+}  // namespace
+
+nlohmann::json to_json(const StageCalibration& stage) {
+    using nlohmann::json;
+    json rigs = json::array(), ties = json::array(), rejected = json::array();
+    for (const StageCalibration::Rig& rig : stage.rigs) {
+        const Eigen::Matrix4d m = rig.calibration.world_from_left.matrix();
+        json pose = json::array();
+        for (int r = 0; r < 3; ++r) pose.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
+        rigs.push_back({{"name", rig.name},
+                        {"world_from_left", pose},
+                        {"translation_sigma_m", rig.translation_sigma_m},
+                        {"rotation_sigma_deg", rig.rotation_sigma_rad * degrees},
+                        {"rms_px", rig.rms_px},
+                        {"instants", rig.instants}});
+    }
+    for (const StageCalibration::Tie& tie : stage.ties)
+        ties.push_back({{"rigs", {stage.rigs[tie.a].name, stage.rigs[tie.b].name}},
+                        {"shared_instants", tie.shared}});
+    for (const Refusal& refusal : stage.rejected)
+        rejected.push_back({{"name", refusal.name}, {"reason", refusal.reason}});
+    return {{"rms_px", stage.rms_px},
+            {"instants_given", stage.instants_given},
+            {"instants_used", stage.instants_used},
+            {"world", stage.has_floor ? "board on the floor" : "left camera of the first rig"},
+            {"rigs", rigs},
+            {"ties", ties},
+            {"rejected", rejected},
+            {"advice", stage.advice}};
+}
+
+std::string describe(const StageCalibration& stage) {
+    std::string text =
+        fmt::format("reprojection {:.3f} px RMS, {} of {} instants used; world: {}\n", stage.rms_px,
+                    stage.instants_used, stage.instants_given,
+                    stage.has_floor ? "board on the floor, y up" : "left camera of the first rig");
+    for (const StageCalibration::Rig& rig : stage.rigs) {
+        const Eigen::Vector3d at = rig.calibration.world_from_left.translation();
+        text += fmt::format(
+            "{}: at ({:.4f}, {:.4f}, {:.4f}) m, +- {:.2f} mm, +- {:.4f} degrees, {:.3f} px RMS, {} "
+            "instants\n",
+            rig.name, at.x(), at.y(), at.z(), 1000 * rig.translation_sigma_m,
+            rig.rotation_sigma_rad * degrees, rig.rms_px, rig.instants);
+    }
+    for (const Refusal& refusal : stage.rejected)
+        text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
+    for (const std::string& sentence : stage.advice) text += "would help: " + sentence + "\n";
+    return text;
+}
+
+}  // namespace vantage

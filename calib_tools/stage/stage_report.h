@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "calib_tools/stage/stage_calibration.h"
+
+namespace vantage {
+
+nlohmann::json to_json(const StageCalibration& stage);
+std::string describe(const StageCalibration& stage);
+
+}  // namespace vantage

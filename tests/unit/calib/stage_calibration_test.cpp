@@ -1,0 +1,131 @@
+#include "calib_tools/stage/stage_calibration.h"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "tests/unit/calib/synthetic_views.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+const BoardPattern pattern = chessboard_pattern("9x6", 0.1);
+constexpr long long floor_number = 0;
+
+/// Four rigs on an arc of 120 degrees, 4 m from the middle of the stage; the board in front of one
+/// pair of neighbours after the other, and once on the floor.
+struct FilmedStage {
+    std::vector<StageRig> rigs;
+    std::vector<Pose> world_from_left;
+};
+
+FilmedStage film(int count_a_pair, bool tie_last = true) {
+    FilmedStage stage;
+    const SyntheticRig optics;
+    for (int i = 0; i < 4; ++i) {
+        StageRig rig;
+        rig.name = std::string(1, static_cast<char>('A' + i));
+        rig.calibration.left = optics.left;
+        rig.calibration.right = optics.right;
+        rig.calibration.right_from_left = optics.right_from_left;
+        stage.rigs.push_back(rig);
+        const double azimuth = (i - 1.5) * 40 * std::numbers::pi / 180;
+        stage.world_from_left.push_back(
+            look_at({4 * std::sin(azimuth), 1.6, 4 * std::cos(azimuth)}, {0, 0.8, 0}));
+    }
+    SyntheticViews views(pattern, 0.1);
+    long long instant = floor_number;
+    const auto show = [&](const Pose& world_from_board) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Pose left_from_board = stage.world_from_left[i].inverse() * world_from_board;
+            // Only the front can be read.
+            if ((left_from_board.linear().col(2)).dot(left_from_board.translation()) <= 0) continue;
+            if (!tie_last && i == 3 && instant != floor_number) continue;
+            if (!tie_last && i == 3) continue;
+            const auto l = views.see(stage.rigs[i].calibration.left, left_from_board, "l");
+            const auto r =
+                views.see(stage.rigs[i].calibration.right,
+                          stage.rigs[i].calibration.right_from_left * left_from_board, "r");
+            if (l.sighting.found()) stage.rigs[i].left[instant] = l.sighting.corners;
+            if (r.sighting.found()) stage.rigs[i].right[instant] = r.sighting.corners;
+        }
+        ++instant;
+    };
+    Pose floor = Pose::Identity();
+    floor.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    floor.translation() = -(floor.linear() * (0.5 * pattern.corner_m(pattern.corner_count() - 1)));
+    show(floor);
+    for (int pair = 0; pair < 3; ++pair)
+        for (int k = 0; k < count_a_pair; ++k) {
+            // A camera half way between two rigs holds the board before itself.
+            const double azimuth = (pair - 1) * 40 * std::numbers::pi / 180;
+            const Pose between =
+                look_at({4 * std::sin(azimuth), 1.6, 4 * std::cos(azimuth)}, {0, 0.9, 0});
+            show(between * views.hold_board(3.2, 0.12));
+        }
+    if (!tie_last) stage.rigs[3].left[1000] = stage.rigs[0].left.begin()->second;
+    return stage;
+}
+
+TEST(StageCalibration, places_four_rigs_on_an_arc_and_its_uncertainty_covers_the_truth) {
+    const FilmedStage filmed = film(13);
+    const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, floor_number);
+    ASSERT_EQ(stage.rigs.size(), 4u);
+    EXPECT_TRUE(stage.has_floor);
+    double squares_m = 0, squares_rad = 0;
+    for (std::size_t i = 1; i < 4; ++i) {
+        // Against the first rig, as the uncertainties are stated.
+        const Pose solved = stage.rigs[0].calibration.world_from_left.inverse() *
+                            stage.rigs[i].calibration.world_from_left;
+        const Pose truth = filmed.world_from_left[0].inverse() * filmed.world_from_left[i];
+        const double miss_m = (solved.translation() - truth.translation()).norm();
+        const double miss_rad =
+            Eigen::AngleAxisd(Eigen::Matrix3d(solved.linear().transpose() * truth.linear()))
+                .angle();
+        squares_m += miss_m * miss_m / 3;
+        squares_rad += miss_rad * miss_rad / 3;
+        EXPECT_LT(miss_m, 3 * stage.rigs[i].translation_sigma_m) << i;
+        EXPECT_LT(miss_rad, 3 * stage.rigs[i].rotation_sigma_rad) << i;
+        EXPECT_LT(stage.rigs[i].translation_sigma_m, 0.003);
+    }
+    EXPECT_LT(std::sqrt(squares_m), 0.001);
+    EXPECT_LT(std::sqrt(squares_rad) * 180 / std::numbers::pi, 0.02);
+    // The floor fixes the world: the first rig stands where it was put.
+    EXPECT_LT((stage.rigs[0].calibration.world_from_left.translation() -
+               filmed.world_from_left[0].translation())
+                  .norm(),
+              0.01);
+}
+
+TEST(StageCalibration, names_the_rig_that_no_board_ties_to_the_others) {
+    try {
+        calibrate_stage(film(3, false).rigs, pattern, std::nullopt);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no picture shows the board to D and to A, B, C"));
+    }
+}
+
+TEST(StageCalibration, says_which_rig_is_weakly_tied) {
+    FilmedStage filmed = film(8);
+    int kept = 0;
+    for (auto* series : {&filmed.rigs[3].left, &filmed.rigs[3].right}) {
+        kept = 0;
+        std::erase_if(*series, [&](const auto&) { return ++kept > 2; });
+    }
+    const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, std::nullopt);
+    ASSERT_FALSE(stage.advice.empty());
+    EXPECT_THAT(stage.advice.back(), HasSubstr("rig D is weakly tied"));
+}
+
+TEST(StageCalibration, refuses_a_board_that_looks_alike_half_turned) {
+    EXPECT_THROW(calibrate_stage(film(1).rigs, chessboard_pattern("8x6", 0.1), std::nullopt),
+                 Error);
+}
+
+}  // namespace
+}  // namespace vantage
