@@ -1,38 +1,47 @@
 #include "common/base/atomic_file.h"
 
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/unique_fd.h"
 
 namespace vantage {
+namespace {
+
+/// 0, or the errno of the step that failed.
+int write_whole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const UniqueFd file(
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
+    if (!file) return errno;
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    // Without this a power cut after the rename could leave an empty file under the old name.
+    return ::fsync(file.get()) == 0 ? 0 : errno;
+}
+
+}  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    const std::filesystem::path temporary = path.string() + fmt::format(".partial-{}", getpid());
-    {
-        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-        if (!out) fail("cannot write {}: {}", path.string(), std::strerror(errno));
-        out.write(reinterpret_cast<const char*>(bytes.data()),
-                  static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (!out) {
-            const int reason = errno;
-            std::error_code ignored;
-            std::filesystem::remove(temporary, ignored);
-            fail("cannot write {}: {}", path.string(), std::strerror(reason));
-        }
-    }
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        fail("cannot write {}: {}", path.string(), error.message());
-    }
+    // Its own name for every thread that may be writing this path.
+    const std::filesystem::path temporary = path.string() + fmt::format(".partial-{}", gettid());
+    int reason = write_whole(temporary, bytes);
+    if (reason == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+    if (reason == 0) return;
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    fail("cannot write {}: {}", path.string(), std::strerror(reason));
 }
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t max_bytes) {

@@ -1,5 +1,9 @@
 #include "common/image/image_file.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -13,10 +17,24 @@ namespace {
 
 constexpr std::size_t max_file_bytes = std::size_t{1} << 30;
 
+/// A JPEG without the end-of-image marker after its last scan was cut short; the decoder would fill
+/// the rest with grey and say nothing.
+bool is_jpeg_cut_short(std::span<const std::byte> bytes) {
+    const auto last = [&](unsigned char marker) {
+        const std::array pattern = {std::byte{0xff}, std::byte{marker}};
+        return std::find_end(bytes.begin(), bytes.end(), pattern.begin(), pattern.end());
+    };
+    constexpr unsigned char start_of_image = 0xd8, start_of_scan = 0xda, end_of_image = 0xd9;
+    const bool is_jpeg =
+        bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{start_of_image};
+    return is_jpeg &&
+           (last(end_of_image) == bytes.end() || last(end_of_image) < last(start_of_scan));
+}
+
 cv::Mat decode(const std::filesystem::path& path, int flags) {
     const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
     cv::Mat image;
-    if (!bytes.empty()) {
+    if (!bytes.empty() && !is_jpeg_cut_short(bytes)) {
         try {
             image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U,
                                          const_cast<std::byte*>(bytes.data())),

@@ -1,5 +1,6 @@
 #include "common/image/pfm.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -38,7 +39,8 @@ cv::Mat1f read_pfm(const std::filesystem::path& path) {
     if (width > max_image_side_px || height > max_image_side_px)
         fail("{} is {}x{}; pictures up to {} pixels a side are taken", path.string(), width, height,
              max_image_side_px);
-    const std::size_t start = static_cast<std::size_t>(in.tellg()) + 1;
+    // A file that ends with the scale has no samples at all, and no place where they would start.
+    const std::size_t start = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg()) + 1;
     const std::size_t row_bytes = static_cast<std::size_t>(width) * sizeof(float);
     if (bytes.size() < start ||
         bytes.size() - start != row_bytes * static_cast<std::size_t>(height))
