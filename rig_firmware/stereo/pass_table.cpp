@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "rig_firmware/stereo/pi_model.h"
+
 namespace vantage {
 namespace {
 
@@ -28,7 +30,7 @@ std::string pass_table(const Matcher& matcher) {
     table += fmt::format("GL objects {:.1f} MB, of which cost volumes {:.1f} MB\n",
                          static_cast<double>(matcher.gpu_bytes()) * 1e-6,
                          static_cast<double>(matcher.cost_volume_bytes()) * 1e-6);
-    return table;
+    return table + pi_model_lines(matcher.passes());
 }
 
 }  // namespace vantage

@@ -45,6 +45,7 @@ class CoarseMatcher : public Matcher {
 
     std::vector<PassReport> passes() const override { return profiler_.reports(); }
     void set_profiling(bool on) override { profiler_.set_enabled(on); }
+    std::size_t cost_volume_bytes() const override { return perm_.volume_bytes(); }
     std::size_t gpu_bytes() const override {
         return fine_luma_.gpu_bytes() + upsample_.gpu_bytes() + luma_.gpu_bytes() +
                features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes() + fill_.gpu_bytes() +

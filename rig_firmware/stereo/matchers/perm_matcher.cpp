@@ -39,6 +39,7 @@ class PermMatcher : public Matcher {
 
     std::vector<PassReport> passes() const override { return profiler_.reports(); }
     void set_profiling(bool on) override { profiler_.set_enabled(on); }
+    std::size_t cost_volume_bytes() const override { return perm_.volume_bytes(); }
     std::size_t gpu_bytes() const override {
         return luma_.gpu_bytes() + features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes() +
                fill_.gpu_bytes() + result_.gpu_bytes();
