@@ -42,7 +42,18 @@ class BoundedQueue {
         if (items_.empty()) return std::nullopt;
         T item = std::move(items_.front());
         items_.pop_front();
+        lock.unlock();
+        room_.notify_one();
         return item;
+    }
+
+    /// Waits until a push would drop nothing; false once the time is up, or when the queue is
+    /// closed.
+    bool wait_for_room(std::chrono::nanoseconds timeout) {
+        std::unique_lock lock(mutex_);
+        return room_.wait_for(lock, timeout, [&] {
+            return closed_ || items_.size() < capacity_;
+        }) && !closed_;
     }
 
     void close() {
@@ -51,6 +62,7 @@ class BoundedQueue {
             closed_ = true;
         }
         ready_.notify_all();
+        room_.notify_all();
     }
 
     bool closed() const {
@@ -68,7 +80,7 @@ class BoundedQueue {
 
   private:
     mutable std::mutex mutex_;
-    std::condition_variable ready_;
+    std::condition_variable ready_, room_;
     std::deque<T> items_;
     std::size_t capacity_;
     std::uint64_t dropped_count_ = 0;

@@ -131,8 +131,11 @@ VirtualRig::Sensor VirtualRig::make_sensor(const CameraModel& model,
     return sensor;
 }
 
-VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise)
-    : rectified_(calibration.rectified), noise_(noise) {
+VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise,
+                       bool with_exact_disparity)
+    : rectified_(calibration.rectified),
+      noise_(noise),
+      with_exact_disparity_(with_exact_disparity) {
     calibration.validate();
     left_ = make_sensor(calibration.left, calibration.world_from_left);
     right_ = make_sensor(calibration.right,
@@ -164,9 +167,11 @@ VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseco
     VirtualStereoFrame frame;
     frame.left = see(left_, stage, stage_time);
     frame.right = see(right_, stage, stage_time);
-    const StageRendering exact =
-        stage.render(rectified_left_, stage_time, {.pictures = StagePictures::depth});
-    frame.exact_disparity = disparity_from_depth(exact.depth_m, rectified_);
+    if (with_exact_disparity_) {
+        const StageRendering exact =
+            stage.render(rectified_left_, stage_time, {.pictures = StagePictures::depth});
+        frame.exact_disparity = disparity_from_depth(exact.depth_m, rectified_);
+    }
     add_sensor_noise(frame.left, noise_, 0, frame_index);
     add_sensor_noise(frame.right, noise_, 1, frame_index);
     return frame;

@@ -42,8 +42,10 @@ struct VirtualStereoFrame {
 class VirtualRig {
   public:
     /// Throws Error for an impossible calibration, and for lenses that see further than about 75
-    /// degrees off their axis, which no pinhole picture holds.
-    VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise);
+    /// degrees off their axis, which no pinhole picture holds. Without exact disparity its frames
+    /// leave that empty, and cost a rendering less.
+    VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise,
+               bool with_exact_disparity = true);
 
     /// What the two sensors see at a time.
     VirtualStereoFrame render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
@@ -63,6 +65,7 @@ class VirtualRig {
     StageCamera rectified_left_;
     RectifiedStereo rectified_;
     SensorNoise noise_;
+    bool with_exact_disparity_;
 };
 
 /// One frame of a VirtualRig made for it.

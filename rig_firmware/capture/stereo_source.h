@@ -22,7 +22,7 @@ struct StereoFrame {
     TaiTime exposure{};              ///< centre of exposure
     ColourImage left, right;         ///< same size; grey sensors deliver equal channels
     DisparityImage exact_disparity;  ///< of the RECTIFIED left picture; only from the virtual
-                                     ///< source, else empty
+                                     ///< source for the matcher "exact", else empty
 };
 
 /// Something a source counts besides the instants it missed, e.g. "unpaired".
@@ -47,6 +47,11 @@ class StereoSource {
     /// True once there is nothing more to come: recorded material has an end, sensors have none.
     virtual bool ended() const { return false; }
 
+    /// True if every picture is made when it is asked for. Such a source is asked only when there
+    /// is room for its frame, so that a busy computer makes none for nothing; pulses that pass
+    /// meanwhile are missed. Sensors are never made to wait.
+    virtual bool works_on_demand() const { return false; }
+
     /// Pulses since the first frame for which none came (late, sequence gaps, unplugged).
     virtual std::uint64_t missed() const = 0;
     virtual std::vector<SourceCounter> counters() const { return {}; }
@@ -54,6 +59,9 @@ class StereoSource {
     /// Lines for the start-up report: device, mode, import path, locked controls.
     virtual std::vector<std::string> report() const = 0;
 };
+
+/// The name in [match] that stands for the source's own exact disparity, in place of a matcher.
+inline constexpr const char* exact_matcher = "exact";
 
 /// One registered kind of source: rig_firmware/capture/sources/KIND_source.cpp defines
 /// KIND_source_entry().

@@ -50,37 +50,52 @@ nlohmann::json to_json(const std::string& rig, const DaemonStatus& status) {
             {"capture_ms", to_json(status.capture_ms)},
             {"rectify_ms", to_json(status.rectify_ms)},
             {"match_ms", to_json(status.match_ms)},
-            {"pack_ms", to_json(status.pack_ms)}};
+            {"pack_ms", to_json(status.pack_ms)},
+            {"latency_ms", to_json(status.latency_ms)}};
 }
 
-std::string status_line(const DaemonStatus& status) {
-    const RigCounters& c = status.publisher.counters;
-    return fmt::format(
-        "captured {}, published {}, missed {}, late {}, dropped for slow hosts {}; ms (p50): "
-        "rectify {:.1f}, match {:.1f}, pack {:.1f}",
-        c.captured, c.published, c.missed, c.late, c.send_dropped, status.rectify_ms.p50,
-        status.match_ms.p50, status.pack_ms.p50);
-}
+/// What became of the frames so far, with the rate since the last line.
+class StatusLines {
+  public:
+    std::string next(const DaemonStatus& status) {
+        const RigCounters& c = status.publisher.counters;
+        const MonotonicTime now = MonotonicClock::now();
+        const double rate_hz = static_cast<double>(c.published - published_) /
+                               std::chrono::duration<double>(now - time_).count();
+        time_ = now;
+        published_ = c.published;
+        return fmt::format(
+            "{:.1f} frames/s; captured {}, published {}, missed {}, late {}, dropped for slow "
+            "hosts "
+            "{}; ms (p50): capture {:.1f}, rectify {:.1f}, match {:.1f}, pack {:.1f}, exposure to "
+            "publishing {:.1f}",
+            rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
+            status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50, status.pack_ms.p50,
+            status.latency_ms.p50);
+    }
+
+  private:
+    MonotonicTime time_ = MonotonicClock::now();
+    std::uint64_t published_ = 0;
+};
 
 void run(const Options& options) {
     const RigConfig config = load_rig_config(options.config);
     StopSignal stop;
-    RigDaemon daemon(config);
+    RigDaemon daemon(config, options.frames);
     for (const std::string& line : daemon.report()) log_info("{}: {}", config.name, line);
 
+    StatusLines lines;
     MonotonicTime next_status = MonotonicClock::now() + status_every;
     while (daemon.running() && !stop.wait_for(look_every)) {
-        const bool enough =
-            options.frames > 0 && daemon.status().publisher.counters.published >= options.frames;
-        if (enough) break;
         if (MonotonicClock::now() < next_status) continue;
         next_status += status_every;
-        log_info("{}: {}", config.name, status_line(daemon.status()));
+        log_info("{}: {}", config.name, lines.next(daemon.status()));
     }
     daemon.stop();
     daemon.rethrow_failure();
     const DaemonStatus status = daemon.status();
-    log_info("{}: {}", config.name, status_line(status));
+    log_info("{}: {}", config.name, lines.next(status));
     if (options.json) std::cout << to_json(config.name, status).dump() << '\n';
 }
 

@@ -7,8 +7,6 @@
 namespace vantage {
 namespace {
 
-constexpr const char* exact_matcher = "exact";
-
 float milliseconds_since(MonotonicTime start) {
     return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
 }
@@ -54,17 +52,17 @@ RigFrame GpuStage::process(StereoFrame frame) {
     shaders_.poll();
     RigFrame result;
     const MonotonicTime start = MonotonicClock::now();
-    left_raw_.upload(frame.left);
-    right_raw_.upload(frame.right);
-    const Texture& left = rectify_left_.rectify(left_raw_);
-    const Texture& right = rectify_right_.rectify(right_raw_);
-    // Reading back waits for the GPU, so that the two times below are those of the GPU's work too.
-    result.colour = rectified_already_ ? frame.left : ColourImage(left.download());
-    result.times.rectify_ms = milliseconds_since(start);
-
-    const MonotonicTime matching = MonotonicClock::now();
-    result.disparity = find_disparity(frame, left, right);
-    result.times.match_ms = milliseconds_since(matching);
+    if (matcher_ || !rectified_already_) {
+        rectify_and_match(frame, result);
+    } else {
+        result.colour = std::move(frame.left);
+    }
+    if (!matcher_) {
+        if (frame.exact_disparity.empty())
+            fail("the source delivers no exact disparity: name a real matcher");
+        result.disparity = std::move(frame.exact_disparity);
+    }
+    result.times.match_ms = milliseconds_since(start) - result.times.rectify_ms;
 
     result.synchronized = frame.synchronized;
     result.trigger_index = frame.trigger_index;
@@ -76,12 +74,21 @@ RigFrame GpuStage::process(StereoFrame frame) {
     return result;
 }
 
-DisparityImage GpuStage::find_disparity(const StereoFrame& frame, const Texture& left,
-                                        const Texture& right) {
-    if (matcher_) return matcher_->match(left, right).download();
-    if (frame.exact_disparity.empty())
-        fail("the source delivers no exact disparity: name a real matcher");
-    return frame.exact_disparity;
+void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
+    rectify_timer_.begin();
+    left_raw_.upload(frame.left);
+    const Texture& left = rectify_left_.rectify(left_raw_);
+    const Texture* right = nullptr;
+    if (matcher_) {
+        right_raw_.upload(frame.right);
+        right = &rectify_right_.rectify(right_raw_);
+    }
+    rectify_timer_.end();
+    const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
+    // Everything is under way before the first read waits for the GPU.
+    result.colour = rectified_already_ ? frame.left : ColourImage(left.download());
+    if (disparity) result.disparity = disparity->download();
+    result.times.rectify_ms = static_cast<float>(rectify_timer_.wait_ms());
 }
 
 std::vector<std::string> GpuStage::report() const {

@@ -6,6 +6,7 @@
 
 #include "common/config/rig_config.h"
 #include "common/gl/egl_context.h"
+#include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
 #include "common/gl/shader_library.h"
 #include "common/rectification/rectify_pass.h"
@@ -30,8 +31,7 @@ class GpuStage {
     std::vector<std::string> report() const;
 
   private:
-    DisparityImage find_disparity(const StereoFrame& frame, const Texture& left,
-                                  const Texture& right);
+    void rectify_and_match(const StereoFrame& frame, RigFrame& result);
 
     EglContext context_;
     GlInfo info_;
@@ -42,6 +42,7 @@ class GpuStage {
     bool rectified_already_;
     Texture left_raw_, right_raw_;
     RectifyPass rectify_left_, rectify_right_;
+    GpuTimer rectify_timer_;
     std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")
 };
 

@@ -28,11 +28,14 @@ struct CapturedFrame {
 }  // namespace
 
 struct RigDaemon::Impl {
-    explicit Impl(const RigConfig& rig_config)
-        : config(rig_config), publisher(rig_config.stream, rig_config.name) {}
+    Impl(const RigConfig& rig_config, std::uint64_t most_frames)
+        : config(rig_config),
+          frame_limit(most_frames),
+          publisher(rig_config.stream, rig_config.name) {}
 
     void start();
-    void capture(std::promise<cv::Size> ready);
+    void capture(std::promise<cv::Size> ready, const std::future<void>& go);
+    void capture_one(StereoSource& source);
     void run_gpu(const StereoCalibration& calibration, std::promise<void> ready);
     void publish();
     void stop();
@@ -61,6 +64,7 @@ struct RigDaemon::Impl {
     }
 
     const RigConfig config;
+    const std::uint64_t frame_limit;
     Publisher publisher;
 
     BoundedQueue<CapturedFrame> captured{1};
@@ -69,7 +73,7 @@ struct RigDaemon::Impl {
     mutable std::mutex mutex;
     RigCounters counters;
     std::vector<SourceCounter> source_counters;
-    PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms;
+    PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
     std::vector<std::string> source_report, gpu_report;
     std::exception_ptr failure;
 
@@ -81,10 +85,12 @@ struct RigDaemon::Impl {
 void RigDaemon::Impl::start() {
     std::promise<cv::Size> source_ready;
     std::future<cv::Size> size = source_ready.get_future();
-    capture_thread = std::thread([this, p = std::move(source_ready)]() mutable {
-        guarded([&] { capture(std::move(p)); });
-        captured.close();
-    });
+    std::promise<void> all_stand;
+    capture_thread =
+        std::thread([this, p = std::move(source_ready), go = all_stand.get_future()]() mutable {
+            guarded([&] { capture(std::move(p), go); });
+            captured.close();
+        });
     const StereoCalibration calibration = rig_calibration(config, size.get());
     std::promise<void> gpu_ready;
     std::future<void> gpu = gpu_ready.get_future();
@@ -97,9 +103,10 @@ void RigDaemon::Impl::start() {
         guarded([&] { publish(); });
         finished = true;
     });
+    all_stand.set_value();
 }
 
-void RigDaemon::Impl::capture(std::promise<cv::Size> ready) {
+void RigDaemon::Impl::capture(std::promise<cv::Size> ready, const std::future<void>& go) {
     std::unique_ptr<StereoSource> source;
     try {
         source = make_source(config);
@@ -110,23 +117,29 @@ void RigDaemon::Impl::capture(std::promise<cv::Size> ready) {
         return;
     }
     ready.set_value(source->size());
-    while (!stopping && !source->ended()) {
-        std::optional<StereoFrame> frame = source->next(wait_slice);
-        const std::uint64_t missed = source->missed();
-        if (!frame) {
-            count([&](RigCounters& c) { c.missed = missed; });
-            continue;
-        }
+    // Frames from before the GPU's programs are built would only be thrown away.
+    while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) {
+    }
+    while (!stopping && !source->ended()) capture_one(*source);
+}
+
+void RigDaemon::Impl::capture_one(StereoSource& source) {
+    if (source.works_on_demand() && !captured.wait_for_room(wait_slice)) return;
+    std::optional<StereoFrame> frame = source.next(wait_slice);
+    const std::uint64_t missed = source.missed();
+    bool made_room = false;
+    const bool has_frame = frame.has_value();
+    if (frame) {
         const auto age = TaiClock::now() - frame->exposure;
         const float age_ms = std::chrono::duration<float, std::milli>(age).count();
-        const bool made_room = captured.push({std::move(*frame), age_ms}).has_value();
-        count([&](RigCounters& c) {
-            c.missed = missed;
-            ++c.captured;
-            c.late += made_room;
-            source_counters = source->counters();
-        });
+        made_room = captured.push({std::move(*frame), age_ms}).has_value();
     }
+    count([&](RigCounters& c) {
+        c.missed = missed;
+        c.captured += has_frame;
+        c.late += made_room;
+        source_counters = source.counters();
+    });
 }
 
 void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise<void> ready) {
@@ -150,12 +163,18 @@ void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise
 }
 
 void RigDaemon::Impl::publish() {
+    std::uint64_t published = 0;
     while (!(matched.closed() && matched.size() == 0)) {
         std::optional<RigFrame> frame = matched.pop_for(wait_slice);
         if (!frame) continue;
+        if (frame_limit > 0 && published == frame_limit) {
+            count([](RigCounters& c) { ++c.late; });
+            continue;
+        }
         if (frame->synchronized)
             frame->timecode = time_of_day_code(frame->exposure, config.source.rate_hz);
         const RigStageTimes times = frame->times;
+        const TaiTime exposure = frame->exposure;
         {
             const std::lock_guard lock(mutex);
             frame->counters = counters;
@@ -163,11 +182,14 @@ void RigDaemon::Impl::publish() {
         const MonotonicTime start = MonotonicClock::now();
         publisher.publish(std::move(*frame));
         const auto packing = MonotonicClock::now() - start;
+        const auto latency = TaiClock::now() - exposure;
+        if (++published == frame_limit) stopping = true;
         const std::lock_guard lock(mutex);
         capture_ms.add(times.capture_ms);
         rectify_ms.add(times.rectify_ms);
         match_ms.add(times.match_ms);
         pack_ms.add(std::chrono::duration<double, std::milli>(packing).count());
+        latency_ms.add(std::chrono::duration<double, std::milli>(latency).count());
     }
 }
 
@@ -182,7 +204,8 @@ void RigDaemon::Impl::stop() {
     if (publish_thread.joinable()) publish_thread.join();
 }
 
-RigDaemon::RigDaemon(const RigConfig& config) : impl_(std::make_unique<Impl>(config)) {
+RigDaemon::RigDaemon(const RigConfig& config, std::uint64_t frame_limit)
+    : impl_(std::make_unique<Impl>(config, frame_limit)) {
     try {
         impl_->start();
     } catch (...) {
@@ -220,6 +243,7 @@ DaemonStatus RigDaemon::status() const {
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();
     status.pack_ms = impl_->pack_ms.summary();
+    status.latency_ms = impl_->latency_ms.summary();
     return status;
 }
 

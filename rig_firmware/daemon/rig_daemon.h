@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,22 +16,26 @@ struct DaemonStatus {
     PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
     std::vector<SourceCounter> source_counters;
     Percentiles capture_ms;  ///< exposure to delivered
-    Percentiles rectify_ms;  ///< upload, rectify, read back
+    Percentiles rectify_ms;  ///< upload, rectify
     Percentiles match_ms;    ///< match, read back
     Percentiles pack_ms;     ///< encode, hand to the publisher
+    Percentiles latency_ms;  ///< exposure to handed to the publisher
 };
 
 /// The road of a rig: capture -> GPU (rectify, match) -> pack and publish, a thread each. Between
 /// two of them waits at most one frame; a newer one takes its place, and the old one is counted as
-/// late.
+/// late. Capturing begins once every part stands. At every stop
+///     captured = published + late.
 class RigDaemon {
   public:
     /// Returns once every part stands. Throws Error for whatever of the config cannot be had.
-    explicit RigDaemon(const RigConfig& config);
+    /// It ends by itself after `frame_limit` published frames, if that is not 0.
+    explicit RigDaemon(const RigConfig& config, std::uint64_t frame_limit = 0);
     /// Stops the road; frames under way are finished or counted.
     ~RigDaemon();
 
-    /// False once the source has come to its end and every frame is through, or a part has failed.
+    /// False once the source has come to its end and every frame is through, the limit is reached,
+    /// or a part has failed.
     bool running() const;
     /// Throws the Error that ended the road, if one did.
     void rethrow_failure() const;

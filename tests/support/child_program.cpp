@@ -24,11 +24,20 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
+/// As exec wants them: ended by a null pointer.
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 }  // namespace
 
 ChildProgram::ChildProgram(const std::filesystem::path& program,
                            const std::vector<std::string>& arguments,
-                           const std::filesystem::path& folder) {
+                           const std::filesystem::path& folder,
+                           const std::vector<std::string>& environment) {
     static std::atomic<int> count = 0;
     const int number = ++count;
     out_ = folder / fmt::format("out-{}", number);
@@ -41,10 +50,12 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_.c_str(), flags, 0600);
     std::vector<std::string> words = {program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    const int code = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
+    // The first of two variables of one name counts.
+    std::vector<std::string> variables = environment;
+    for (char** variable = environ; *variable; ++variable) variables.emplace_back(*variable);
+    std::vector<char*> argv = pointers_to(words), envp = pointers_to(variables);
+    const int code =
+        posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), envp.data());
     posix_spawn_file_actions_destroy(&actions);
     if (code != 0) fail("cannot start {}: {}", program.string(), std::strerror(code));
 }
@@ -72,9 +83,10 @@ ProgramResult ChildProgram::wait() {
 }
 
 ProgramResult run_to_end(const std::filesystem::path& program,
-                         const std::vector<std::string>& arguments) {
+                         const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment) {
     const TemporaryFolder folder;
-    return ChildProgram(program, arguments, folder.path()).wait();
+    return ChildProgram(program, arguments, folder.path(), environment).wait();
 }
 
 }  // namespace vantage

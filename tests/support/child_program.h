@@ -17,9 +17,11 @@ struct ProgramResult {
 /// outlives it.
 class ChildProgram {
   public:
-    /// Throws Error if it cannot be started.
+    /// `environment`: "NAME=VALUE" on top of this process's own. Throws Error if it cannot be
+    /// started.
     ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& folder);
+                 const std::filesystem::path& folder,
+                 const std::vector<std::string>& environment = {});
     /// Ends it if it still runs.
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
@@ -38,6 +40,7 @@ class ChildProgram {
 };
 
 ProgramResult run_to_end(const std::filesystem::path& program,
-                         const std::vector<std::string>& arguments);
+                         const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment = {});
 
 }  // namespace vantage

@@ -36,6 +36,7 @@ class FilesSource final : public StereoSource {
     }
 
     bool ended() const override { return ended_; }
+    bool works_on_demand() const override { return true; }
     std::uint64_t missed() const override { return missed_; }
     std::vector<SourceCounter> counters() const override {
         return {{"clock_steps", pacer_.clock_steps()}};

@@ -18,6 +18,7 @@ class VirtualSource final : public StereoSource {
     explicit VirtualSource(const RigConfig& config)
         : calibration_(rig_calibration(config, {config.source.width_px, config.source.height_px})),
           noise_{config.source.noise_sigma, config.source.seed},
+          rig_(calibration_, noise_, config.match.matcher == exact_matcher),
           stage_(shaders_),
           pacer_(PulseGrid(config.source.rate_hz)),
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
@@ -35,8 +36,8 @@ class VirtualSource final : public StereoSource {
     std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
         const std::optional<Pulse> pulse = pacer_.wait_next(timeout);
         if (!pulse) return std::nullopt;
-        VirtualStereoFrame picture = render_virtual_rig(
-            stage_, calibration_, pulse->time.time_since_epoch(), pulse->index, noise_);
+        VirtualStereoFrame picture =
+            rig_.render(stage_, pulse->time.time_since_epoch(), pulse->index);
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
                            .exposure = pulse->time,
@@ -45,6 +46,7 @@ class VirtualSource final : public StereoSource {
                            .exact_disparity = std::move(picture.exact_disparity)};
     }
 
+    bool works_on_demand() const override { return true; }
     std::uint64_t missed() const override { return pacer_.missed(); }
     std::vector<SourceCounter> counters() const override {
         return {{"clock_steps", pacer_.clock_steps()}};
@@ -60,6 +62,7 @@ class VirtualSource final : public StereoSource {
     ShaderLibrary shaders_;
     StereoCalibration calibration_;
     SensorNoise noise_;
+    VirtualRig rig_;
     VirtualStage stage_;
     PulsePacer pacer_;
     double rate_hz_;

@@ -93,5 +93,19 @@ TEST(BoundedQueue, EveryItemIsReadOrCountedAsDroppedBetweenThreads) {
     EXPECT_EQ(read.back(), pushed - 1) << "the newest is never the one dropped";
 }
 
+TEST(BoundedQueue, TellsWhenThereIsRoom) {
+    BoundedQueue<int> queue(1);
+    EXPECT_TRUE(queue.wait_for_room(0ns));
+    queue.push(1);
+    EXPECT_FALSE(queue.wait_for_room(1ms));
+    std::thread reader([&] { queue.pop_for(1h); });
+    EXPECT_TRUE(queue.wait_for_room(1h));
+    reader.join();
+    queue.push(2);
+    std::thread closer([&] { queue.close(); });
+    EXPECT_FALSE(queue.wait_for_room(1h));
+    closer.join();
+}
+
 }  // namespace
 }  // namespace vantage

@@ -30,7 +30,9 @@ std::optional<StereoFrame> next_frame(StereoSource& source) {
 }
 
 TEST(VirtualSource, FilmsThePulsesOfTheStageInOrder) {
-    const auto source = make_source(small_virtual_rig());
+    RigConfig config = small_virtual_rig();
+    config.match.matcher = exact_matcher;
+    const auto source = make_source(config);
     EXPECT_EQ(source->size(), cv::Size(61, 47));
     EXPECT_FALSE(source->report().empty());
     const PulseGrid grid(20);
@@ -45,6 +47,12 @@ TEST(VirtualSource, FilmsThePulsesOfTheStageInOrder) {
     EXPECT_EQ(first->exact_disparity.size(), source->size());
     EXPECT_GT(cv::countNonZero(first->exact_disparity), 61 * 47 / 2);
     EXPECT_GT(cv::norm(first->left, first->right, cv::NORM_L1), 0);
+}
+
+TEST(VirtualSource, LeavesOutTheExactDisparityThatNobodyAsksFor) {
+    const auto frame = next_frame(*make_source(small_virtual_rig()));
+    ASSERT_TRUE(frame);
+    EXPECT_TRUE(frame->exact_disparity.empty());
 }
 
 TEST(VirtualSource, RefusesCamerasThatItCannotFilmWith) {

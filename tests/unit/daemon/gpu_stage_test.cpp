@@ -1,0 +1,78 @@
+#include "rig_firmware/daemon/gpu_stage.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/error.h"
+#include "common/rectification/rectify_reference.h"
+#include "rig_firmware/capture/rig_calibration.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width = 61, height = 47;
+
+class GpuStageTest : public testing::Test {
+  protected:
+    GpuStageTest() {
+        config_.source.width_px = width;
+        config_.source.height_px = height;
+        config_.match.disparities = 16;
+        config_.match.matcher = "gradient";
+        cv::RNG random(3);
+        ColourImage wide(height, width + 5);
+        random.fill(wide, cv::RNG::UNIFORM, 0, 255);
+        cv::GaussianBlur(wide, wide, {5, 5}, 1.5);
+        frame_.left = wide.colRange(0, width).clone();
+        frame_.right = wide.colRange(5, width + 5).clone();
+        frame_.trigger_index = 77;
+        frame_.synchronized = true;
+    }
+
+    RigConfig config_;
+    StereoFrame frame_;
+};
+
+TEST_F(GpuStageTest, MatchesRectifiedPicturesAsTheyAre) {
+    const StereoCalibration calibration = ideal_rig(config_, {width, height});
+    GpuStage gpu(config_, calibration);
+    const RigFrame result = gpu.process(frame_);
+    EXPECT_EQ(cv::norm(result.colour, frame_.left, cv::NORM_INF), 0);
+    ASSERT_EQ(result.disparity.size(), cv::Size(width, height));
+    const DisparityImage inner = result.disparity(cv::Rect(20, 8, 30, 30));
+    const cv::Mat near =
+        (inner >= 4.5 * disparity_steps_per_px) & (inner <= 5.5 * disparity_steps_per_px);
+    EXPECT_GT(cv::countNonZero(near), 0.9 * 30 * 30) << "the right picture is 5 px to the left";
+    EXPECT_EQ(result.trigger_index, 77u);
+    EXPECT_TRUE(result.synchronized);
+    EXPECT_EQ(result.calibration_id, calibration.id);
+    EXPECT_EQ(result.geometry.width_px, width);
+    EXPECT_TRUE(result.world_from_camera.isApprox(calibration.world_from_left));
+    EXPECT_FALSE(gpu.report().empty());
+}
+
+TEST_F(GpuStageTest, RectifiesWhatIsNot) {
+    StereoCalibration calibration = ideal_rig(config_, {width, height});
+    calibration.left.distortion = calibration.right.distortion = {-0.2, 0.05, 0, 0};
+    config_.match.matcher = exact_matcher;
+    frame_.exact_disparity = DisparityImage(height, width, std::uint16_t{96});
+    GpuStage gpu(config_, calibration);
+    const RigFrame result = gpu.process(frame_);
+    const ColourImage expected =
+        rectify_reference(frame_.left, make_rectification_map(calibration, Side::left));
+    EXPECT_EQ(cv::norm(result.colour, expected, cv::NORM_INF), 0);
+    EXPECT_GT(cv::norm(result.colour, frame_.left, cv::NORM_INF), 20);
+    EXPECT_EQ(cv::countNonZero(result.disparity != 96), 0);
+}
+
+TEST_F(GpuStageTest, TakesExactDisparityOnlyWhereThereIsSome) {
+    config_.match.matcher = exact_matcher;
+    const StereoCalibration calibration = ideal_rig(config_, {width, height});
+    GpuStage gpu(config_, calibration);
+    EXPECT_THROW(gpu.process(frame_), Error);
+    config_.source.kind = "files";
+    EXPECT_THROW(GpuStage(config_, calibration), Error);
+}
+
+}  // namespace
+}  // namespace vantage
