@@ -148,7 +148,7 @@ echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs a
 
 live=(live --stage "$demo/stage.toml")
 if $headless; then
-  "$bin/vantage" "${live[@]}" --headless --rate "$fps" --frames $((seconds * fps)) --path "$move" \
+  "$bin/vantage" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   echo
   echo "The flight:        out/flight.mkv"
