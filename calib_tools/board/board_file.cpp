@@ -4,7 +4,6 @@
 #include <string>
 
 #include "calib_tools/board/charuco_finder.h"
-#include "calib_tools/board/marker_dictionary.h"
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/config/toml_reader.h"
@@ -33,13 +32,7 @@ BoardPattern load_board(const std::filesystem::path& path) {
         }
     });
     pattern.validate();
-    if (pattern.kind == BoardKind::charuco) {
-        const MarkerDictionary dictionary(pattern.dictionary);
-        if (dictionary.marker_count() < marker_count(pattern))
-            fail("a {} board needs {} markers and dictionary {} has {}; take a larger one",
-                 pattern.size_name(), marker_count(pattern), pattern.dictionary,
-                 dictionary.marker_count());
-    }
+    if (pattern.kind == BoardKind::charuco) require_enough_markers(pattern);
     return pattern;
 }
 

@@ -9,6 +9,7 @@
 
 #include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/board/marker_dictionary.h"
+#include "calib_tools/board/median.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -16,12 +17,6 @@ namespace {
 
 constexpr double max_radius_px = 15;
 constexpr int fewest_corners = 6;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// The corners of a marker on the board, metres, clockwise from the upper left.
 void marker_corners_m(const BoardPattern& pattern, int id, std::vector<cv::Point2d>& out) {
@@ -53,6 +48,13 @@ cv::Point marker_square(const BoardPattern& pattern, int id) {
         for (int column = 0; column <= pattern.columns; ++column)
             if ((row + column) % 2 == 1 && count++ == id) return {column, row};
     return {-1, -1};
+}
+
+void require_enough_markers(const BoardPattern& pattern) {
+    const int there = MarkerDictionary(pattern.dictionary).marker_count();
+    if (there < marker_count(pattern))
+        fail("a {} board needs {} markers and dictionary {} has {}; take a larger one",
+             pattern.size_name(), marker_count(pattern), pattern.dictionary, there);
 }
 
 BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern) {

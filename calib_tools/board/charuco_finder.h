@@ -10,6 +10,8 @@ namespace vantage {
 /// are numbered row by row over the squares whose column + row is odd, as OpenCV does.
 cv::Point marker_square(const BoardPattern& pattern, int id);
 int marker_count(const BoardPattern& pattern);
+/// Throws Error if the board's dictionary is unknown or has too few markers for it.
+void require_enough_markers(const BoardPattern& pattern);
 
 /// Finds the inner corners of a ChArUco board of which at least four lie near markers that can be
 /// read; each is measured by fit_corner. Recognises mirrored pictures.

@@ -9,6 +9,7 @@
 
 #include "calib_tools/board/corner_grid.h"
 #include "calib_tools/board/corner_refiner.h"
+#include "calib_tools/board/median.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -17,12 +18,6 @@ namespace {
 // Of the distance to the next edge: the fit's circle must not reach the next edge's blur.
 constexpr double clear_share = 0.7;
 constexpr double max_radius_px = 15;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::optional<CornerGrid> to_grid(const std::vector<cv::Point2f>& corners, cv::Size size,
                                   double scale) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib_tools/board/median.h"
+
 namespace vantage {
 namespace {
 
@@ -53,9 +55,7 @@ double CornerGrid::median_spacing_px() const {
             if (c > 0) spacings.push_back((at(c, r) - at(c - 1, r)).norm());
             if (r > 0) spacings.push_back((at(c, r) - at(c, r - 1)).norm());
         }
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    return *middle;
+    return median(std::move(spacings));
 }
 
 double even_square_brightness(const GreyImage& picture, const CornerGrid& grid) {

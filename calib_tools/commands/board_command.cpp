@@ -7,7 +7,6 @@
 #include "calib_tools/board/board_drawing.h"
 #include "calib_tools/board/board_file.h"
 #include "calib_tools/board/charuco_finder.h"
-#include "calib_tools/board/marker_dictionary.h"
 #include "common/base/atomic_file.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
@@ -29,11 +28,7 @@ void run(const Options& options) {
         pattern.marker_m = options.marker_m > 0 ? options.marker_m : 0.7 * pattern.square_m;
         pattern.dictionary = options.dictionary;
         pattern.validate();
-        const MarkerDictionary dictionary(pattern.dictionary);
-        if (dictionary.marker_count() < marker_count(pattern))
-            fail("a {} board needs {} markers and dictionary {} has {}; take a larger one",
-                 pattern.size_name(), marker_count(pattern), pattern.dictionary,
-                 dictionary.marker_count());
+        require_enough_markers(pattern);
     }
     const int square_px =
         static_cast<int>(std::lround(pattern.square_m / 0.0254 * options.dots_per_inch));

@@ -7,6 +7,7 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "calib_tools/board/median.h"
 #include "calib_tools/bundle/lens_projection.h"
 #include "common/base/error.h"
 #include "common/geometry/opencv_bridge.h"
@@ -108,10 +109,7 @@ double robust_sigma_px(const Bundle& bundle) {
             sizes.push_back(std::abs(r.x()));
             sizes.push_back(std::abs(r.y()));
         }
-    if (sizes.empty()) return 0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return 1.4826 * *middle;
+    return 1.4826 * median(std::move(sizes));
 }
 
 bool solve_robustly(Bundle& bundle) {

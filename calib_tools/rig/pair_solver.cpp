@@ -5,17 +5,13 @@
 #include <limits>
 #include <map>
 
+#include "calib_tools/board/median.h"
+
 namespace vantage {
 namespace {
 
 double angle_between(const Pose& a, const Pose& b) {
     return Eigen::AngleAxisd(Eigen::Matrix3d(a.linear().transpose() * b.linear())).angle();
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 std::map<int, const BundleView*> views_by_board(const Bundle& bundle, int camera) {

@@ -215,8 +215,8 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
     result.views_used = result.bundle.views.size();
     require_enough(result.views_used, result.views_given, result.rejected, pattern, "pictures");
     result.uncertainty = bundle_uncertainty(result.bundle);
-    require_trustworthy(result.bundle, result.uncertainty, {"one"});
-    result.advice = missing_pictures(result.bundle, 0, "");
+    require_trustworthy(result.bundle, result.uncertainty, {"calibrated"});
+    result.advice = missing_pictures(result.bundle, 0, "calibrated");
     return result;
 }
 
