@@ -30,5 +30,20 @@ TEST(GpuTimer, SaysMoreThanNothingAndNoMoreThanTheWallClockAround) {
     }
 }
 
+TEST(GpuTimer, SaysNothingBeforeASpanAndNothingTwice) {
+    const EglContext context;
+    GpuTimer timer;
+    EXPECT_FALSE(timer.poll_ms());
+    timer.begin();
+    timer.end();
+    glFinish();
+    std::optional<double> ms;
+    for (int look = 0; look < 1000 && !ms; ++look) ms = timer.poll_ms();
+    ASSERT_TRUE(ms);
+    EXPECT_GE(*ms, 0);
+    EXPECT_FALSE(timer.poll_ms());
+    EXPECT_EQ(timer.wait_ms(), *ms) << "the last span's stays";
+}
+
 }  // namespace
 }  // namespace vantage

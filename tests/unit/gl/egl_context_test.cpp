@@ -1,0 +1,69 @@
+#include "common/gl/egl_context.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <GLES3/gl31.h>
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+TEST(EglContext, ReportsEveryAttemptUpToTheOneThatWorks) {
+    const EglContext context;
+    ASSERT_FALSE(context.attempts().empty());
+    EXPECT_EQ(context.attempts().front().platform, "surfaceless") << "tried first";
+    for (std::size_t i = 0; i < context.attempts().size(); ++i) {
+        EXPECT_FALSE(context.attempts()[i].platform.empty());
+        EXPECT_EQ(context.attempts()[i].outcome == "ok", i + 1 == context.attempts().size())
+            << context.attempts()[i].platform << ": " << context.attempts()[i].outcome;
+    }
+}
+
+TEST(EglContext, IsCurrentAndOpenGlEs31) {
+    const EglContext context;
+    EXPECT_NE(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    EXPECT_EQ(eglGetCurrentDisplay(), context.display());
+    GLint major = 0, minor = 0;
+    glGetIntegerv(GL_MAJOR_VERSION, &major);
+    glGetIntegerv(GL_MINOR_VERSION, &minor);
+    EXPECT_GE(10 * major + minor, 31);
+}
+
+TEST(EglContext, LetsTheNextOneStartAfresh) {
+    { const EglContext first; }
+    EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    const EglContext second;
+    EXPECT_EQ(second.attempts().back().outcome, "ok");
+}
+
+TEST(EglContext, KnowsExtensionsByTheirWholeName) {
+    const EglContext context;
+    EXPECT_TRUE(context.has_extension("EGL_KHR_surfaceless_context"));
+    EXPECT_FALSE(context.has_extension("EGL_KHR_surfaceless"));
+    EXPECT_FALSE(context.has_extension("EGL_VANTAGE_magic"));
+}
+
+/// In a process of its own, since EGL looks for its drivers once.
+[[noreturn]] void open_a_context_without_drivers() {
+    setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
+    setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);
+    try {
+        const EglContext context;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        std::exit(1);
+    }
+    std::exit(0);
+}
+
+TEST(EglContextDeathTest, WithoutADriverListsWhatWasTried) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(open_a_context_without_drivers(), testing::ExitedWithCode(1),
+                "no OpenGL ES 3.1 without a display.*; surfaceless: .*; device.*: .*; gbm.*: ");
+}
+
+}  // namespace
+}  // namespace vantage
