@@ -1,14 +1,9 @@
 #include "rig_firmware/stereo/thesis/aggregation_pass.h"
 
 namespace vantage::thesis {
-namespace {
-
-constexpr int rows_each = 16;  // ROWS of the shader
-
-}  // namespace
 
 AggregationPass::AggregationPass(const ShaderLibrary& library, cv::Size size)
-    : pass_(library, "thesis_aggregation.comp", size) {}
+    : pass_(library, "thesis_aggregation.comp", size, 16) {}
 
 void AggregationPass::run(const Buffer& costs, const Buffer& discontinuities, int slices,
                           const Buffer& aggregated) {
@@ -16,7 +11,7 @@ void AggregationPass::run(const Buffer& costs, const Buffer& discontinuities, in
     costs.bind_storage(0);
     discontinuities.bind_storage(1);
     aggregated.bind_storage(2);
-    pass_.dispatch(slices, rows_each);
+    pass_.dispatch(slices);
 }
 
 PassCost AggregationPass::cost(int slices) const {

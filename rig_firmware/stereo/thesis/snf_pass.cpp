@@ -3,7 +3,7 @@
 namespace vantage::thesis {
 
 SnfPass::SnfPass(const ShaderLibrary& library, cv::Size size)
-    : pass_(library, "thesis_snf.comp", size) {}
+    : pass_(library, "thesis_snf.comp", size, 16) {}
 
 void SnfPass::run(const Buffer& source, const Buffer& filtered) {
     pass_.use();

@@ -2,8 +2,11 @@
 
 namespace vantage::thesis {
 
-StoragePass::StoragePass(const ShaderLibrary& library, std::string file, cv::Size size)
-    : program_(Program::compute(library, std::move(file))), size_(size) {}
+StoragePass::StoragePass(const ShaderLibrary& library, std::string file, cv::Size size,
+                         int rows_each)
+    : program_(Program::compute(library, std::move(file), {{"ROWS", std::to_string(rows_each)}})),
+      size_(size),
+      rows_each_(rows_each) {}
 
 Program& StoragePass::use() {
     program_.use();
@@ -11,8 +14,8 @@ Program& StoragePass::use() {
     return program_;
 }
 
-void StoragePass::dispatch(int layers, int rows_each) const {
-    program_.dispatch_over(size_.width, (size_.height + rows_each - 1) / rows_each, layers);
+void StoragePass::dispatch(int layers) const {
+    program_.dispatch_over(size_.width, (size_.height + rows_each_ - 1) / rows_each_, layers);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -13,13 +13,14 @@ namespace vantage::thesis {
 /// A compute pass that reads and writes storage buffers over a picture of fixed size.
 class StoragePass {
   public:
-    StoragePass(const ShaderLibrary& library, std::string file, cv::Size size);
+    /// rows_each: what the shader knows as ROWS, the rows that one invocation walks down.
+    StoragePass(const ShaderLibrary& library, std::string file, cv::Size size, int rows_each = 1);
 
     /// The program, in use, its uniform `size` set.
     Program& use();
-    /// Covers the picture, `layers` times, with invocations of `rows_each` rows; what is written is
-    /// there for the next pass that reads storage.
-    void dispatch(int layers = 1, int rows_each = 1) const;
+    /// Covers the picture, `layers` times; what is written is there for the next pass that reads
+    /// storage.
+    void dispatch(int layers = 1) const;
 
     cv::Size size() const { return size_; }
     /// Pixels, for the accounting of costs.
@@ -28,6 +29,7 @@ class StoragePass {
   private:
     Program program_;
     cv::Size size_;
+    int rows_each_;
 };
 
 /// Bytes in the accounting of a pass.
