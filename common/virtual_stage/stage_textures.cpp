@@ -45,12 +45,6 @@ void shade(Picture& picture, const cv::Mat1f& by, float strength) {
         for (int x = 0; x < side; ++x) picture(y, x) *= 1 + strength * by(y, x);
 }
 
-/// Blends towards `colour` where mask (0..1) says so.
-void blend(Picture& picture, const cv::Mat1f& mask, const cv::Vec3f& colour) {
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) picture(y, x) += mask(y, x) * (colour - picture(y, x));
-}
-
 cv::Scalar vivid(cv::RNG& random) {
     cv::Mat3f hsv(1, 1,
                   cv::Vec3f(random.uniform(0.0f, 360.0f), random.uniform(0.45f, 0.85f),
@@ -97,25 +91,42 @@ Picture draw_wood(cv::RNG& random) {
 }
 
 Picture draw_carpet(cv::RNG& random) {
-    Picture picture = flat({0.55, 0.16, 0.22});
+    // A lattice of diamonds, each with a dot. No two near ones have the same colours, so that a
+    // matcher can tell them apart.
+    constexpr float pi = 3.14159265f;
+    constexpr int cells = 8;
     const cv::Mat1f waves = fractal_noise(random, 4);
-    cv::Mat1f bands(side, side);
-    constexpr float tau = 6.2831853f;
+    std::vector<cv::Vec3f> grounds, dots;
+    for (int i = 0; i < 2 * cells * cells; ++i) {
+        const float tone = random.uniform(0.6f, 1.25f);
+        grounds.push_back(tone * cv::Vec3f(0.55f + random.uniform(-0.12f, 0.15f),
+                                           0.15f + random.uniform(-0.05f, 0.15f),
+                                           0.20f + random.uniform(-0.08f, 0.15f)));
+        dots.push_back(i % 3 == 0 ? cv::Vec3f(0.20f, 0.42f, 0.50f)
+                                  : cv::Vec3f(0.88f, 0.70f, 0.40f));
+    }
+    Picture picture(side, side);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            const float u = tau * static_cast<float>(x) / side,
-                        v = tau * static_cast<float>(y) / side;
-            // A lattice of diamonds, a dot in each, drawn a little unevenly.
-            const float diagonal = std::sin(4 * (u + v)) * std::sin(4 * (u - v));
-            const float dots = std::cos(8 * u) * std::cos(8 * v);
+            const float u = cells * static_cast<float>(x) / side,
+                        v = cells * static_cast<float>(y) / side;
+            // Diagonal cells; the ones past the middle are those of the next tile.
+            const float p = u + v, q = u - v + cells;
+            int a = static_cast<int>(p), b = static_cast<int>(q);
+            if (a >= cells) {
+                a -= cells;
+                b += cells;
+            }
+            const auto cell = static_cast<std::size_t>(a * 2 * cells + b % (2 * cells));
+            const float edge = std::abs(std::sin(pi * p) * std::sin(pi * q));
             const float uneven = 0.12f * waves(y, x);
-            const float lattice = std::clamp(8 * (0.22f + uneven - std::abs(diagonal)), 0.0f, 1.0f);
-            const float dot = std::clamp(6 * (std::abs(dots) - 0.72f + uneven), 0.0f, 1.0f);
-            bands(y, x) = 0.85f * std::max(lattice, std::abs(diagonal) > 0.5f ? dot : 0.0f);
+            cv::Vec3f colour = grounds[cell];
+            if (edge > 0.80f + uneven) colour = dots[cell];
+            if (edge < 0.20f + uneven) colour = {0.84f, 0.64f, 0.34f};
+            picture(y, x) = colour;
         }
-    blend(picture, bands, {0.86f, 0.66f, 0.36f});
     shade(picture, noise_octave(random, 256, 256), 0.22f);
-    shade(picture, waves, 0.25f);
+    shade(picture, waves, 0.45f);
     return picture;
 }
 

@@ -348,7 +348,7 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle dancer;
     dancer.move = PerformerMove::dance;
-    dancer.home_m = {-0.50f, -0.15f};
+    dancer.home_m = {-0.50f, -0.30f};
     dancer.phase = 0.05f;
     dancer.height_m = 1.70f;
     dancer.long_hair = true;
@@ -361,7 +361,7 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle singer;
     singer.move = PerformerMove::sing;
-    singer.home_m = {0.58f, 0.15f};
+    singer.home_m = {0.58f, -0.08f};
     singer.height_m = 1.80f;
     singer.skin = of(StageTexture::plain, {0.90f, 0.72f, 0.60f});
     singer.hair = of(StageTexture::speckle, {0.78f, 0.62f, 0.34f}, 4.0f);
@@ -390,7 +390,7 @@ StageScene make_studio_set() {
     add_ceiling(mesh);
     add_lighting_grid(mesh);
     add_railing(mesh);
-    add_microphone_stand(mesh, 0.50f, 0.62f);
+    add_microphone_stand(mesh, 0.50f, 0.39f);
     add_desk(mesh);
     add_plant(mesh, 0.28f * tau, 3.3f);
     add_plant(mesh, 0.72f * tau, 3.2f);

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
 #include "common/gl/egl_context.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -27,13 +27,8 @@ TEST(GlInfo, NamesTheLimitThatIsTooLow) {
     info.max_workgroup_invocations = 256;
     info.max_shared_bytes = 16384;
     EXPECT_NO_THROW(info.require_vantage_minimum()) << "a Raspberry Pi";
-    const auto refusal = [](const GlInfo& poor) -> std::string {
-        try {
-            poor.require_vantage_minimum();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "enough";
+    const auto refusal = [](const GlInfo& poor) {
+        return thrown_sentence([&] { poor.require_vantage_minimum(); });
     };
     GlInfo poor = info;
     poor.max_colour_targets = 3;
@@ -53,12 +48,8 @@ TEST(CheckGl, TurnsAnErrorFlagIntoASentenceOnce) {
     const EglContext context;
     EXPECT_NO_THROW(check_gl("doing nothing"));
     glEnable(0xffff);
-    try {
-        check_gl("testing");
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "OpenGL failed while testing: invalid enum");
-    }
+    EXPECT_EQ(thrown_sentence([] { check_gl("testing"); }),
+              "OpenGL failed while testing: invalid enum");
     EXPECT_NO_THROW(check_gl("going on"));
 }
 

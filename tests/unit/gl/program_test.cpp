@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
 #include "common/gl/buffer.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/fullscreen_pass.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/gl/shader_folder.h"
 
 namespace vantage {
@@ -21,14 +21,6 @@ std::string paints(const std::string& colour) {
 
 class ProgramTest : public testing::Test {
   protected:
-    std::string refusal_of(auto&& action) const {
-        try {
-            action();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "done";
-    }
     cv::Vec4b painted_by(FullscreenPass& pass) const {
         const Texture target(TextureFormat::rgba8, 3, 3);
         const Framebuffer framebuffer({&target});
@@ -45,7 +37,7 @@ TEST_F(ProgramTest, SaysWhichShaderDoesNotCompileAndWhy) {
     folder_.write("bad.frag", "void main() { undeclared = 1.0; }\n");
     const ShaderLibrary library(folder_.path());
     const std::string refusal =
-        refusal_of([&] { Program::render(library, "fullscreen.vert", "bad.frag"); });
+        thrown_sentence([&] { Program::render(library, "fullscreen.vert", "bad.frag"); });
     EXPECT_NE(refusal.find("shader bad.frag does not compile"), std::string::npos);
     EXPECT_NE(refusal.find("undeclared"), std::string::npos) << refusal;
 }
@@ -55,7 +47,7 @@ TEST_F(ProgramTest, SaysWhichShadersDoNotLink) {
                   "in vec2 never_written;\nlayout(location = 0) out vec4 colour;\n"
                   "void main() { colour = never_written.xyxy; }\n");
     const ShaderLibrary library(folder_.path());
-    EXPECT_NE(refusal_of([&] {
+    EXPECT_NE(thrown_sentence([&] {
                   Program::render(library, "fullscreen.vert", "needs.frag");
               }).find("do not link"),
               std::string::npos);
@@ -164,7 +156,7 @@ TEST_F(ProgramTest, RefusesWorkgroupsThatAPiCannotRun) {
     folder_.write("large.comp", counting_shader("16, local_size_y = 17"));
     const ShaderLibrary library(folder_.path());
     EXPECT_NO_THROW(Program::compute(library, "fits.comp"));
-    EXPECT_EQ(refusal_of([&] { Program::compute(library, "large.comp"); }),
+    EXPECT_EQ(thrown_sentence([&] { Program::compute(library, "large.comp"); }),
               "shader large.comp has workgroups of 272 invocations; a Raspberry Pi takes 256");
 }
 

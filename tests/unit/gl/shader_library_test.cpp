@@ -7,20 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/gl/shader_folder.h"
 
 namespace vantage {
 namespace {
-
-std::string refusal_of(auto&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "done";
-}
 
 TEST(ShaderLibrary, WritesVersionPrecisionAndDefinesBeforeTheFile) {
     const ShaderFolder folder;
@@ -50,9 +41,9 @@ TEST(ShaderLibrary, RefusesUnknownFilesAndEndlessIncludes) {
     folder.write("b.glsl", "#include \"a.glsl\"\n");
     folder.write("c.glsl", "#include \"missing.glsl\"\n");
     const ShaderLibrary library(folder.path());
-    EXPECT_NE(refusal_of([&] { library.source("a.glsl"); }).find("deeper than 8"),
+    EXPECT_NE(thrown_sentence([&] { library.source("a.glsl"); }).find("deeper than 8"),
               std::string::npos);
-    EXPECT_EQ(refusal_of([&] { library.source("c.glsl"); }),
+    EXPECT_EQ(thrown_sentence([&] { library.source("c.glsl"); }),
               "there is no shader named missing.glsl");
 }
 
@@ -82,11 +73,11 @@ TEST(ShaderLibrary, TheEnvironmentNamesTheFolder) {
     setenv("VANTAGE_SHADERS", folder.path().c_str(), 1);
     const ShaderLibrary library;
     setenv("VANTAGE_SHADERS", (folder.path() / "gone").c_str(), 1);
-    const std::string refusal = refusal_of([] { const ShaderLibrary none; });
+    const std::string refusal = thrown_sentence([] { const ShaderLibrary none; });
     unsetenv("VANTAGE_SHADERS");
     EXPECT_NO_THROW(library.source("mine.comp"));
     EXPECT_NE(refusal.find("gone (from VANTAGE_SHADERS) does not exist"), std::string::npos);
-    EXPECT_EQ(refusal_of([] { ShaderLibrary().source("mine.comp"); }),
+    EXPECT_EQ(thrown_sentence([] { ShaderLibrary().source("mine.comp"); }),
               "there is no shader named mine.comp");
 }
 

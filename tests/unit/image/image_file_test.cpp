@@ -6,8 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/base/atomic_file.h"
-#include "common/base/error.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -27,14 +27,6 @@ class ImageFileTest : public testing::Test {
     std::filesystem::path path(const char* name) const { return folder_.path() / name; }
     void write_bytes(const std::filesystem::path& to, std::span<const std::byte> bytes) const {
         write_file_atomically(to, bytes);
-    }
-    static std::string refusal_of(auto&& action) {
-        try {
-            action();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "done";
     }
     TemporaryFolder folder_;
 };
@@ -77,23 +69,23 @@ TEST_F(ImageFileTest, CodesComeBackUnscaled) {
 
 TEST_F(ImageFileTest, RefusesColoursAsCodes) {
     write_colour_image(path("a.png"), some_picture(8, 8));
-    EXPECT_NE(refusal_of([&] { read_code_image(path("a.png")); }).find("colour picture"),
+    EXPECT_NE(thrown_sentence([&] { read_code_image(path("a.png")); }).find("colour picture"),
               std::string::npos);
 }
 
 TEST_F(ImageFileTest, NamesTheFileThatIsMissingOrNoPicture) {
-    EXPECT_NE(refusal_of([&] {
+    EXPECT_NE(thrown_sentence([&] {
                   read_colour_image(path("missing.png"));
               }).find(path("missing.png").string() + ": No such file"),
               std::string::npos);
     const std::string text = "this is not a picture";
     write_bytes(path("text.png"), std::as_bytes(std::span(text)));
-    EXPECT_NE(refusal_of([&] { read_colour_image(path("text.png")); }).find("not a picture"),
+    EXPECT_NE(thrown_sentence([&] { read_colour_image(path("text.png")); }).find("not a picture"),
               std::string::npos);
     write_bytes(path("empty.png"), {});
-    EXPECT_NE(refusal_of([&] { read_colour_image(path("empty.png")); }).find("not a picture"),
+    EXPECT_NE(thrown_sentence([&] { read_colour_image(path("empty.png")); }).find("not a picture"),
               std::string::npos);
-    EXPECT_NE(refusal_of([&] { read_colour_image(folder_.path()); }).find("is a folder"),
+    EXPECT_NE(thrown_sentence([&] { read_colour_image(folder_.path()); }).find("is a folder"),
               std::string::npos);
 }
 
@@ -104,7 +96,7 @@ TEST_F(ImageFileTest, RefusesPicturesCutShort) {
         for (const double share : {0.3, 0.6, 0.95}) {
             const auto length = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
             write_bytes(path(name), std::span(whole).first(length));
-            EXPECT_NE(refusal_of([&] { read_colour_image(path(name)); }).find("damaged"),
+            EXPECT_NE(thrown_sentence([&] { read_colour_image(path(name)); }).find("damaged"),
                       std::string::npos)
                 << name << " cut to " << share;
         }
@@ -113,7 +105,7 @@ TEST_F(ImageFileTest, RefusesPicturesCutShort) {
 
 TEST_F(ImageFileTest, RefusesPicturesTooLargeForAnyPart) {
     write_grey_image(path("wide.png"), cv::Mat1b::zeros(1, max_image_side_px + 1));
-    EXPECT_NE(refusal_of([&] { read_colour_image(path("wide.png")); }).find("16384"),
+    EXPECT_NE(thrown_sentence([&] { read_colour_image(path("wide.png")); }).find("16384"),
               std::string::npos);
     write_grey_image(path("widest.png"), cv::Mat1b::zeros(1, max_image_side_px));
     EXPECT_EQ(read_colour_image(path("widest.png")).cols, max_image_side_px);
@@ -122,12 +114,12 @@ TEST_F(ImageFileTest, RefusesPicturesTooLargeForAnyPart) {
 TEST_F(ImageFileTest, RefusesExtensionsOfNoPictureAndKeepsTheOldFile) {
     const std::string old = "old";
     write_bytes(path("a.txt"), std::as_bytes(std::span(old)));
-    EXPECT_NE(refusal_of([&] {
+    EXPECT_NE(thrown_sentence([&] {
                   write_colour_image(path("a.txt"), some_picture(4, 4));
               }).find("'.txt'; use .png or .jpg"),
               std::string::npos);
     EXPECT_EQ(read_file(path("a.txt"), 10).size(), 3u);
-    EXPECT_NE(refusal_of([&] { write_colour_image(path("none"), some_picture(4, 4)); }), "done");
+    EXPECT_NE(thrown_sentence([&] { write_colour_image(path("none"), some_picture(4, 4)); }), "");
 }
 
 TEST(ToGrey, WeighsAsBt601AndRoundsToTheNearest) {
