@@ -10,26 +10,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib_tools/board/chessboard_finder.h"
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/image/image_file.h"
 
 namespace vantage {
 namespace {
-
-constexpr std::size_t max_file_bytes = std::size_t{1} << 30;
-
-/// A JPEG that ends early is decoded by the library with grey where data is missing.
-void refuse_cut_off_jpeg(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
-    const auto at = [&](std::size_t i) { return static_cast<unsigned>(bytes[i]); };
-    if (bytes.size() < 4 || at(0) != 0xFF || at(1) != 0xD8) return;
-    // Some cameras pad after the end marker.
-    for (std::size_t i = bytes.size() - 1; i > 0; --i)
-        if (at(i - 1) == 0xFF && at(i) == 0xD9) return;
-    fail("is cut off: the end of the JPEG data is missing");
-}
 
 void judge(const GreyImage& grey, SeenPicture& picture) {
     cv::Mat1f detail;
@@ -45,7 +31,6 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
 void look_at(SeenPicture& picture, const BoardPattern& pattern) {
     try {
         const GreyImage grey = to_grey(read_colour_image(picture.path));
-        refuse_cut_off_jpeg(picture.path);
         picture.width_px = grey.cols;
         picture.height_px = grey.rows;
         judge(grey, picture);

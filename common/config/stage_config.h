@@ -26,7 +26,7 @@ struct StageConfig {
         double target_m[3] = {0, 1.0, 0};  ///< pivot of the orbit, world
         double distance_m = 4.5;
         double azimuth_deg = 0, elevation_deg = 10;
-        std::string synthesiser = "mesh";
+        std::string synthesiser = "fused";
     } view;
 };
 

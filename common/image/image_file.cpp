@@ -34,7 +34,9 @@ bool is_jpeg_cut_short(std::span<const std::byte> bytes) {
 cv::Mat decode(const std::filesystem::path& path, int flags) {
     const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
     cv::Mat image;
-    if (!bytes.empty() && !is_jpeg_cut_short(bytes)) {
+    if (is_jpeg_cut_short(bytes))
+        fail("{} is damaged: it is cut off, the end of the JPEG data is missing", path.string());
+    if (!bytes.empty()) {
         try {
             image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U,
                                          const_cast<std::byte*>(bytes.data())),

@@ -20,7 +20,7 @@ namespace vantage {
 struct LiveSettings {
     int width_px = 1280, height_px = 720;  ///< of the virtual view
     double rate_hz = 30;                   ///< of the output
-    std::string synthesiser = "mesh";
+    std::string synthesiser = "fused";
     std::filesystem::path film, contact_sheet;  ///< empty: none
 };
 
