@@ -1,0 +1,94 @@
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/output_path.h"
+#include "common/base/print_result.h"
+#include "common/config/calibration_file.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/limits.h"
+#include "common/image/image_file.h"
+#include "common/rectification/rectify_pass.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    std::string calibration, left, right, out_left, out_right;
+    bool json = false;
+};
+
+void check_outputs(const Options& options) {
+    require_picture_extension(options.out_left);
+    require_picture_extension(options.out_right);
+    require_writable_output(options.out_left,
+                            {options.calibration, options.left, options.right, options.out_right});
+    require_writable_output(options.out_right, {options.calibration, options.left, options.right});
+}
+
+ColourImage rectify(const ShaderLibrary& shaders, const StereoCalibration& calibration, Side side,
+                    const ColourImage& raw) {
+    Texture texture(TextureFormat::rgba8, raw.cols, raw.rows);
+    texture.upload(raw);
+    RectifyPass pass(shaders, calibration, side);
+    return pass.rectify(texture).download();
+}
+
+void run(const Options& options) {
+    check_outputs(options);
+    const StereoCalibration calibration = load_calibration(options.calibration);
+    const ColourImage raw_left = read_colour_image(options.left);
+    const ColourImage raw_right = read_colour_image(options.right);
+
+    const EglContext context;
+    const GlInfo gl = GlInfo::query();
+    gl.require_vantage_minimum();
+    const ShaderLibrary shaders;
+    // Both before either is written: a pair is replaced as a pair.
+    const ColourImage left = rectify(shaders, calibration, Side::left, raw_left);
+    const ColourImage right = rectify(shaders, calibration, Side::right, raw_right);
+    write_colour_image(options.out_left, left);
+    write_colour_image(options.out_right, right);
+
+    const RectifiedStereo& geometry = calibration.rectified;
+    print_result(
+        {
+            {"calibration", calibration.id},
+            {"width", geometry.width_px},
+            {"height", geometry.height_px},
+            {"f_px", geometry.f_px},
+            {"cx_left_px", geometry.cx_left_px},
+            {"cx_right_px", geometry.cx_right_px},
+            {"cy_px", geometry.cy_px},
+            {"baseline_m", geometry.baseline_m},
+            {"doffs_px", geometry.doffs_px()},
+            {"renderer", gl.renderer},
+            {"out_left", options.out_left},
+            {"out_right", options.out_right},
+        },
+        options.json);
+}
+
+}  // namespace
+
+CommandEntry rectify_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "rectify", "Rectify one pair by a calibration, on the GPU, as the rig daemon does");
+        const auto options = std::make_shared<Options>();
+        command->add_option("left", options->left, "raw left picture")->required();
+        command->add_option("right", options->right, "raw right picture")->required();
+        command->add_option("--calibration", options->calibration, "calibration file (YAML)")
+            ->required();
+        command->add_option("--out-left", options->out_left, "rectified left picture to write")
+            ->required();
+        command->add_option("--out-right", options->out_right, "rectified right picture to write")
+            ->required();
+        command->add_flag("--json", options->json, "write the result as one JSON object");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage
