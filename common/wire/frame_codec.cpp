@@ -80,7 +80,8 @@ void check_timecode(const std::string& timecode) {
 /// Everything that can be said about a header without the payloads; both directions go through it.
 Pose check_header(const wire::FrameHeader& header) {
     check_schema_version("frame", header.schema_version());
-    // The last fields of a header are always written, so that one cut short between two fields shows.
+    // The last fields of a header are always written, so that one cut short between two fields
+    // shows.
     if (!header.has_times() || !header.has_counters()) fail("a frame header is truncated");
     check_name("rig", header.rig());
     if (!header.calibration_id().empty()) check_name("calibration id", header.calibration_id());

@@ -16,8 +16,8 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/wire/curve_keys.h"
 #include "common/config/endpoint.h"
+#include "common/wire/curve_keys.h"
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
 #include "common/wire/wake_event.h"

@@ -44,14 +44,15 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
             volume_.bind_storage(3);
             run_line_pass(rows_, row_lanes, first);
         });
-        profiler.run("columns and winners", {pixels * (2 * 16 + 2 * 32 + 8 + 16), evaluations * 18}, [&] {
-            features.permeability().bind_storage(0);
-            volume_.bind_storage(1);
-            down_.bind_storage(2);
-            winners_.bind_storage(3);
-            const bool is_last = first + slab_disparities >= disparities_;
-            run_line_pass(is_last ? last_columns_ : full_columns_, layout_.width_px, first);
-        });
+        profiler.run(
+            "columns and winners", {pixels * (2 * 16 + 2 * 32 + 8 + 16), evaluations * 18}, [&] {
+                features.permeability().bind_storage(0);
+                volume_.bind_storage(1);
+                down_.bind_storage(2);
+                winners_.bind_storage(3);
+                const bool is_last = first + slab_disparities >= disparities_;
+                run_line_pass(is_last ? last_columns_ : full_columns_, layout_.width_px, first);
+            });
     }
     profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
         features.permeability().bind_storage(0);
