@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +22,17 @@
 
 namespace vantage {
 namespace {
+
+/// Of the known disparities; 0 if there is none.
+double median_px(const DisparityImage& disparity) {
+    std::vector<std::uint16_t> known;
+    for (const std::uint16_t d : disparity)
+        if (d > 0) known.push_back(d);
+    if (known.empty()) return 0;
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    return static_cast<double>(*middle) / disparity_steps_per_px;
+}
 
 struct MatchOptions {
     std::string left, right, matcher, preset = "balanced", output, colour_map;
@@ -90,6 +104,7 @@ void match(const MatchOptions& options) {
         {"renderer", gl.renderer},
         {"density",
          static_cast<double>(cv::countNonZero(disparity)) / static_cast<double>(left.total())},
+        {"median_disparity_px", median_px(disparity)},
         {"fill", settings.fill},
         {"output", options.output},
         {"px_per_code",
