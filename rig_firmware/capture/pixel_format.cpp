@@ -16,7 +16,8 @@ const std::vector<PixelFormat>& known_pixel_formats() {
 std::string fourcc_text(std::uint32_t fourcc) {
     std::string text;
     for (int i = 0; i < 4; ++i) text += static_cast<char>((fourcc >> (8 * i)) & 0x7f);
-    return text;
+    constexpr std::uint32_t big_endian = 1u << 31;
+    return (fourcc & big_endian) != 0 ? text + "-BE" : text;
 }
 
 std::uint32_t fourcc_of(PixelFormat format) {

@@ -18,7 +18,8 @@ enum class PixelFormat {
 };
 const std::vector<PixelFormat>& known_pixel_formats();
 
-/// The kernel's code of four characters, blanks included: "YUYV", "Y10 ".
+/// The kernel's code of four characters, blanks included: "YUYV", "Y10 "; "-BE" after it where the
+/// code says big-endian.
 std::string fourcc_text(std::uint32_t fourcc);
 std::uint32_t fourcc_of(PixelFormat format);
 /// Throws Error that lists the known ones.

@@ -8,8 +8,10 @@
 namespace vantage {
 
 /// Gives pictures of sensors that run by themselves the index of the pulse nearest to their
-/// exposure. Every pulse is given once; those between two pictures that none was nearest to are
-/// counted as missed, pictures that a pulse has no room for as surplus.
+/// exposure. A sensor whose phase lies in the middle between two pulses would jitter from one to
+/// the other: the pulse after the last one given is taken up to three quarters of a period away.
+/// Every pulse is given once; those left out between two pictures are counted as missed, pictures
+/// that have no pulse of their own as surplus.
 class PulseNumberer {
   public:
     explicit PulseNumberer(const PulseGrid& grid) : grid_(grid) {}
@@ -17,10 +19,10 @@ class PulseNumberer {
     /// Empty for a surplus picture. Exposures come in rising order, unless the clock was set back:
     /// then the indices go back with it.
     std::optional<std::uint64_t> number(TaiTime exposure) {
-        constexpr std::uint64_t most_jitter = 2;
-        const std::uint64_t index = grid_.nearest_index(exposure);
+        const std::uint64_t index = preferred(exposure);
+        constexpr std::uint64_t most_surplus = 2;
         if (last_ && index <= *last_) {
-            if (*last_ - index <= most_jitter) {
+            if (*last_ - index <= most_surplus) {
                 ++surplus_;
                 return std::nullopt;
             }
@@ -37,6 +39,15 @@ class PulseNumberer {
     std::uint64_t clock_steps() const { return clock_steps_; }
 
   private:
+    std::uint64_t preferred(TaiTime exposure) const {
+        if (last_) {
+            const auto away = exposure - grid_.time_of(*last_ + 1);
+            const auto reach = grid_.period() * 3 / 4;
+            if (away < reach && -away < reach) return *last_ + 1;
+        }
+        return grid_.nearest_index(exposure);
+    }
+
     PulseGrid grid_;
     std::optional<std::uint64_t> last_;
     std::uint64_t missed_ = 0, surplus_ = 0, clock_steps_ = 0;

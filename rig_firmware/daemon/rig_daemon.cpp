@@ -1,5 +1,6 @@
 #include "rig_firmware/daemon/rig_daemon.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <future>
@@ -7,6 +8,8 @@
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include <pthread.h>
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
@@ -40,9 +43,11 @@ struct RigDaemon::Impl {
     void publish();
     void stop();
 
-    /// Runs a thread's work; what it throws ends the road and is kept for rethrow_failure().
+    /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
+    /// road and is kept for rethrow_failure().
     template <class Work>
-    void guarded(Work work) {
+    void guarded(const char* name, Work work) {
+        ::pthread_setname_np(::pthread_self(), name);
         try {
             work();
         } catch (...) {
@@ -88,19 +93,19 @@ void RigDaemon::Impl::start() {
     std::promise<void> all_stand;
     capture_thread =
         std::thread([this, p = std::move(source_ready), go = all_stand.get_future()]() mutable {
-            guarded([&] { capture(std::move(p), go); });
+            guarded("capture", [&] { capture(std::move(p), go); });
             captured.close();
         });
     const StereoCalibration calibration = rig_calibration(config, size.get());
     std::promise<void> gpu_ready;
     std::future<void> gpu = gpu_ready.get_future();
     gpu_thread = std::thread([this, calibration, p = std::move(gpu_ready)]() mutable {
-        guarded([&] { run_gpu(calibration, std::move(p)); });
+        guarded("gpu", [&] { run_gpu(calibration, std::move(p)); });
         matched.close();
     });
     gpu.get();
     publish_thread = std::thread([this] {
-        guarded([&] { publish(); });
+        guarded("publish", [&] { publish(); });
         finished = true;
     });
     all_stand.set_value();
@@ -131,7 +136,8 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
     const bool has_frame = frame.has_value();
     if (frame) {
         const auto age = TaiClock::now() - frame->exposure;
-        const float age_ms = std::chrono::duration<float, std::milli>(age).count();
+        // Some drivers stamp a picture with the end of its period, which is still to come.
+        const float age_ms = std::max(0.0f, std::chrono::duration<float, std::milli>(age).count());
         made_room = captured.push({std::move(*frame), age_ms}).has_value();
     }
     count([&](RigCounters& c) {

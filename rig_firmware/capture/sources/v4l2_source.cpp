@@ -65,6 +65,7 @@ class V4l2Source final : public StereoSource {
         do {
             try {
                 if (cameras_.empty()) open();
+                if (!begun_) drain();
                 if (std::optional<StereoFrame> frame = take_frame(deadline)) return frame;
                 if (MonotonicClock::now() - last_picture_ > longest_silence)
                     throw DeviceLost(
@@ -114,6 +115,16 @@ class V4l2Source final : public StereoSource {
         ++reopened_;
         lost_because_.clear();
         log_info("the cameras deliver again");
+    }
+
+    /// Lets go of what the drivers filled while the rest of the daemon was being built: those
+    /// pictures are old, and many are lost after them.
+    void drain() {
+        for (const auto& camera : cameras_)
+            while (camera->take()) {
+            }
+        last_picture_ = MonotonicClock::now();
+        begun_ = true;
     }
 
     void lose(const std::string& why) {
@@ -182,6 +193,7 @@ class V4l2Source final : public StereoSource {
     FramePairer<ColourImage> pairer_;
     std::vector<std::unique_ptr<V4l2Camera>> cameras_;  ///< left, right or both in one; none: lost
     std::array<SequenceGaps, 2> gaps_;
+    bool begun_ = false;
     MonotonicTime last_picture_{};  ///< of both sides
     std::string lost_because_;
     std::uint64_t reopened_ = 0, damaged_before_ = 0;

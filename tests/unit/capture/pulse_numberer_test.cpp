@@ -1,5 +1,7 @@
 #include "rig_firmware/capture/pulse_numberer.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "rig_firmware/capture/clock_pair.h"
@@ -30,6 +32,21 @@ TEST_F(PulseNumbererTest, GivesTheNearestPulse) {
     EXPECT_EQ(number(340), 3u);
     EXPECT_EQ(number(440), 4u);
     EXPECT_EQ(numberer_.missed(), 0u);
+}
+
+TEST_F(PulseNumbererTest, IsSteadyForASensorInTheMiddleBetweenPulses) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> jitter(-20, 20);
+    std::optional<std::uint64_t> last;
+    for (int i = 0; i < 500; ++i) {
+        const auto index = number(150 + 100 * i + jitter(random));
+        ASSERT_TRUE(index) << i;
+        if (last) {
+            ASSERT_EQ(*index, *last + 1) << i;
+        }
+        last = index;
+    }
+    EXPECT_EQ(numberer_.missed() + numberer_.surplus(), 0u);
 }
 
 TEST_F(PulseNumbererTest, CountsWhatASlowSensorMisses) {
