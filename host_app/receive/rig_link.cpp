@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <iterator>
-#include <span>
 #include <utility>
 #include <vector>
 #include <zmq_addon.hpp>
@@ -11,6 +10,7 @@
 #include "common/config/endpoint.h"
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
+#include "common/wire/zmq_helpers.h"
 
 namespace vantage {
 namespace {
@@ -20,15 +20,8 @@ namespace {
 constexpr std::chrono::seconds refusal_retry_period{2};
 constexpr std::chrono::milliseconds first_reconnect_wait{100};
 constexpr std::chrono::milliseconds longest_reconnect_wait{1000};
-constexpr std::chrono::seconds dead_connection_limit{3};
 constexpr int send_high_water_mark = 8;
 constexpr std::size_t frame_parts = 3;
-
-int as_ms(std::chrono::milliseconds duration) { return static_cast<int>(duration.count()); }
-
-std::span<const std::byte> bytes_of(const zmq::message_t& part) {
-    return {part.data<std::byte>(), part.size()};
-}
 
 }  // namespace
 
@@ -69,10 +62,9 @@ void RigLink::open() {
     socket_.set(zmq::sockopt::sndhwm, send_high_water_mark);
     socket_.set(zmq::sockopt::rcvhwm, 2 * static_cast<int>(max_credit_window));
     socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_part_bytes));
-    socket_.set(zmq::sockopt::reconnect_ivl, as_ms(first_reconnect_wait));
-    socket_.set(zmq::sockopt::reconnect_ivl_max, as_ms(longest_reconnect_wait));
-    socket_.set(zmq::sockopt::heartbeat_ivl, as_ms(liveness_limit));
-    socket_.set(zmq::sockopt::heartbeat_timeout, as_ms(dead_connection_limit));
+    socket_.set(zmq::sockopt::reconnect_ivl, option_ms(first_reconnect_wait));
+    socket_.set(zmq::sockopt::reconnect_ivl_max, option_ms(longest_reconnect_wait));
+    watch_for_dead_connections(socket_);
     socket_.set(zmq::sockopt::ipv6, endpoint.ipv6);
     if (!rig_.public_key.empty()) {
         socket_.set(zmq::sockopt::curve_serverkey, rig_.public_key);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -19,6 +17,7 @@
 #include "common/wire/frame_codec.h"
 #include "common/wire/limits.h"
 #include "common/wire/wake_event.h"
+#include "common/wire/zmq_helpers.h"
 #include "host_app/receive/frame_set_assembler.h"
 #include "host_app/receive/rig_link.h"
 
@@ -33,10 +32,6 @@ constexpr auto forever = std::chrono::hours(1);
 
 double ms_between(std::chrono::nanoseconds duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
-}
-
-std::span<const std::byte> bytes_of(const zmq::message_t& part) {
-    return {part.data<std::byte>(), part.size()};
 }
 
 std::vector<std::string> names_of(const StageConfig& stage) {
@@ -120,11 +115,7 @@ struct StageReceiver::Impl {
             items.push_back({rig->link.socket().handle(), 0, ZMQ_POLLIN, 0});
             items.push_back({rig->link.monitor().handle(), 0, ZMQ_POLLIN, 0});
         }
-        try {
-            zmq::poll(items, next_wait());
-        } catch (const zmq::error_t& error) {
-            if (error.num() != EINTR) throw;
-        }
+        wait_for(items, next_wait());
         wake.clear();
         const MonotonicTime now = MonotonicClock::now();
         for (const auto& rig : rigs) {
@@ -148,13 +139,12 @@ struct StageReceiver::Impl {
         collect_closed(now);
     }
 
-    std::chrono::milliseconds next_wait() {
+    std::chrono::nanoseconds next_wait() {
         std::chrono::nanoseconds wait = heartbeat_period;
         const std::lock_guard lock(mutex);
         if (const auto deadline = assembler.next_deadline())
             wait = std::min(wait, *deadline - MonotonicClock::now());
-        return std::max(std::chrono::ceil<std::chrono::milliseconds>(wait),
-                        std::chrono::milliseconds(0));
+        return wait;
     }
 
     void hand_over(Rig& rig, RigLink::Delivery delivery) {

@@ -21,6 +21,7 @@
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
 #include "common/wire/wake_event.h"
+#include "common/wire/zmq_helpers.h"
 #include "rig_firmware/stream/host_admission.h"
 
 namespace vantage {
@@ -32,11 +33,6 @@ constexpr int receive_high_water_mark = 64;
 /// A host that talks without end does not keep frames from leaving.
 constexpr int messages_per_turn = 64;
 constexpr std::chrono::seconds handshake_limit{5};
-constexpr std::chrono::seconds dead_connection_limit{3};
-
-std::span<const std::byte> bytes_of(const zmq::message_t& part) {
-    return {part.data<std::byte>(), part.size()};
-}
 
 /// The key a message came under, as HostAdmission let it in; empty without keys.
 std::string host_key_of(zmq::message_t& part) {
@@ -78,11 +74,8 @@ struct Publisher::Impl {
         router.set(zmq::sockopt::sndhwm, send_high_water_mark);
         router.set(zmq::sockopt::rcvhwm, receive_high_water_mark);
         router.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
-        router.set(zmq::sockopt::handshake_ivl,
-                   static_cast<int>(std::chrono::milliseconds(handshake_limit).count()));
-        router.set(zmq::sockopt::heartbeat_ivl, static_cast<int>(liveness_limit.count()));
-        router.set(zmq::sockopt::heartbeat_timeout,
-                   static_cast<int>(std::chrono::milliseconds(dead_connection_limit).count()));
+        router.set(zmq::sockopt::handshake_ivl, option_ms(handshake_limit));
+        watch_for_dead_connections(router);
         router.set(zmq::sockopt::ipv6, wanted.ipv6);
         if (!config.key_file.empty()) {
             const CurveKeys keys = load_key_file(config.key_file);
@@ -127,13 +120,7 @@ struct Publisher::Impl {
         std::vector<zmq::pollitem_t> items{{nullptr, wake.fd(), ZMQ_POLLIN, 0},
                                            {router.handle(), 0, ZMQ_POLLIN, 0}};
         if (admission) items.push_back({admission->socket().handle(), 0, ZMQ_POLLIN, 0});
-        const auto wait =
-            std::chrono::ceil<std::chrono::milliseconds>(next_heartbeat - MonotonicClock::now());
-        try {
-            zmq::poll(items, std::max(wait, std::chrono::milliseconds(0)));
-        } catch (const zmq::error_t& error) {
-            if (error.num() != EINTR) throw;
-        }
+        wait_for(items, next_heartbeat - MonotonicClock::now());
         wake.clear();
         if (admission) admission->answer();
         for (int i = 0; i < messages_per_turn && receive(); ++i) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <vector>
+#include <zmq.hpp>
+
+namespace vantage {
+
+std::span<const std::byte> bytes_of(const zmq::message_t& part);
+
+/// Waits until one of the items is ready, the time is up or a signal comes; a time in the past is
+/// none.
+void wait_for(std::vector<zmq::pollitem_t>& items, std::chrono::nanoseconds timeout);
+
+/// For ZeroMQ's options, which are int milliseconds.
+int option_ms(std::chrono::milliseconds duration);
+
+/// Both ends give a connection up whose other end's computer is silent for so long.
+inline constexpr std::chrono::milliseconds dead_connection_limit{3000};
+
+/// Has ZeroMQ find connections whose other end is gone without a word (power cut, pulled cable).
+void watch_for_dead_connections(zmq::socket_t& socket);
+
+}  // namespace vantage
