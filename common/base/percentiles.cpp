@@ -26,8 +26,8 @@ Percentiles PercentileRecorder::summary() const {
     std::vector<double> sorted = ring_;
     std::sort(sorted.begin(), sorted.end());
     const auto at = [&](double fraction) {
-        return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) +
-                                               0.5)];
+        return sorted[static_cast<std::size_t>(
+            std::lround(fraction * static_cast<double>(sorted.size() - 1)))];
     };
     result.p50 = at(0.50);
     result.p95 = at(0.95);

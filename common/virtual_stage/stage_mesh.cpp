@@ -26,8 +26,11 @@ Vector3f normal_of(const StageVertex& v) {
     return Vector3f(n[0], n[1], n[2]);
 }
 
-/// Two directions that make a right-handed frame with `axis`.
-std::pair<Vector3f, Vector3f> across(const Vector3f& axis) {
+/// Two directions that make a right-handed frame with an axis.
+struct Across {
+    Vector3f u, v;
+};
+Across across(const Vector3f& axis) {
     const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
     const Vector3f u = helper.cross(axis).normalized();
     return {u, axis.cross(u)};
@@ -149,13 +152,13 @@ void StageMeshBuilder::rod(const Vector3f& from_m, const Vector3f& to_m, float f
                            float to_radius_m, int sides, bool closed) {
     const Vector3f axis = (to_m - from_m).normalized();
     const float length = (to_m - from_m).norm();
-    const auto [u, v] = across(axis);
+    const Across side = across(axis);
     const Vector2f repeats(
         std::max(1.0f, std::round(tau * from_radius_m * material_.texture_per_m)),
         length * material_.texture_per_m);
     const float slope = (from_radius_m - to_radius_m) / length;
-    const auto outward = [&, u = u, v = v](float s) -> Vector3f {
-        return std::cos(tau * s) * u + std::sin(tau * s) * v;
+    const auto outward = [&](float s) -> Vector3f {
+        return std::cos(tau * s) * side.u + std::sin(tau * s) * side.v;
     };
     patch(sides, 1, [&](float s, float t) {
         const float radius = from_radius_m + t * (to_radius_m - from_radius_m);
@@ -169,8 +172,9 @@ void StageMeshBuilder::rod(const Vector3f& from_m, const Vector3f& to_m, float f
         const float radius = at_end ? to_radius_m : from_radius_m;
         patch(sides, 1, [&](float s, float t) {
             const Vector3f offset = t * radius * outward(s);
-            return SurfacePoint{centre + offset, at_end ? axis : Vector3f(-axis),
-                                Vector2f(offset.dot(u), offset.dot(v)) * material_.texture_per_m};
+            return SurfacePoint{
+                centre + offset, at_end ? axis : Vector3f(-axis),
+                Vector2f(offset.dot(side.u), offset.dot(side.v)) * material_.texture_per_m};
         });
     }
 }

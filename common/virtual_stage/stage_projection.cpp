@@ -32,12 +32,13 @@ Eigen::Matrix4f clip_from_world_parallel(const Eigen::Vector3f& direction_to_lig
 
 Frustum frustum_of(const Eigen::Matrix4f& clip_from_world) {
     Frustum frustum;
+    std::size_t next = 0;
     for (int axis = 0; axis < 3; ++axis)
         for (const bool upper : {false, true}) {
             Eigen::Vector4f plane = clip_from_world.row(3).transpose() +
                                     (upper ? -1.0f : 1.0f) * clip_from_world.row(axis).transpose();
             plane /= plane.head<3>().norm();
-            frustum[static_cast<std::size_t>(2 * axis + (upper ? 1 : 0))] = plane;
+            frustum[next++] = plane;
         }
     return frustum;
 }

@@ -117,11 +117,11 @@ Picture draw_carpet(cv::RNG& random) {
                 a -= cells;
                 b += cells;
             }
-            const auto cell = static_cast<std::size_t>(a * 2 * cells + b % (2 * cells));
+            const int cell = a * 2 * cells + b % (2 * cells);
             const float edge = std::abs(std::sin(pi * p) * std::sin(pi * q));
             const float uneven = 0.12f * waves(y, x);
-            cv::Vec3f colour = grounds[cell];
-            if (edge > 0.80f + uneven) colour = dots[cell];
+            cv::Vec3f colour = grounds.at(static_cast<std::size_t>(cell));
+            if (edge > 0.80f + uneven) colour = dots.at(static_cast<std::size_t>(cell));
             if (edge < 0.20f + uneven) colour = {0.84f, 0.64f, 0.34f};
             picture(y, x) = colour;
         }
@@ -243,6 +243,7 @@ Picture draw_poster_shapes(cv::RNG& random) {
                     break;
                 case 2: {
                     std::vector<cv::Point> corners;
+                    corners.reserve(3);
                     const double turn = random.uniform(0.0, 6.28);
                     for (int k = 0; k < 3; ++k)
                         corners.emplace_back(

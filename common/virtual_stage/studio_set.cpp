@@ -150,8 +150,9 @@ void add_columns(StageMeshBuilder& mesh) {
     const float radius = wall_radius_m / std::cos(0.5f * tau / panels) - 0.10f;
     for (int quarter = 0; quarter < 4; ++quarter) {
         mesh.begin_chunk(far_scenery);
-        for (int i = 0; i < panels / 4; ++i) {
-            const float azimuth = tau * static_cast<float>(quarter * panels / 4 + i) / panels;
+        constexpr int columns = panels / 4;
+        for (int i = 0; i < columns; ++i) {
+            const float azimuth = tau * static_cast<float>(quarter * columns + i) / panels;
             mesh.set_placement(facing_middle(azimuth, radius));
             mesh.set_material(of(StageTexture::plaster, {0.90f, 0.88f, 0.84f}, 0.8f));
             mesh.rod({0, 0, 0}, {0, wall_height_m + 0.3f, 0}, 0.17f, 0.15f, 16, false);

@@ -193,7 +193,7 @@ DisparityImage disparity_from_depth(const DepthImage& depth_m, const RectifiedSt
             const float z = depth_m(y, x);
             const float steps = z > 0 ? scale / z - offset : 0;
             disparity(y, x) = steps >= 0.5f && steps <= 65535.0f
-                                  ? static_cast<unsigned short>(steps + 0.5f)
+                                  ? static_cast<unsigned short>(cvRound(steps))
                                   : static_cast<unsigned short>(0);
         }
     return disparity;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -111,21 +112,26 @@ Texture make_shadow_texture(bool compared) {
     return texture;
 }
 
+/// GL takes offsets into the bound buffer as pointers.
+const void* as_offset(std::size_t bytes) {
+    return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
+}
+
 VertexArray make_vertex_array(const Buffer& vertices, const Buffer& indices) {
     VertexArray array;
     array.bind();
     vertices.bind(GL_ARRAY_BUFFER);
     indices.bind(GL_ELEMENT_ARRAY_BUFFER);
-    const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
     constexpr GLsizei stride = sizeof(StageVertex);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride,
-                          offset(offsetof(StageVertex, position_m)));
-    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(StageVertex, uv)));
-    glVertexAttribIPointer(2, 4, GL_BYTE, stride, offset(offsetof(StageVertex, normal_and_bone)));
+                          as_offset(offsetof(StageVertex, position_m)));
+    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, as_offset(offsetof(StageVertex, uv)));
+    glVertexAttribIPointer(2, 4, GL_BYTE, stride,
+                           as_offset(offsetof(StageVertex, normal_and_bone)));
     glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
-                          offset(offsetof(StageVertex, tint_and_layer)));
+                          as_offset(offsetof(StageVertex, tint_and_layer)));
     glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
-                          offset(offsetof(StageVertex, gloss_mirror_glow)));
+                          as_offset(offsetof(StageVertex, gloss_mirror_glow)));
     for (GLuint attribute = 0; attribute < 5; ++attribute) glEnableVertexAttribArray(attribute);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -165,9 +171,7 @@ struct VirtualStage::Impl {
           shadow_from_world(clip_from_world_parallel(scene.lighting.key_direction, {0, 1, 0},
                                                      shadow_half_size_m)),
           bone_rows(3 * (1 + scene.performers.size() * bones_of_performer)) {
-        if (bone_rows.size() > 3 * max_bones)
-            fail("a virtual stage moves at most {} bones, and {} are asked for", max_bones,
-                 bone_rows.size() / 3);
+        assert(bone_rows.size() <= std::size_t{3} * max_bones);
         set_bone(0, Eigen::Affine3f::Identity());
         const StateGuard guard;
         still_shadow_target.bind();
@@ -232,8 +236,9 @@ struct VirtualStage::Impl {
     }
 
     static void draw(const StageChunk& chunk) {
+        const std::size_t offset = chunk.first_index * sizeof(std::uint32_t);
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(chunk.index_count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(chunk.first_index * sizeof(std::uint32_t)));
+                       as_offset(offset));
     }
 
     /// The chunks that the camera may see, nearest first, so that little is drawn to be covered.
@@ -255,6 +260,7 @@ struct VirtualStage::Impl {
         std::stable_sort(seen.begin(), seen.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
         std::vector<const StageChunk*> chunks;
+        chunks.reserve(seen.size());
         for (const auto& [distance_m, chunk] : seen) chunks.push_back(chunk);
         return chunks;
     }
