@@ -20,7 +20,7 @@ class StageTargets {
     cv::Size size() const { return size_; }
     int samples_per_side() const { return samples_per_side_; }
     void bind_colour() const { sampled_target_.bind(); }
-    /// Averages the samples with `reduce` (stage_reduce.frag) and reads the picture back.
+    /// Makes pixels of the samples with `reduce` (stage_reduce.frag) and reads the picture back.
     void read_colour(FullscreenPass& reduce, cv::Mat& image) const;
     void bind_depth() const { depth_target_.bind(); }
     /// As CV_32SC1 holding the bits of floats.

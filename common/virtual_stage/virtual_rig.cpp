@@ -149,7 +149,8 @@ VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& 
 ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
                             std::chrono::nanoseconds stage_time) {
     const bool has_lens = !sensor.positions.empty();
-    // Through a lens, the points of a pixel are its samples.
+    // Through a lens, the points of a pixel are its samples, spread like those of pinhole pictures:
+    // averaging them spreads by the deviation of points_per_side even steps already.
     ColourImage pinhole =
         stage
             .render(sensor.camera, stage_time,
@@ -158,6 +159,9 @@ ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
     if (!has_lens) return pinhole;
     ColourImage points, picture;
     cv::remap(pinhole, points, sensor.positions, cv::noArray(), cv::INTER_LINEAR);
+    constexpr double averaged = (points_per_side * points_per_side - 1) / 12.0;
+    constexpr double spread = points_per_side * point_spread_px;
+    cv::GaussianBlur(points, points, {}, std::sqrt(spread * spread - averaged));
     cv::resize(points, picture, sensor.size, 0, 0, cv::INTER_AREA);
     return picture;
 }

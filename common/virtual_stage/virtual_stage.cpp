@@ -167,7 +167,8 @@ struct VirtualStage::Impl {
               Program::render(library, "stage_depth.vert", "stage_depth.frag", {bones_define()})),
           shadow_program(
               Program::render(library, "stage_depth.vert", "stage_shadow.frag", {bones_define()})),
-          reduce(library, "stage_reduce.frag"),
+          reduce(library, "stage_reduce.frag",
+                 {{"POINT_SPREAD_PX", fmt::format("{}", point_spread_px)}}),
           shadow_from_world(clip_from_world_parallel(scene.lighting.key_direction, {0, 1, 0},
                                                      shadow_half_size_m)),
           bone_rows(3 * (1 + scene.performers.size() * bones_of_performer)) {

@@ -19,6 +19,12 @@ struct StageCamera {
     Pose world_from_camera = Pose::Identity();
 };
 
+/// How far lens and sensor of the stage's cameras spread a point: the standard deviation of their
+/// Gaussian point spread. It leaves 12 % of the contrast at the finest pattern a sensor can hold,
+/// like a colour sensor behind a good small lens; sharper pictures would be aliased as no camera's
+/// are.
+inline constexpr double point_spread_px = 0.65;
+
 struct StageRendering {
     ColourImage colour;  ///< anti-aliased, sRGB-coded
     DepthImage depth_m;  ///< exact z at every pixel's centre; never 0: the set surrounds the stage
@@ -29,7 +35,9 @@ enum class StagePictures { colour, depth, both };
 
 struct StageOptions {
     StagePictures pictures = StagePictures::both;
-    bool anti_aliased = true;  ///< four samples a pixel for colour, up to 2048 pixels a side
+    /// Colour as lens and sensor see it, from four samples a pixel; up to 2048 pixels a side.
+    /// Otherwise a point sample at every pixel's centre.
+    bool anti_aliased = true;
 };
 
 /// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
