@@ -1,5 +1,6 @@
 #include "common/config/calibration_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -190,10 +191,22 @@ CalibrationRecord read_record(const Section& top) {
             .views_used = top.integer("views_used")};
 }
 
+/// OpenCV's parser goes round for ever on some control characters.
+void require_text(const std::filesystem::path& path, const std::string& text) {
+    const auto is_control = [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
+    };
+    const auto at = std::find_if(text.begin(), text.end(), is_control);
+    if (at != text.end())
+        fail("{}: byte {} is a control character; a calibration is a text file", path.string(),
+             at - text.begin());
+}
+
 template <class Read>
 auto read_yaml(const std::filesystem::path& path, Read read) {
     const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    require_text(path, text);
     try {
         const cv::FileStorage file(
             text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);

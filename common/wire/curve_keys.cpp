@@ -78,7 +78,9 @@ CurveKeys load_key_file(const std::filesystem::path& path) {
         fail("key file {} line {} is not TOML: {}", path.string(), error.source().begin.line,
              error.description());
     }
-    if (table["version"].value_or(0) != key_file_version)
+    // Not value_or(): toml++ would cast a number with a fraction, and of any size, to an integer.
+    const toml::value<std::int64_t>* version = table["version"].as_integer();
+    if (!version || version->get() != key_file_version)
         fail("key file {} is not of version {}; make one with: keys new FILE", path.string(),
              key_file_version);
     CurveKeys keys;

@@ -215,6 +215,7 @@ TEST_F(CalibrationFileTest, RefusesWhatIsNoYamlAtAll) {
          {std::string(), std::string("\0\x01\x02", 3), std::string("%YAML:1.0\n---\n{{{{"),
           std::string("<?xml version=\"1.0\"?><a/>"), std::string("{\"kind\": 3}"),
           std::string("%YAML:1.0\n---\n- 1\n- 2\n"), std::string("%YAML:1.0\n---\n   : 1.0\n"),
+          std::string("%YAML:1.0\n---%YAML:1.0\n\nf\x17---\nf_\0", 30),
           std::string(2 << 20, 'x')}) {
         std::ofstream(file_, std::ios::binary) << content;
         EXPECT_NE(fault(), "") << content.substr(0, 30);

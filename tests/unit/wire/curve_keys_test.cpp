@@ -71,6 +71,7 @@ TEST_F(CurveKeysTest, BadKeyFilesAreRefusedWithTheMend) {
     EXPECT_THAT(refusal_of_key_file(folder_.path() / "missing"), HasSubstr("missing"));
     EXPECT_THAT(refusal_of_key_file(write("damaged", "version = \n")), HasSubstr("line 1"));
     EXPECT_THAT(refusal_of_key_file(write("empty", "")), HasSubstr("version"));
+    EXPECT_THAT(refusal_of_key_file(write("fraction", "version = 1.0\n")), HasSubstr("version"));
     EXPECT_THAT(refusal_of_key_file(write("half", "version = 1\npublic = \"x\"\n")),
                 HasSubstr("public key"));
     EXPECT_THAT(
