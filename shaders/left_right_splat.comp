@@ -1,7 +1,7 @@
 // Every right pixel keeps the best of the left pixels that claim it: cost (normalised) << 16 | disparity.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Winners { uvec2 winners[]; };
 layout(std430, binding = 1) readonly buffer Weight { uint weight[]; };
 layout(std430, binding = 2) buffer Claims { uint claims[]; };
@@ -12,9 +12,10 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= size.x || at.y >= size.y) return;
     int here = at.y * stride + at.x;
-    uint winner = winners[here].x;
+    uint winner = winners[block_at(at.x, at.y, size.y)].x;
     int d = int((winner >> 12) & 255u);
     if (d > at.x) return;
-    uint cost = min(((winner >> 20) << 12) / max(weight[here], 1u), 0xffffu);
+    // Floats: an integer division is taken apart into scalar ones on some GPUs.
+    uint cost = min(uint(float((winner >> 20) << 12) / float(max(weight[here], 1u))), 0xffffu);
     atomicMin(claims[here - d], (cost << 16) | uint(d));
 }

@@ -10,7 +10,7 @@
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
-layout(std430, binding = 1) readonly buffer Volume { uvec2 volume[]; };
+layout(std430, binding = 1) readonly buffer Volume { uvec4 volume[]; };
 layout(std430, binding = 2) buffer Down { uvec4 down[]; };
 // x: cost << 20 | disparity << 12 | cost of the last disparity seen; y: cost of the disparity before the best << 12 |
 // of the one after (0xfff: there is none).
@@ -19,64 +19,74 @@ uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
 
-#define CONSIDER(i, s)                             \
-    if (i < VALID) {                               \
-        uint cost = s;                             \
-        bool wins = cost < best;                   \
-        after = d == best_d + 1u ? cost : after;   \
-        before = wins ? last : before;             \
-        after = wins ? 0xfffu : after;             \
-        best_d = wins ? d : best_d;                \
-        best = min(best, cost);                    \
-        last = cost;                               \
-        d += 1u;                                   \
+// The least of the 16 costs with its index below it: two costs a word, so that a minimum of words is one of the upper
+// halves.
+#define CONSIDER(k, w)                                                \
+    {                                                                 \
+        uint keys = (w << 4) | (uint(2 * k) | (uint(2 * k + 1) << 16)); \
+        if (2 * k < VALID) least_low = min(least_low, keys << 16);    \
+        if (2 * k + 1 < VALID) least_high = min(least_high, keys);    \
     }
-#define CONSIDER2(k, w) CONSIDER(2 * k, (w) & 0xffffu) CONSIDER(2 * k + 1, (w) >> 16)
+uint least_of(uvec4 a, uvec4 b) {
+    uint least_low = ~0u, least_high = ~0u;
+    CONSIDER(0, a.x) CONSIDER(1, a.y) CONSIDER(2, a.z) CONSIDER(3, a.w)
+    CONSIDER(4, b.x) CONSIDER(5, b.y) CONSIDER(6, b.z) CONSIDER(7, b.w)
+    return min(least_low >> 16, least_high >> 16);
+}
+
+uint cost_at(uint i, uvec4 a, uvec4 b) {
+    uvec4 four = (i & 8u) != 0u ? b : a;
+    uvec2 two = (i & 4u) != 0u ? four.zw : four.xy;
+    uint one = (i & 2u) != 0u ? two.y : two.x;
+    return (i & 1u) != 0u ? one >> 16 : one & 0xffffu;
+}
 
 void main() {
     int x = int(gl_GlobalInvocationID.x);
     if (x >= size.x) return;
 
     uvec4 a = uvec4(0u), b = uvec4(0u);
-    for (int y = 0; y < size.y; ++y) {
-        int at = y * stride + x;
-        uint mu = permeability[at] >> 4;
-        a = pairs_of(volume[at * 2]) + permeate(a, mu);
-        b = pairs_of(volume[at * 2 + 1]) + permeate(b, mu);
+    int at = block_at(x, 0, size.y);
+    for (int y = 0; y < size.y; ++y, at += block_px) {
+        uint mu = permeability[y * stride + x] >> 4;
+        uvec4 sums = volume[at];
+        a = pairs_of(sums.xy) + permeate(a, mu);
+        b = pairs_of(sums.zw) + permeate(b, mu);
         down[at * 2] = a;
         down[at * 2 + 1] = b;
     }
 
-    // Now a and b are the sums from below.
-    a = uvec4(0u), b = uvec4(0u);
-    uint mu = 0u;
+    uvec4 down_a = a, down_b = b;
+    a = b = uvec4(0u);  // now what comes from below
     for (int y = size.y - 1; y >= 0; --y) {
-        int at = y * stride + x;
-        a = permeate(a, mu);
-        b = permeate(b, mu);
-        uvec4 sum_a = down[at * 2] + a, sum_b = down[at * 2 + 1] + b;
-        a += pairs_of(volume[at * 2]);
-        b += pairs_of(volume[at * 2 + 1]);
-        mu = permeability[at] >> 4;
+        at -= block_px;
+        uint mu = permeability[y * stride + x] >> 4;
+        uvec4 sum_a = down_a + a, sum_b = down_b + b;
+        // A row's own sums are what the way down added there: no need to fetch them again.
+        int above = max(at - block_px, 0);
+        uvec4 above_a = down[above * 2], above_b = down[above * 2 + 1];
+        a = permeate(a + down_a - permeate(above_a, mu), mu);
+        b = permeate(b + down_b - permeate(above_b, mu), mu);
+        down_a = above_a;
+        down_b = above_b;
 
-        uint best = 0xfffu, best_d = 0xfff0u, before = 0xfffu, after = 0xfffu, last = 0xfffu;
+        uint best = 0xfffu, best_d = 0xffu, before = 0xfffu, after = 0xfffu, last = 0xfffu;
         if (first_disparity > 0) {
             uvec2 state = winners[at];
             best = state.x >> 20;
             best_d = (state.x >> 12) & 255u;
             last = state.x & 0xfffu;
             before = state.y >> 12;
-            after = state.y & 0xfffu;
+            after = best_d + 1u == uint(first_disparity) ? sum_a.x & 0xffffu : state.y & 0xfffu;
         }
-        uint d = uint(first_disparity);
-        CONSIDER2(0, sum_a.x)
-        CONSIDER2(1, sum_a.y)
-        CONSIDER2(2, sum_a.z)
-        CONSIDER2(3, sum_a.w)
-        CONSIDER2(4, sum_b.x)
-        CONSIDER2(5, sum_b.y)
-        CONSIDER2(6, sum_b.z)
-        CONSIDER2(7, sum_b.w)
+        uint least = least_of(sum_a, sum_b), i = least & 15u;
+        if ((least >> 4) < best) {
+            best = least >> 4;
+            best_d = uint(first_disparity) + i;
+            before = i == 0u ? last : cost_at(i - 1u, sum_a, sum_b);
+            after = i == uint(VALID - 1) ? 0xfffu : cost_at(i + 1u, sum_a, sum_b);
+        }
+        last = sum_b.w >> 16;
         winners[at] = uvec2((best << 20) | (best_d << 12) | last, (before << 12) | after);
     }
 }

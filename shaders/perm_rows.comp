@@ -1,84 +1,101 @@
 // Cost and horizontal permeability aggregation of one slab of 16 disparities. An invocation walks a row there and
 // back: A(x) = C(x) + mu(x) A(x - 1), likewise from the right, and leaves their sum, C(x) counted once, in 8 bits. The
-// matching cost never reaches memory: it is cheaper to find it again on the way back.
+// matching cost never reaches memory: it is cheaper to find it again on the way back. Four pixels a step, so that
+// their words come by one load; what lies behind the picture has no permeability and does no harm.
 #include "perm_common.glsl"
 
+#if LANE_MAPPING == LANES_DISPARITIES
+#define SUMS uvec2  // half a slab an invocation
+#define REACH 8
+#else
+#define SUMS uvec4
+#define REACH 16
+#endif
+
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer LeftFeatures { uint left_features[]; };
-layout(std430, binding = 1) readonly buffer RightFeatures { uint right_features[]; };
-layout(std430, binding = 2) readonly buffer Permeability { uint permeability[]; };
-layout(std430, binding = 3) buffer Volume { uvec2 volume[]; };
+layout(std430, binding = 0) readonly buffer LeftFeatures { uvec4 left_features[]; };
+layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
+layout(std430, binding = 2) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 3) buffer Volume { SUMS volume[]; };
 uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
 
-#define PAIR(p, q) (cost_of(l, p) | (cost_of(l, q) << 16))
-#define COSTS_A uvec4(PAIR(r0, r1), PAIR(r2, r3), PAIR(r4, r5), PAIR(r6, r7))
-#define COSTS_B uvec4(PAIR(r8, r9), PAIR(r10, r11), PAIR(r12, r13), PAIR(r14, r15))
+// The right-hand words that four pixels see: column x - shift - REACH + i of pixel column x is R(i).
+uvec4 r0, r1, r2, r3, r4;
+#define R(i) ((i) < 4 ? r0 : (i) < 8 ? r1 : (i) < 12 ? r2 : (i) < 16 ? r3 : r4)[(i) & 3]
+#define PAIR(l, i) (cost_of(l, R(i)) | (cost_of(l, R((i)-1)) << 16))
+#define COSTS(l, i) uvec4(PAIR(l, i), PAIR(l, (i)-2), PAIR(l, (i)-4), PAIR(l, (i)-6))
+#define COSTS_A(l, pixel) COSTS(l, REACH + pixel)
+#define COSTS_B(l, pixel) COSTS(l, REACH - 8 + pixel)
 
-uint right_at(int row, int x) { return x >= 0 ? right_features[row + max(x, 0)] : outside_word; }
+uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
+
+uvec4 a, b;
+
+#if LANE_MAPPING == LANES_DISPARITIES
+#define FORTH(pixel, l, m)                   \
+    a = COSTS_A(l, pixel) + permeate(a, m);  \
+    volume[at + 2 * pixel] = bytes_of(a >> 1);
+#define BACK(pixel, l, m)                                                                   \
+    a = permeate(a, mu);                                                                    \
+    volume[at + 2 * pixel] = bytes_of(((pairs_of(volume[at + 2 * pixel]) << 1) + a) >> 3);  \
+    a += COSTS_A(l, pixel);                                                                 \
+    mu = m;
+#else
+#define FORTH(pixel, l, m)                   \
+    a = COSTS_A(l, pixel) + permeate(a, m);  \
+    b = COSTS_B(l, pixel) + permeate(b, m);  \
+    volume[at + pixel] = uvec4(bytes_of(a >> 1), bytes_of(b >> 1));
+#define BACK(pixel, l, m)                                                      \
+    {                                                                          \
+        uvec4 before = volume[at + pixel];                                     \
+        a = permeate(a, mu);                                                   \
+        b = permeate(b, mu);                                                   \
+        volume[at + pixel] = uvec4(bytes_of(((pairs_of(before.xy) << 1) + a) >> 3),  \
+                                   bytes_of(((pairs_of(before.zw) << 1) + b) >> 3)); \
+        a += COSTS_A(l, pixel);                                                \
+        b += COSTS_B(l, pixel);                                                \
+        mu = m;                                                                \
+    }
+#endif
 
 void main() {
 #if LANE_MAPPING == LANES_DISPARITIES
     int y = int(gl_GlobalInvocationID.x >> 1), half_slab = int(gl_GlobalInvocationID.x & 1u);
+#define SUMS_AT(x) (block_at(x, y, size.y) * 2 + half_slab)
     int shift = first_disparity + 8 * half_slab;
 #else
     int y = int(gl_GlobalInvocationID.x);
+#define SUMS_AT(x) block_at(x, y, size.y)
     int shift = first_disparity;
-    uint r8 = outside_word, r9 = outside_word, r10 = outside_word, r11 = outside_word;
-    uint r12 = outside_word, r13 = outside_word, r14 = outside_word, r15 = outside_word;
-    uvec4 b = uvec4(0u);
-    const int half_slab = 0;
 #endif
     if (y >= size.y) return;
-    int row = y * stride;
-    uint r0 = outside_word, r1 = outside_word, r2 = outside_word, r3 = outside_word;
-    uint r4 = outside_word, r5 = outside_word, r6 = outside_word, r7 = outside_word;
-    uvec4 a = uvec4(0u);
+    int row = y * stride, last = (size.x - 1) & ~3;
+    r0 = r1 = r2 = r3 = r4 = uvec4(outside_word);
+    a = b = uvec4(0u);
 
-    for (int x = 0; x < size.x; ++x) {
-        uint l = left_features[row + x];
-        uint mu = permeability[row + x] & 15u;
-        int at = (row + x) * 2 + half_slab;
-        // The right-hand words slide through registers: disparity d sees at x what d - 1 saw at x - 1.
-#if LANE_MAPPING == LANES_PIXELS
-        r15 = r14, r14 = r13, r13 = r12, r12 = r11, r11 = r10, r10 = r9, r9 = r8, r8 = r7;
+    for (int x = 0; x <= last; x += 4) {
+#if LANE_MAPPING == LANES_DISPARITIES
+        r0 = r1, r1 = r2, r2 = right_at(row, x - shift);
+#else
+        r0 = r1, r1 = r2, r2 = r3, r3 = r4, r4 = right_at(row, x - shift);
 #endif
-        r7 = r6, r6 = r5, r5 = r4, r4 = r3, r3 = r2, r2 = r1, r1 = r0;
-        r0 = right_at(row, x - shift);
-        a = COSTS_A + permeate(a, mu);
-        volume[at] = bytes_of(a >> 1);
-#if LANE_MAPPING == LANES_PIXELS
-        b = COSTS_B + permeate(b, mu);
-        volume[at + 1] = bytes_of(b >> 1);
-#endif
+        uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
+        int at = SUMS_AT(x);
+        FORTH(0, l.x, m.x) FORTH(1, l.y, m.y) FORTH(2, l.z, m.z) FORTH(3, l.w, m.w)
     }
 
     // Now a and b are the sums from the right; the words slide the other way.
-    a = uvec4(0u);
-#if LANE_MAPPING == LANES_PIXELS
-    b = uvec4(0u);
-    int farthest = 15;
-#else
-    int farthest = 7;
-#endif
+    a = b = uvec4(0u);
     uint mu = 0u;
-    for (int x = size.x - 1; x >= 0; --x) {
-        uint l = left_features[row + x];
-        int at = (row + x) * 2 + half_slab;
-        a = permeate(a, mu);
-        volume[at] = bytes_of(((pairs_of(volume[at]) << 1) + a) >> 3);
-        a += COSTS_A;
-        r0 = r1, r1 = r2, r2 = r3, r3 = r4, r4 = r5, r5 = r6, r6 = r7;
-#if LANE_MAPPING == LANES_PIXELS
-        b = permeate(b, mu);
-        volume[at + 1] = bytes_of(((pairs_of(volume[at + 1]) << 1) + b) >> 3);
-        b += COSTS_B;
-        r7 = r8, r8 = r9, r9 = r10, r10 = r11, r11 = r12, r12 = r13, r13 = r14, r14 = r15;
-        r15 = right_at(row, x - 1 - shift - farthest);
-#else
-        r7 = right_at(row, x - 1 - shift - farthest);
+    for (int x = last; x >= 0; x -= 4) {
+        uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
+        int at = SUMS_AT(x);
+        BACK(3, l.w, m.w) BACK(2, l.z, m.z) BACK(1, l.y, m.y) BACK(0, l.x, m.x)
+#if LANE_MAPPING != LANES_DISPARITIES
+        r4 = r3, r3 = r2;
 #endif
-        mu = permeability[row + x] & 15u;
+        r2 = r1, r1 = r0, r0 = right_at(row, x - 4 - shift - REACH);
     }
 }

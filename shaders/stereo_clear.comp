@@ -1,7 +1,7 @@
 // Sets every word to all ones.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) writeonly buffer Words { uvec4 words[]; };
 uniform int count;
 

@@ -1,7 +1,10 @@
-// What the passes of the stereo engine share. Every picture-shaped buffer has rows of `stride` pixels, a multiple
-// of four that is no multiple of 4096 bytes for the volume (rows would share their cache lines' places).
+// What the passes of the stereo engine share. Picture-shaped buffers have rows of `stride` pixels, a multiple
+// of four.
 #ifndef LANES
-#define LANES 16
+#define LANES 16  // of passes that walk lines: there are only so many lines
+#endif
+#ifndef PICTURE_LANES
+#define PICTURE_LANES 128  // of passes over pixels: a workgroup has its price
 #endif
 
 // How invocations lie over the work. Lanes along pixels keep CPUs and wide GPUs fed; lanes along disparities put
@@ -17,3 +20,8 @@ const uint outside_word = 0x82aaaaaau;
 
 // The byte of a luma word that holds pixel i = 0..3 of it.
 uint byte_of(uint word, int i) { return (word >> (8 * i)) & 255u; }
+
+// The pieces that columns are walked in lie in blocks of 16 pixels' width, row under row, so that a walk down is one
+// through memory. A buffer of them has rows of whole blocks.
+const int block_px = 16;
+int block_at(int x, int y, int height) { return ((x >> 4) * height + y) * block_px + (x & (block_px - 1)); }

@@ -1,7 +1,7 @@
 // Half the size: the rounded mean of 2x2 lumas, in the same padded form.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Fine { uint fine[]; };
 layout(std430, binding = 1) writeonly buffer Coarse { uint coarse[]; };
 uniform ivec2 fine_size;

@@ -2,7 +2,7 @@
 // and one or more behind, so that neighbourhoods need no tests.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) writeonly buffer Luma { uint luma[]; };
 uniform highp sampler2D picture;
 uniform ivec2 size;

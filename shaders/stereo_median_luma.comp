@@ -2,7 +2,7 @@
 #include "stereo_common.glsl"
 #include "stereo_median9.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Luma { uint luma[]; };
 layout(std430, binding = 1) writeonly buffer Guide { uint guide[]; };
 uniform ivec2 size;

@@ -2,7 +2,7 @@
 // table. Bits 0-3: from the left neighbour; bits 4-7: from the upper one. Four pixels an invocation.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Guide { uint guide[]; };
 layout(std430, binding = 1) writeonly buffer Permeability { uvec4 permeability[]; };
 layout(std430, binding = 2) readonly buffer Table { uint table[]; };
@@ -26,6 +26,8 @@ void main() {
         if (at.x == 0) from_left.x = 0u;
         if (at.y == 0) from_above = uvec4(0u);
         mu = from_left | (from_above << 4);
+        // Nothing comes in from behind the picture.
+        mu *= uvec4(lessThan(ivec4(at.x * 4) + ivec4(0, 1, 2, 3), ivec4(size.x)));
     }
     permeability[at.y * (stride / 4) + at.x] = mu;
 }

@@ -2,7 +2,7 @@
 // it and is near, so that depth edges move to the edges of the picture. One invocation a coarse pixel, 2x2 results.
 #include "stereo_common.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer CoarseDisparity { uint coarse_disparity[]; };
 layout(std430, binding = 1) readonly buffer CoarseLuma { uint coarse_luma[]; };
 layout(std430, binding = 2) readonly buffer FineLuma { uint fine_luma[]; };

@@ -1,10 +1,19 @@
 #include "rig_firmware/stereo/passes/feature_pass.h"
 
+#include <string>
+
 namespace vantage {
+namespace {
+
+/// Of the census, which slides its neighbourhood down the picture.
+constexpr int rows_an_invocation = 16;
+
+}  // namespace
 
 FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma)
     : layout_(layout),
-      features_program_(Program::compute(library, "stereo_features.comp")),
+      features_program_(Program::compute(library, "stereo_features.comp",
+                                         {{"ROWS", std::to_string(rows_an_invocation)}})),
       median_program_(Program::compute(library, "stereo_median_luma.comp")),
       permeability_program_(Program::compute(library, "stereo_permeability.comp")),
       guide_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
@@ -20,7 +29,8 @@ void FeaturePass::features(const Buffer& luma, const Buffer& words) {
     features_program_.set("stride", layout_.stride_px());
     luma.bind_storage(0);
     words.bind_storage(1);
-    features_program_.dispatch_over(layout_.stride_px() / 4, layout_.height_px);
+    features_program_.dispatch_over(
+        layout_.stride_px() / 4, (layout_.height_px + rows_an_invocation - 1) / rows_an_invocation);
 }
 
 void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {

@@ -13,7 +13,9 @@ int at_edge_repeated(const GreyImage& image, int x, int y) {
 }
 
 bool is_census_neighbour(int dx, int dy) {
-    return (dx + dy) % 2 != 0 && !(std::abs(dx) == 4 && std::abs(dy) == 3);
+    const bool is_corner = std::abs(dx) == 4 && std::abs(dy) == 3,
+               is_top_middle = dx == 0 && dy == -3;
+    return (dx + dy) % 2 != 0 && !is_corner && !is_top_middle;
 }
 
 }  // namespace
@@ -22,12 +24,13 @@ cv::Mat1i feature_words(const GreyImage& luma) {
     cv::Mat1i words(luma.size());
     for (int y = 0; y < luma.rows; ++y)
         for (int x = 0; x < luma.cols; ++x) {
-            std::uint32_t census = 0;
+            std::uint32_t census = 0, bit = 1;
             for (int dy = -3; dy <= 3; ++dy)
                 for (int dx = -4; dx <= 4; ++dx)
-                    if (is_census_neighbour(dx, dy))
-                        census = (census << 1) |
-                                 (at_edge_repeated(luma, x + dx, y + dy) >= luma(y, x) ? 1U : 0U);
+                    if (is_census_neighbour(dx, dy)) {
+                        if (at_edge_repeated(luma, x + dx, y + dy) >= luma(y, x)) census |= bit;
+                        bit <<= 1;
+                    }
             int gradient = 0;
             for (int dy = -1; dy <= 1; ++dy)
                 gradient += (dy == 0 ? 2 : 1) * (at_edge_repeated(luma, x + 1, y + dy) -

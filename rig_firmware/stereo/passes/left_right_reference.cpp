@@ -18,7 +18,9 @@ CheckedDisparity left_right_checked(const Winners& winners) {
             if (d > x) continue;
             const auto cost = static_cast<std::uint32_t>(winners.cost(y, x)) << 12;
             const std::uint32_t normalised = std::min(
-                cost / static_cast<std::uint32_t>(std::max(winners.weight(y, x), 1)), 0xffffU);
+                static_cast<std::uint32_t>(static_cast<float>(cost) /
+                                           static_cast<float>(std::max(winners.weight(y, x), 1))),
+                0xffffU);
             std::uint32_t& claim = claims[static_cast<std::size_t>(x - d)];
             claim = std::min(claim, (normalised << 16) | static_cast<std::uint32_t>(d));
         }

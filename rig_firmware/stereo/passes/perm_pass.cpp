@@ -17,9 +17,9 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
                            {{"VALID", std::to_string((disparities - 1) % slab_disparities + 1)}})),
       weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
       weight_columns_(Program::compute(library, "perm_weight.comp", {{"ALONG", "1"}})),
-      volume_(layout.pixels() * slab_disparities, GL_DYNAMIC_COPY),
-      down_(layout.pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
-      winners_(layout.pixels() * 8, GL_DYNAMIC_COPY),
+      volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
+      down_(layout.block_pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
+      winners_(layout.block_pixels() * 8, GL_DYNAMIC_COPY),
       weight_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
 
 void PermPass::run_line_pass(Program& program, int lines, int first_disparity) {
@@ -45,7 +45,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
             run_line_pass(rows_, row_lanes, first);
         });
         profiler.run(
-            "columns and winners", {pixels * (2 * 16 + 2 * 32 + 8 + 16), evaluations * 18}, [&] {
+            "columns and winners", {pixels * (16 + 2 * 32 + 8 + 16), evaluations * 15}, [&] {
                 features.permeability().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);

@@ -21,7 +21,7 @@ class PermPass {
 
     void run(PassProfiler& profiler, const FeaturePass& features);
 
-    /// uvec2 a pixel, see perm_columns.comp.
+    /// uvec2 a pixel in blocks (StereoLayout), see perm_columns.comp.
     const Buffer& winners() const { return winners_; }
     /// uint a pixel: what a pixel's sums are divided by before pixels are compared.
     const Buffer& weight() const { return weight_; }

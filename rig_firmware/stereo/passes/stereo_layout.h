@@ -5,21 +5,27 @@
 namespace vantage {
 
 /// Shape of the engine's buffers for a picture size. Per-pixel buffers have rows of stride_px (a
-/// multiple of 4, chosen so that the rows of a volume slab do not all start at the same place of a
-/// cache page); luma buffers hold four pixels a word, one word of repeated edge before each row and
-/// at least one behind.
+/// multiple of 4); luma buffers hold four pixels a word, one word of repeated edge before each row
+/// and at least one behind; what columns are walked in lies in blocks of 16 pixels' width, row
+/// under row, one block after the other (a walk down rows of a whole picture would miss the cache
+/// at every step).
 struct StereoLayout {
+    static constexpr int block_px = 16;
+
     int width_px, height_px;
 
-    int stride_px() const {
-        const int stride = (width_px + 3) / 4 * 4;
-        // A slab holds 32 bytes a pixel: rows that are near a multiple of 4096 bytes get pushed off
-        // it.
-        return stride % 128 < 4 || stride % 128 > 124 ? stride + 4 : stride;
-    }
+    int stride_px() const { return (width_px + 3) / 4 * 4; }
     int luma_row_words() const { return (width_px + 3) / 4 + 2; }
     std::size_t pixels() const {
         return static_cast<std::size_t>(stride_px()) * static_cast<std::size_t>(height_px);
+    }
+    /// Of a buffer in blocks.
+    std::size_t block_pixels() const {
+        return static_cast<std::size_t>((width_px + block_px - 1) / block_px * block_px) *
+               static_cast<std::size_t>(height_px);
+    }
+    std::size_t block_at(int x, int y) const {
+        return static_cast<std::size_t>((x / block_px * height_px + y) * block_px + x % block_px);
     }
     std::size_t luma_words() const {
         return static_cast<std::size_t>(luma_row_words()) * static_cast<std::size_t>(height_px);

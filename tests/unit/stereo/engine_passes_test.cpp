@@ -31,6 +31,17 @@ cv::Mat1i channel_of(const Buffer& buffer, const StereoLayout& layout, int chann
     return image;
 }
 
+/// Likewise of PermPass's winners, which lie in blocks.
+cv::Mat1i winners_channel(const Buffer& buffer, const StereoLayout& layout, std::size_t channel) {
+    std::vector<int> words(buffer.bytes() / 4);
+    buffer.read(0, std::as_writable_bytes(std::span(words)));
+    cv::Mat1i image(layout.height_px, layout.width_px);
+    for (int y = 0; y < image.rows; ++y)
+        for (int x = 0; x < image.cols; ++x)
+            image(y, x) = words[layout.block_at(x, y) * 2 + channel];
+    return image;
+}
+
 void expect_equal(const cv::Mat1i& a, const cv::Mat1i& b, const char* what) {
     ASSERT_EQ(a.size(), b.size());
     for (int y = 0; y < a.rows; ++y)
@@ -117,8 +128,8 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     const Winners winners =
         perm_winners(left_words, right_words, permeability, GetParam().disparities);
     expect_equal(channel_of(perm.weight(), layout_, 1, 0), winners.weight, "weight");
-    const cv::Mat1i best = channel_of(perm.winners(), layout_, 2, 0),
-                    beside = channel_of(perm.winners(), layout_, 2, 1);
+    const cv::Mat1i best = winners_channel(perm.winners(), layout_, 0),
+                    beside = winners_channel(perm.winners(), layout_, 1);
     expect_equal(bits_of(best, 12, 8), winners.disparity, "disparity");
     expect_equal(bits_of(best, 20, 12), winners.cost, "cost");
     expect_equal(bits_of(beside, 12, 12), winners.cost_before, "cost before");
@@ -193,7 +204,7 @@ TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
                mu_buffer = Buffer::of<std::uint32_t>(mu);
     std::vector<std::vector<std::uint32_t>> slabs;
     for (const int lanes : {0, 1}) {
-        const Buffer volume(layout.pixels() * 16, GL_DYNAMIC_COPY);
+        const Buffer volume(layout.block_pixels() * 16, GL_DYNAMIC_COPY);
         Program program =
             Program::compute(library, "perm_rows.comp", {{"LANE_MAPPING", std::to_string(lanes)}});
         program.use();
@@ -210,10 +221,11 @@ TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
         volume.read(0, std::as_writable_bytes(std::span(slab)));
     }
     for (int y = 0; y < layout.height_px; ++y)
-        for (int i = 0; i < layout.width_px * 4; ++i) {
-            const auto at = static_cast<std::size_t>(y * layout.stride_px() * 4 + i);
-            ASSERT_EQ(slabs[0][at], slabs[1][at]) << "word " << i << " of row " << y;
-        }
+        for (int x = 0; x < layout.width_px; ++x)
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::size_t at = layout.block_at(x, y) * 4 + i;
+                ASSERT_EQ(slabs[0][at], slabs[1][at]) << "word " << i << " of " << x << ", " << y;
+            }
 }
 
 }  // namespace
