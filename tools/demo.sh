@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Plays the demo stage: four rigs, each a process of its own, and the host, over authenticated sockets on loopback.
-#   tools/demo.sh [--headless] [--seconds N] [--files LEFT RIGHT]
+#   tools/demo.sh [--headless] [--seconds N] [--json] [--files LEFT RIGHT]
 # Keys, configurations and logs go to out/demo/, results to out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-headless=false seconds=12 left= right=
+headless=false seconds=12 json=() left= right=
 while [ $# -gt 0 ]; do
   case "$1" in
     --headless) headless=true; shift ;;
     --seconds) seconds=$2; shift 2 ;;
+    --json) json=(--json); shift ;;
     --files) left=$2 right=$3; shift 3 ;;
     *) echo "demo.sh: '$1' is not an option" >&2; exit 2 ;;
   esac
@@ -148,11 +149,9 @@ echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs a
 
 live=(live --stage "$demo/stage.toml")
 if $headless; then
-  "$bin/vantage" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" --path "$move" \
+  "$bin/vantage" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
-  echo
-  echo "The flight:        out/flight.mkv"
-  echo "Its contact sheet: out/contact_sheet.png"
+  [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 else
   "$bin/vantage" "${live[@]}" --path "$move"
 fi
