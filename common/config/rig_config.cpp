@@ -39,6 +39,35 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("doffs_px", rig.doffs_px, {-4096, 4096});
 }
 
+void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {
+    constexpr double second_us = 1e6;
+    table.read_choice("role", trigger.role, {"lead", "follow", "free"});
+    table.read("chip", trigger.chip);
+    table.read("line", trigger.line);
+    table.read("line_offset", trigger.line_offset, {0, 4096});
+    table.read("active_low", trigger.active_low);
+    table.read("pretended", trigger.pretended);
+    table.read_choice("start", trigger.start, {"host", "at_once"});
+    table.read("sensor", trigger.sensor);
+    table.read("exposure_us", trigger.exposure_us, {1, second_us});
+    table.read("exposure_offset_us", trigger.exposure_offset_us, {0, second_us});
+    table.read("readout_us", trigger.readout_us, {0, second_us});
+    table.read("timestamp_delay_us", trigger.timestamp_delay_us, {0, second_us});
+    table.read("late_limit_us", trigger.late_limit_us, {1, second_us});
+    table.read("spin_us", trigger.spin_us, {0, second_us / 100});
+    table.read("realtime_priority", trigger.realtime_priority, {0, 99});
+    if (!trigger.line.empty() && trigger.line_offset >= 0)
+        table.refuse("line_offset", "is given beside 'line': name the line one way");
+    const bool has_line = !trigger.line.empty() || trigger.line_offset >= 0;
+    if (trigger.role == "free" || (trigger.pretended && trigger.role == "lead")) return;
+    if (trigger.pretended)
+        table.refuse("pretended", "goes with the role 'lead' only: there is no edge to follow");
+    if (trigger.chip.empty() || !has_line)
+        table.refuse("role",
+                     "needs 'chip', the label of a GPIO chip, and 'line' or 'line_offset' "
+                     "(vantage-rig probe lists them)");
+}
+
 void read_match(TomlTable& table, RigConfig::Match& match) {
     table.read("matcher", match.matcher);
     table.read_choice("preset", match.preset, {"fast", "balanced", "quality"});
@@ -65,6 +94,7 @@ RigConfig load_rig_config(const std::filesystem::path& path) {
         top.read_table("source", [&](TomlTable& t) { read_source(t, config.source); });
         top.read_table("virtual_rig",
                        [&](TomlTable& t) { read_virtual_rig(t, config.virtual_rig); });
+        top.read_table("trigger", [&](TomlTable& t) { read_trigger(t, config.trigger); });
         top.read_table("match", [&](TomlTable& t) { read_match(t, config.match); });
         top.read_table("stream", [&](TomlTable& t) { read_stream(t, config.stream); });
     });

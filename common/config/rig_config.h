@@ -44,6 +44,23 @@ struct RigConfig {
         double doffs_px = 0;  ///< cx_right - cx_left; files only
     } virtual_rig;
 
+    struct Trigger {
+        std::string role = "free";         ///< lead | follow | free
+        std::string chip = "", line = "";  ///< label of the GPIO chip, name of its line
+        int line_offset = -1;              ///< in place of a name
+        bool active_low = true;            ///< a pulse is the low level
+        bool pretended = false;            ///< no line: the timing only
+        std::string start = "host";        ///< lead: host | at_once
+        std::string sensor = "other";      ///< model, for the two below where they are not given
+        double exposure_us = 5000;
+        double exposure_offset_us = -1;  ///< exposure less pulse width; below 0: the model's
+        double readout_us = -1;          ///< below 0: the model's
+        double timestamp_delay_us = -1;  ///< sensor time less pulse; below 0: the exposure
+        double late_limit_us = 1000;     ///< a pulse later than this is skipped
+        double spin_us = 0;              ///< busy waiting before every edge
+        int realtime_priority = 60;      ///< SCHED_FIFO; 0: none
+    } trigger;
+
     struct Match {
         std::string
             matcher;  ///< empty: the preset's default; "exact": the virtual stage's own depth

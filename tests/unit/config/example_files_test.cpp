@@ -45,6 +45,12 @@ TEST(ExampleFiles, LoadAndShowTheDefaults) {
     EXPECT_EQ(rig.source.width_px, defaults.source.width_px);
     EXPECT_EQ(rig.virtual_rig.distance_m, defaults.virtual_rig.distance_m);
     EXPECT_EQ(rig.virtual_rig.baseline_m, defaults.virtual_rig.baseline_m);
+    EXPECT_EQ(rig.trigger.role, defaults.trigger.role);
+    EXPECT_EQ(rig.trigger.active_low, defaults.trigger.active_low);
+    EXPECT_EQ(rig.trigger.start, defaults.trigger.start);
+    EXPECT_EQ(rig.trigger.exposure_us, defaults.trigger.exposure_us);
+    EXPECT_EQ(rig.trigger.late_limit_us, defaults.trigger.late_limit_us);
+    EXPECT_EQ(rig.trigger.realtime_priority, defaults.trigger.realtime_priority);
     EXPECT_EQ(rig.match.disparities, defaults.match.disparities);
     EXPECT_EQ(rig.match.preset, defaults.match.preset);
     EXPECT_EQ(rig.stream.bind, defaults.stream.bind);
@@ -62,7 +68,8 @@ TEST(ExampleFiles, ShowEveryKeyThatIsRead) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "x.toml";
     const std::string unknown = "xxxxxxxxxxxxxxxx = 1\n";
-    for (const char* table : {"", "[source]\n", "[virtual_rig]\n", "[match]\n", "[stream]\n"}) {
+    for (const char* table :
+         {"", "[source]\n", "[trigger]\n", "[virtual_rig]\n", "[match]\n", "[stream]\n"}) {
         std::ofstream(file) << "version = 1\nname = 'a'\n" << table << unknown;
         const auto keys = known_keys(thrown_sentence([&] { load_rig_config(file); }));
         ASSERT_GE(keys.size(), 4u) << table;

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/data_folder.h"
@@ -117,7 +118,7 @@ TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
               "rig.toml:3: there is no key 'sauce'; the nearest is 'source'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n\nwheels = 4\n"),
               "rig.toml:4: there is no key 'wheels'; the ones there are: version, name, "
-              "calibration, source, virtual_rig, match, stream");
+              "calibration, source, virtual_rig, trigger, match, stream");
 }
 
 TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
@@ -192,6 +193,19 @@ TEST_F(RigConfigTest, RefusesWhatIsNoFile) {
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path() / "none.toml"); }), "");
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path()); }), "");
     EXPECT_NE(fault("#" + std::string(2 << 20, 'x')), "");
+}
+
+TEST_F(RigConfigTest, WantsALineForATriggerThatUsesOne) {
+    const std::string top = "version = 1\nname = 'a'\n[trigger]\n";
+    EXPECT_EQ(load(top + "role = 'lead'\nchip = 'c'\nline = 'GPIO17'\n").trigger.line, "GPIO17");
+    EXPECT_EQ(load(top + "role = 'follow'\nchip = 'c'\nline_offset = 4\n").trigger.line_offset, 4);
+    EXPECT_TRUE(load(top + "role = 'lead'\npretended = true\n").trigger.pretended);
+    EXPECT_THAT(fault(top + "role = 'lead'\n"), testing::HasSubstr("needs 'chip'"));
+    EXPECT_THAT(fault(top + "role = 'follow'\nchip = 'c'\n"), testing::HasSubstr("'line_offset'"));
+    EXPECT_THAT(fault(top + "role = 'follow'\npretended = true\n"),
+                testing::HasSubstr("no edge to follow"));
+    EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("one way"));
+    EXPECT_THAT(fault(top + "role = 'led'\n"), testing::HasSubstr("lead"));
 }
 
 }  // namespace

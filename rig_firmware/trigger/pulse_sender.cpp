@@ -1,0 +1,184 @@
+#include "rig_firmware/trigger/pulse_sender.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <pthread.h>
+
+#include "common/base/error.h"
+#include "common/base/pulse_grid.h"
+#include "rig_firmware/trigger/pulse_line.h"
+#include "rig_firmware/trigger/pulse_schedule.h"
+#include "rig_firmware/trigger/realtime.h"
+#include "rig_firmware/trigger/sensor_timing.h"
+
+namespace vantage {
+namespace {
+
+/// Longest single sleep: how fast a stop, or a clock that was set, is noticed.
+constexpr std::chrono::milliseconds sleep_slice{50};
+
+std::chrono::nanoseconds from_us(double us) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double, std::micro>(us));
+}
+
+double to_us(std::chrono::nanoseconds time) {
+    return std::chrono::duration<double, std::micro>(time).count();
+}
+
+}  // namespace
+
+struct PulseSender::Impl {
+    Impl(const RigConfig::Trigger& trigger, double rate_hz)
+        : timing(sensor_timing(trigger, rate_hz)),
+          spin(from_us(trigger.spin_us)),
+          priority(trigger.realtime_priority),
+          line(open_pulse_line(trigger)),
+          schedule(PulseGrid(rate_hz), from_us(trigger.late_limit_us)) {}
+
+    /// False if the sending is to end, or the clock was set back before the deadline.
+    bool wait_until(TaiTime deadline) const {
+        TaiTime now = TaiClock::now();
+        const TaiTime begun = now;
+        while (deadline - now > spin) {
+            if (stopping || now < begun - sleep_slice) return false;
+            sleep_until(std::min(deadline - spin, now + std::chrono::nanoseconds(sleep_slice)));
+            now = TaiClock::now();
+        }
+        while (now < deadline) now = TaiClock::now();
+        return !stopping;
+    }
+
+    void run(std::promise<std::vector<std::string>> realtime) {
+        ::pthread_setname_np(::pthread_self(), "pulses");
+        realtime.set_value(become_realtime(priority));
+        try {
+            send_all();
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            failure = std::current_exception();
+        }
+    }
+
+    void send_all() {
+        {
+            std::unique_lock lock(mutex);
+            go.wait(lock, [&] { return stopping || first.has_value(); });
+        }
+        while (!stopping) {
+            const std::uint64_t index = [&] {
+                const std::lock_guard lock(mutex);
+                return schedule.next(TaiClock::now(), *first);
+            }();
+            if (wait_until(schedule.time_of(index))) send_one(index);
+        }
+    }
+
+    void send_one(std::uint64_t index) {
+        const TaiTime awake = TaiClock::now();
+        {
+            const std::lock_guard lock(mutex);
+            if (!schedule.send(index, awake)) return;
+        }
+        line->set(true);
+        const TaiTime begun = TaiClock::now();
+        const TaiTime end = begun + timing.pulse_width();
+        // A pulse that has begun is ended in time, whatever else is to stop.
+        sleep_until(end - spin);
+        while (TaiClock::now() < end) {
+        }
+        line->set(false);
+        const TaiTime ended = TaiClock::now();
+        const std::lock_guard lock(mutex);
+        last_index = index;
+        lateness_us.add(to_us(begun - schedule.time_of(index)));
+        width_error_us.add(to_us(ended - end));
+    }
+
+    const SensorTiming timing;
+    const std::chrono::nanoseconds spin;
+    const int priority;
+    std::unique_ptr<PulseLine> line;
+    std::vector<std::string> realtime_report;
+
+    mutable std::mutex mutex;
+    std::condition_variable go;
+    PulseSchedule schedule;
+    std::optional<std::uint64_t> first;
+    std::uint64_t last_index = 0;
+    PercentileRecorder lateness_us, width_error_us;
+    std::exception_ptr failure;
+
+    std::atomic<bool> stopping = false;
+    std::thread thread;
+};
+
+PulseSender::PulseSender(const RigConfig::Trigger& trigger, double rate_hz)
+    : impl_(std::make_unique<Impl>(trigger, rate_hz)) {
+    std::promise<std::vector<std::string>> realtime;
+    std::future<std::vector<std::string>> report = realtime.get_future();
+    impl_->thread = std::thread(
+        [impl = impl_.get(), p = std::move(realtime)]() mutable { impl->run(std::move(p)); });
+    impl_->realtime_report = report.get();
+}
+
+PulseSender::~PulseSender() { stop(); }
+
+void PulseSender::start(std::uint64_t first) {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->first = first;
+    }
+    impl_->go.notify_all();
+}
+
+bool PulseSender::started() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->first.has_value();
+}
+
+void PulseSender::stop() {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->stopping = true;
+    }
+    impl_->go.notify_all();
+    if (impl_->thread.joinable()) impl_->thread.join();
+}
+
+PulseStatus PulseSender::status() const {
+    const std::lock_guard lock(impl_->mutex);
+    return {.sent = impl_->schedule.sent(),
+            .skipped = impl_->schedule.skipped(),
+            .clock_steps = impl_->schedule.clock_steps(),
+            .last_index = impl_->last_index,
+            .lateness_us = impl_->lateness_us.summary(),
+            .width_error_us = impl_->width_error_us.summary()};
+}
+
+void PulseSender::rethrow_failure() const {
+    std::exception_ptr failure;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        failure = impl_->failure;
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<std::string> PulseSender::report() const {
+    std::vector<std::string> lines = {
+        fmt::format("pulses of {:.2f} us on {}: {:.2f} us of exposure, {:.2f} us of readout",
+                    to_us(impl_->timing.pulse_width()), impl_->line->text(),
+                    to_us(impl_->timing.exposure), to_us(impl_->timing.readout))};
+    lines.insert(lines.end(), impl_->realtime_report.begin(), impl_->realtime_report.end());
+    return lines;
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+#include "rig_firmware/trigger/realtime.h"
+
+#include <cstring>
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+namespace vantage {
+
+std::vector<std::string> become_realtime(int priority) {
+    std::vector<std::string> report;
+    if (priority == 0) {
+        report.emplace_back("pulses run without real-time priority, as configured");
+    } else {
+        const sched_param wish{.sched_priority = priority};
+        const int refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wish);
+        report.push_back(
+            refused == 0
+                ? fmt::format("pulses run with SCHED_FIFO priority {}", priority)
+                : fmt::format("pulses run without real-time priority ({}): give the program "
+                              "CAP_SYS_NICE or raise the limit rtprio, or they will be late",
+                              std::strerror(refused)));
+    }
+    // On the fault only what is touched is locked: all that is mapped would not fit the limit.
+    const bool is_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
+    report.push_back(is_locked ? std::string("memory is locked")
+                               : fmt::format("memory is not locked ({}): raise the limit memlock, "
+                                             "or pulses may wait for pages",
+                                             std::strerror(errno)));
+    return report;
+}
+
+}  // namespace vantage

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "common/config/rig_config.h"
+
+namespace vantage {
+
+/// What a triggered sensor makes of a pulse. It exposes from the pulse's leading edge for the
+/// pulse's width and `exposure_offset` more, then reads out; a pulse during either is lost or
+/// spoils the frame, so that both have to fit into a period.
+struct SensorTiming {
+    std::chrono::nanoseconds exposure{};
+    std::chrono::nanoseconds exposure_offset{};
+    std::chrono::nanoseconds readout{};
+    std::chrono::nanoseconds timestamp_delay{};  ///< from the pulse to the driver's time stamp
+
+    std::chrono::nanoseconds pulse_width() const { return exposure - exposure_offset; }
+    std::chrono::nanoseconds exposure_centre() const { return exposure / 2; }
+};
+
+/// The timing that the configuration asks for, with the model's own values where it gives none.
+/// Throws Error for a model that is not known, an exposure that the sensor cannot be pulsed for,
+/// and, with the numbers, for exposure and readout that do not fit into a period of `rate_hz`.
+SensorTiming sensor_timing(const RigConfig::Trigger& trigger, double rate_hz);
+
+}  // namespace vantage
