@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/rig_config.h"
-#include "rig_firmware/capture/clock_pair.h"
+#include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/capture/frame_pairer.h"
 #include "rig_firmware/capture/pulse_numberer.h"
 #include "rig_firmware/capture/sequence_gaps.h"

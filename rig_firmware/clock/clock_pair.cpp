@@ -1,4 +1,4 @@
-#include "rig_firmware/capture/clock_pair.h"
+#include "rig_firmware/clock/clock_pair.h"
 
 namespace vantage {
 
