@@ -20,6 +20,7 @@ if ! command -v apt-get >/dev/null; then
 fi
 
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+architecture=$(dpkg --print-architecture)
 declare -A version
 while read -r name status v; do
   [ "$status" = installed ] && version[$name]=$v
@@ -29,6 +30,7 @@ missing=() missing_backports=()
 while read -r name flags; do
   case "$name" in '' | '#'*) continue ;; esac
   case " $flags " in *' test '*) [ "$purpose" = test ] || continue ;; esac
+  case " $flags " in *' amd64 '*) [ "$architecture" = amd64 ] || continue ;; esac
   have=${version[$name]:-}
   case " $flags " in
     *' backports '*)

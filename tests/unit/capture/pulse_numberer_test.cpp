@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/capture/clock_pair.h"
+#include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/capture/sequence_gaps.h"
 
 namespace vantage {

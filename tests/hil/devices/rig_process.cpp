@@ -1,0 +1,50 @@
+#include "tests/hil/devices/rig_process.h"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+
+#include "common/base/error.h"
+#include "common/config/stage_config.h"
+#include "host_app/receive/stage_receiver.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::seconds longest_wait{90};
+
+StageConfig stage_of(const std::string& endpoint) {
+    StageConfig stage;
+    stage.rigs.push_back({.name = "rig", .endpoint = endpoint, .public_key = {}});
+    return stage;
+}
+
+}  // namespace
+
+struct RigProcess::Receiver {
+    explicit Receiver(const StageConfig& stage) : stage_receiver(stage) {}
+    StageReceiver stage_receiver;
+};
+
+RigProcess::RigProcess(const std::string& parts) : endpoint_("tcp://127.0.0.1:5690") {
+    const std::filesystem::path config = folder_.path() / "rig.toml";
+    std::ofstream(config) << "version = 1\nname = \"rig\"\n"
+                          << parts << "[stream]\nbind = \"" << endpoint_ << "\"\n";
+    program_ = std::make_unique<ChildProgram>(
+        VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", config.string(), "--json"},
+        folder_.path());
+    receiver_ = std::make_shared<Receiver>(stage_of(endpoint_));
+}
+
+std::shared_ptr<const RigFrame> RigProcess::next_frame() {
+    if (const auto set = receiver_->stage_receiver.next(longest_wait))
+        if (set->slots[0].frame) return set->slots[0].frame;
+    fail("no frame of the rig came within {} s; it said: {}", longest_wait.count(), log());
+}
+
+std::string RigProcess::stop() {
+    program_->send_signal(SIGTERM);
+    return program_->wait().out;
+}
+
+}  // namespace vantage

@@ -1,0 +1,80 @@
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/error.h"
+#include "common/config/calibration_file.h"
+#include "rig_firmware/capture/rig_calibration.h"
+#include "tests/hil/devices/rig_process.h"
+#include "tests/hil/devices/vivid_loop.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+const cv::Size sensor_size(640, 480);
+
+/// A grey picture of the data set, mirrored at its borders to the sensors' size.
+cv::Mat sensor_picture(const std::filesystem::path& file) {
+    const cv::Mat grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+    if (grey.empty()) fail("{} cannot be read", file.string());
+    cv::Mat picture;
+    cv::copyMakeBorder(grey, picture, 0, sensor_size.height - grey.rows, 0,
+                       sensor_size.width - grey.cols, cv::BORDER_REFLECT);
+    return picture;
+}
+
+/// Two vivid cameras that see teddy, and the same pictures as files.
+class TeddyOnVivid : public testing::Test {
+  protected:
+    void SetUp() override {
+        VANTAGE_REQUIRE_DATA(data);
+        left_ = sensor_picture(data / "middlebury2003/teddy/im2.png");
+        right_ = sensor_picture(data / "middlebury2003/teddy/im6.png");
+        cv::imwrite(file("left.png"), left_);
+        cv::imwrite(file("right.png"), right_);
+        save_calibration(file("rig.yaml"), ideal_rig(RigConfig{}, sensor_size), {});
+    }
+
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    std::string parts(const std::string& source) const {
+        return "calibration = \"" + file("rig.yaml") + "\"\n[source]\n" + source +
+               "[match]\npreset = \"fast\"\ndisparities = 64\n";
+    }
+    std::string files_source() const {
+        return "kind = \"files\"\nrate_hz = 2\nleft = \"" + file("left.png") + "\"\nright = \"" +
+               file("right.png") + "\"\n";
+    }
+    static std::string cameras_source() {
+        return "kind = \"v4l2\"\nrate_hz = 10\nwidth_px = 640\nheight_px = 480\n"
+               "left_device = \"/dev/video10\"\nright_device = \"/dev/video12\"\n"
+               "pixel_format = \"GREY\"\n";
+    }
+
+    TemporaryFolder folder_;
+    cv::Mat left_, right_;
+};
+
+TEST_F(TeddyOnVivid, HasTheDisparityThatTheFilesHave) {
+    DisparityImage from_files;
+    {
+        RigProcess rig(parts(files_source()));
+        from_files = rig.next_frame()->disparity;
+    }
+    const VividLoop left("/dev/video10", "/dev/video11", left_);
+    const VividLoop right("/dev/video12", "/dev/video13", right_);
+    RigProcess rig(parts(cameras_source()));
+    const auto frame = rig.next_frame();
+    ASSERT_EQ(frame->disparity.size(), from_files.size());
+    EXPECT_GT(cv::countNonZero(from_files), static_cast<int>(from_files.total() / 2));
+    EXPECT_EQ(cv::norm(frame->disparity, from_files, cv::NORM_L1), 0);
+    const nlohmann::json summary = nlohmann::json::parse(rig.stop());
+    EXPECT_EQ(summary["source"]["damaged"], 0) << summary;
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Makes what the virtual machine boots: Debian's kernel (unpacked, not installed), its gpio-sim module, a small
+# initramfs. What is there already for the same kernel and sources is kept.
+#   prepare.sh WORK
+# Exits 77 with one line "SKIPPED: reason" where this computer lacks what it takes; with VANTAGE_HIL_REQUIRED in the
+# environment that is a failure.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+work=${1:?prepare.sh WORK}
+mkdir -p "$work"
+cd "$work"
+
+skip() {
+  if [ -n "${VANTAGE_HIL_REQUIRED:-}" ]; then
+    echo "hil: $1" >&2
+    exit 1
+  fi
+  echo "SKIPPED: $1"
+  exit 77
+}
+[ "$(uname -m)" = x86_64 ] || skip "the virtual machine runs x86_64 programs only, and this computer is $(uname -m)"
+for tool in qemu-system-x86_64:qemu-system-x86 busybox:busybox-static cpio:cpio /sbin/modprobe:kmod xz:xz-utils make:make; do
+  command -v "${tool%%:*}" >/dev/null || skip "${tool%%:*} is missing (package ${tool#*:}; ./test installs it)"
+done
+headers=$(find /usr/src -maxdepth 1 -name 'linux-headers-*-amd64' | sort -V | tail -1)
+[ -n "$headers" ] || skip "there are no kernel headers (package linux-headers-amd64; ./test installs it)"
+release=${headers#/usr/src/linux-headers-}
+source=$(find /usr/src -maxdepth 1 -name 'linux-source-*.tar.xz' | sort -V | tail -1)
+[ -n "$source" ] || skip "there is no kernel source (package linux-source; ./test installs it)"
+
+stamp="$release $(cat "$here"/prepare.sh "$here"/guest/initramfs_init "$here"/gpio_sim/* | cksum)"
+[ "$(cat stamp 2>/dev/null)" != "$stamp" ] || exit 0
+rm -rf stamp kernel source gpio_sim initramfs
+
+image=$(find . -maxdepth 1 -name "linux-image-$release*_amd64.deb" | head -1)
+if [ -z "$image" ]; then
+  apt-get -qq download "linux-image-$release" 2>download.log ||
+    skip "the kernel linux-image-$release cannot be had: $(grep -v '^W:' download.log | tail -1)"
+  image=$(find . -maxdepth 1 -name "linux-image-$release*_amd64.deb" | head -1)
+fi
+dpkg-deb -x "$image" kernel
+
+name=$(basename "$source" .tar.xz)
+mkdir source
+xz -T0 -dc "$source" | tar x -C source --strip-components=1 "$name/drivers/gpio/gpio-sim.c" "$name/drivers/gpio/gpiolib.h" \
+  "$name/kernel/irq/irq_sim.c" "$name/scripts/extract-vmlinux"
+
+# QEMU starts the bare ELF kernel by PVH, which saves seconds of unpacking under emulation.
+sh source/scripts/extract-vmlinux "kernel/boot/vmlinuz-$release" >vmlinux
+
+cp -r "$here/gpio_sim" gpio_sim
+cp source/drivers/gpio/gpiolib.h source/kernel/irq/irq_sim.c gpio_sim/
+{
+  echo 'struct gpio_chip;'
+  echo 'static void gpio_sim_set_wired(struct gpio_chip *gc, unsigned int offset, int value);'
+  echo 'static void gpio_sim_set_multiple_wired(struct gpio_chip *gc, unsigned long *mask, unsigned long *bits);'
+  echo 'static int gpio_sim_direction_output_wired(struct gpio_chip *gc, unsigned int offset, int value);'
+  sed -E 's/(gc->(set|set_multiple|direction_output) = gpio_sim_[a-z_]+);/\1_wired;/' source/drivers/gpio/gpio-sim.c
+  echo '#include "wires.h"'
+} >gpio_sim/gpio_sim.c
+[ "$(grep -c '_wired;$' gpio_sim/gpio_sim.c)" -eq 3 ] ||
+  skip "gpio-sim of $name is not as expected: its callbacks could not be wired"
+make -s -C "$headers" M="$PWD/gpio_sim" modules >gpio_sim.log 2>&1 || {
+  cat gpio_sim.log >&2
+  skip "gpio-sim of $name does not build against the headers of $release"
+}
+mkdir -p "kernel/lib/modules/$release/updates"
+cp gpio_sim/gpio-sim-wired.ko "kernel/lib/modules/$release/updates/"
+/sbin/depmod -b kernel "$release"
+
+mkdir -p initramfs/{bin,dev,proc,sys,host,layer,root,modules}
+cp "$(command -v busybox)" initramfs/bin/busybox
+install -m 755 "$here/guest/initramfs_init" initramfs/init
+number=10
+for module in virtio_pci 9pnet_virtio 9p overlay; do
+  /sbin/modprobe -d kernel -S "$release" --show-depends "$module" | awk '$1 == "insmod" {print $2}'
+done | awk '!seen[$0]++' >modules.list
+while read -r module; do
+  target=initramfs/modules/$number-$(basename "${module%.xz}")
+  case $module in *.xz) xz -dc "$module" >"$target" ;; *) cp "$module" "$target" ;; esac
+  number=$((number + 1))
+done <modules.list
+(cd initramfs && find . | cpio -o -H newc --quiet | gzip -1) >initrd.img
+echo "$release" >release
+echo "$stamp" >stamp
