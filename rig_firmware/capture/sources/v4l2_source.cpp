@@ -7,13 +7,13 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/rig_config.h"
-#include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/capture/frame_pairer.h"
 #include "rig_firmware/capture/pulse_numberer.h"
 #include "rig_firmware/capture/sequence_gaps.h"
 #include "rig_firmware/capture/stereo_material.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "rig_firmware/capture/v4l2/v4l2_camera.h"
+#include "rig_firmware/clock/clock_pair.h"
 
 namespace vantage {
 namespace {

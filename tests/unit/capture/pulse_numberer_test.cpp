@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/capture/sequence_gaps.h"
+#include "rig_firmware/clock/clock_pair.h"
 
 namespace vantage {
 namespace {
