@@ -117,13 +117,13 @@ struct Entry {
 };
 
 json parse_json(const std::filesystem::path& path) {
-    json document = json::parse(read_text(path), nullptr, false);
-    if (document.is_discarded()) {
-        try {
-            document = json::parse(read_text(path));
-        } catch (const json::parse_error& error) {
-            fail("{} is not JSON (near byte {}); correct it there", path.string(), error.byte);
-        }
+    json document;
+    try {
+        document = json::parse(read_text(path));
+    } catch (const json::parse_error& error) {
+        fail("{} is not JSON (near byte {}); correct it there", path.string(), error.byte);
+    } catch (const json::out_of_range&) {
+        fail("{} holds a number beyond what a double can hold", path.string());
     }
     if (!document.is_object()) fail("{} must hold one JSON object", path.string());
     return document;
@@ -138,6 +138,8 @@ json parse_toml(const std::filesystem::path& path) {
     } catch (const toml::parse_error& error) {
         fail("{} is not TOML (line {}): {}", path.string(), error.source().begin.line,
              error.description());
+    } catch (const json::exception&) {
+        fail("{} holds a number that is not finite", path.string());
     }
 }
 

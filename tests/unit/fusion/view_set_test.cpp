@@ -142,7 +142,8 @@ TEST_F(ViewSetTest, RefusesWrongValuesByKeyAndView) {
 TEST_F(ViewSetTest, RefusesWhatIsNoViewSet) {
     for (const char* text : {"", "{", "[]", "7", "{\"version\":2,\"views\":[]}", "{\"version\":1}",
                              "{\"version\":1,\"views\":[]}", "{\"version\":1,\"views\":[3]}",
-                             "{\"version\":1,\"views\":{}}", "{\"version\":\"1\",\"views\":[]}"}) {
+                             "{\"version\":1,\"views\":{}}", "{\"version\":\"1\",\"views\":[]}",
+                             "{\"version\":1e999}"}) {
         std::ofstream(path("views.json")) << text;
         EXPECT_THROW(load_view_set(folder_.path()), Error) << text;
     }
@@ -199,6 +200,8 @@ TEST_F(ViewSetTest, RefusesPosesThatCannotBe) {
         EXPECT_THROW(load_virtual_view(path("p.json")), Error) << text;
     }
     std::ofstream(path("p.toml")) << "width = = 3\n";
+    EXPECT_THROW(load_virtual_view(path("p.toml")), Error);
+    std::ofstream(path("p.toml")) << "width = inf\nheight = nan\n";
     EXPECT_THROW(load_virtual_view(path("p.toml")), Error);
 }
 
