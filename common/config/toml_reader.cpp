@@ -49,6 +49,12 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 bool TomlTable::has(std::string_view key) const { return table_->contains(key); }
 
+std::vector<std::string> TomlTable::keys() const {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : *table_) names.emplace_back(name.str());
+    return names;
+}
+
 std::string TomlTable::place(std::string_view key) const {
     const auto entry = table_->find(key);
     const toml::source_region& region =
@@ -143,6 +149,27 @@ void TomlTable::read(std::string_view key, std::map<std::string, int>& values) {
     });
 }
 
+void TomlTable::read(std::string_view key, std::vector<std::string>& values) {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    if (!array) refuse_type(key, *node, "an array of strings");
+    values.clear();
+    for (const toml::node& element : *array) {
+        if (!element.is_string()) refuse_type(key, element, "an array of strings");
+        values.push_back(element.as_string()->get());
+    }
+}
+
+void TomlTable::read_named_tables(
+    std::string_view key,
+    const std::function<void(const std::string& name, TomlTable&)>& read_members) {
+    read_table(key, [&](TomlTable& tables) {
+        for (const std::string& name : tables.keys())
+            tables.read_table(name, [&](TomlTable& table) { read_members(name, table); });
+    });
+}
+
 void TomlTable::read(std::string_view key, std::filesystem::path& value) {
     std::string text;
     read(key, text);
@@ -201,10 +228,15 @@ void TomlTable::finish() const {
 void read_toml_file(const std::filesystem::path& path, int version,
                     const std::function<void(TomlTable&)>& read_members) {
     const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
+    read_toml_text(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                   path, version, read_members);
+}
+
+void read_toml_text(std::string_view text, const std::filesystem::path& path, int version,
+                    const std::function<void(TomlTable&)>& read_members) {
     toml::table parsed;
     try {
-        parsed = toml::parse(
-            std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        parsed = toml::parse(text);
     } catch (const toml::parse_error& error) {
         fail("{}:{}: this is not TOML: {}", path.string(), error.source().begin.line,
              error.description());

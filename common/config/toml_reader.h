@@ -39,6 +39,8 @@ class TomlTable {
     void read(std::string_view key, std::span<double> values, Range<double> range = {});
     /// A table of names and integers, whatever the names.
     void read(std::string_view key, std::map<std::string, int>& values);
+    /// An array of strings.
+    void read(std::string_view key, std::vector<std::string>& values);
     /// A path; a relative one is relative to the folder of the file.
     void read(std::string_view key, std::filesystem::path& value);
     /// A string that is one of `choices`.
@@ -48,9 +50,15 @@ class TomlTable {
     /// After read(): the key must be there.
     void require(std::string_view key);
     bool has(std::string_view key) const;
+    /// Of a table whose keys are whatever the file names.
+    std::vector<std::string> keys() const;
 
     /// A table of this table; read_members is called only if the file has it.
     void read_table(std::string_view key, const std::function<void(TomlTable&)>& read_members);
+    /// Every table of a table of tables, [key.NAME], whatever the names, in their order.
+    void read_named_tables(
+        std::string_view key,
+        const std::function<void(const std::string& name, TomlTable&)>& read_members);
     /// Every table of an array of tables, in the file's order.
     void read_tables(std::string_view key, const std::function<void(TomlTable&)>& read_members);
 
@@ -80,6 +88,10 @@ class TomlTable {
 /// Reads a TOML file whose top has `version = VERSION`. Throws Error if it is missing, larger than
 /// 1 MiB, not TOML, of another version, or if read_members leaves a key of it unread.
 void read_toml_file(const std::filesystem::path& path, int version,
+                    const std::function<void(TomlTable&)>& read_members);
+
+/// The same for a text in memory; `name` stands for the file in what is refused.
+void read_toml_text(std::string_view text, const std::filesystem::path& name, int version,
                     const std::function<void(TomlTable&)>& read_members);
 
 }  // namespace vantage

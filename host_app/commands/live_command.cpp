@@ -18,10 +18,11 @@ namespace vantage {
 namespace {
 
 struct LiveOptions {
-    std::string stage, path, snapshot, film, contact_sheet, size, synthesiser;
+    std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10;
     bool headless = false, json = false;
+    std::optional<bool> jog;  ///< default: with a window
 };
 
 /// "1280x720", each side 16..4096.
@@ -62,16 +63,24 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
     return settings;
 }
 
+std::unique_ptr<JogDeck> make_deck(const LiveOptions& options) {
+    if (!options.jog.value_or(!options.headless)) return nullptr;
+    return std::make_unique<JogDeck>(make_system_jog_bus(), load_wheel_profiles(options.wheels));
+}
+
 /// What a session with a window and one without have in common.
 class Show {
   public:
     Show(const LiveOptions& options, const StageConfig& stage, const ShaderLibrary& shaders)
         : options_(options),
           settings_(live_settings(options, stage)),
+          deck_(make_deck(options)),
           receiver_(stage),
           session_(settings_, shaders, feed_of(receiver_)) {}
 
     LiveSession& session() { return session_; }
+    /// Null: no wheel flies.
+    JogDeck* deck() { return deck_.get(); }
     double rate_hz() const { return settings_.rate_hz; }
 
     /// Ends the files, prints the summary. Returns how many pictures there were.
@@ -79,6 +88,7 @@ class Show {
         session_.finish();
         LiveReport report = session_.report();
         report.skipped_ticks = skipped_ticks;
+        if (deck_) report.wheels = deck_->devices();
         if (options_.json)
             std::cout << to_json(report).dump() << '\n';
         else
@@ -89,6 +99,7 @@ class Show {
   private:
     const LiveOptions& options_;
     LiveSettings settings_;
+    std::unique_ptr<JogDeck> deck_;
     StageReceiver receiver_;
     LiveSession session_;
 };
@@ -101,8 +112,9 @@ void live_headless(const LiveOptions& options, const StageConfig& stage, const F
     Show show(options, stage, shaders);
     const auto limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
         std::chrono::duration<double>(options.wait_s));
-    if (!show.session().wait_for_rigs(limit, stop)) return;
-    const std::uint64_t skipped = fly_headless(show.session(), plan, show.rate_hz(), stop);
+    show.session().wait_for_rigs(limit, stop);
+    const std::uint64_t skipped =
+        fly_headless(show.session(), plan, show.deck(), show.rate_hz(), stop);
     if (show.finish(skipped) > 0 && !options.snapshot.empty())
         write_colour_image(options.snapshot, show.session().last_picture());
 }
@@ -113,7 +125,8 @@ void live_in_window(const LiveOptions& options, const StageConfig& stage, const 
     OperatorWindow window("Vantage", settings.width_px, settings.height_px);
     const ShaderLibrary shaders;
     Show show(options, stage, shaders);
-    const std::uint64_t skipped = fly_in_window(show.session(), window, plan, show.rate_hz(), stop);
+    const std::uint64_t skipped =
+        fly_in_window(show.session(), window, plan, show.deck(), show.rate_hz(), stop);
     if (show.finish(skipped) > 0 && !options.snapshot.empty())
         write_colour_image(options.snapshot, window.screenshot());
 }
@@ -169,6 +182,15 @@ CommandEntry live_command_entry() {
                          "With --headless: seconds that the rigs may take to come")
             ->check(CLI::Range(0.1, 3600.0))
             ->capture_default_str();
+        command->add_flag_callback(
+            "--jog", [options] { options->jog = true; },
+            "Let jog wheels fly without a window too (with one they do)");
+        command->add_flag_callback(
+            "--no-jog", [options] { options->jog = false; }, "Leave jog wheels alone");
+        command->add_option(
+            "--wheels", options->wheels,
+            "What the controls of wheels do: a file like those in hw_config/jog, or "
+            "a folder of them (TOML)");
         command->add_flag("--json", options->json, "Write the summary as one JSON object");
         command->footer(
             "Without --headless a window opens: fly with mouse and keyboard, F1 helps. The summary "

@@ -21,19 +21,21 @@ void log_progress(LiveSession& session, const FlightPlan& plan, std::uint64_t pi
 
 }  // namespace
 
-std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, double rate_hz,
-                           StopSignal& stop) {
+std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, JogDeck* deck,
+                           double rate_hz, StopSignal& stop) {
     const MonotonicTime start = MonotonicClock::now();
     MonotonicTime next_progress = start + progress_period;
     OutputClock clock(rate_hz, start);
-    const bool ends_with_move = plan.move && !plan.move->loops() && !plan.frames && !plan.seconds;
+    FlightControls controls(plan, deck);
+    const bool ends_with_move =
+        plan.move && !plan.move->loops() && !plan.frames && !plan.seconds && !deck;
     for (std::uint64_t pictures = 0;; ++pictures) {
         if (stop.wait_for(clock.until_next(MonotonicClock::now()))) break;
         const std::chrono::nanoseconds time = clock.time_of(clock.next_tick(MonotonicClock::now()));
         const double time_s = std::chrono::duration<double>(time).count();
         if (plan.is_over(pictures, time_s)) break;
         if (ends_with_move && time_s > plan.move->duration_s()) break;
-        session.make_picture(plan.move ? plan.move->at(time_s) : plan.start, time);
+        session.make_picture(controls.step({}, session, time_s), time);
         if (MonotonicClock::now() >= next_progress) {
             next_progress += progress_period;
             log_progress(session, plan, pictures + 1,

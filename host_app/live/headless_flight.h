@@ -1,18 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "common/base/stop_signal.h"
-#include "host_app/live/flight_plan.h"
-#include "host_app/live/live_session.h"
+#include "host_app/live/flight_controls.h"
 
 namespace vantage {
 
 /// Makes pictures at the output's rate and in real time until the flight is over or the program is
-/// asked to stop: as the plan says, else at the end of a move that does not loop. Logs
+/// asked to stop: as the plan says, else at the end of a move that does not loop,
+/// unless there is a deck: then its wheels fly. Logs
 /// progress every few seconds. Returns the ticks of the output that passed without a picture.
-std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, double rate_hz,
-                           StopSignal& stop);
+std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, JogDeck* deck,
+                           double rate_hz, StopSignal& stop);
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include "host_app/live/live_report.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -106,6 +107,13 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         {"height_px", report.height_px},     {"rate_hz", report.rate_hz},
         {"duration_s", report.duration_s},   {"skipped_ticks", report.skipped_ticks},
         {"synthesiser", report.synthesiser}, {"renderer", report.renderer}};
+    constexpr double deg = 180 / std::numbers::pi;
+    const OrbitView& view = report.view;
+    json["camera"] = {{"azimuth_deg", view.azimuth_rad * deg},
+                      {"elevation_deg", view.elevation_rad * deg},
+                      {"distance_m", view.distance_m},
+                      {"field_of_view_deg", view.field_of_view_rad * deg},
+                      {"pivot_m", {view.pivot_m.x(), view.pivot_m.y(), view.pivot_m.z()}}};
     json["sets"] = {{"closed", report.sets_closed},
                     {"complete", report.sets_complete},
                     {"partial", report.sets_closed - report.sets_complete},
@@ -126,6 +134,13 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     for (const StageTime& time : report.stages)
         if (time.ms.count > 0) json["stages_ms"][time.stage] = to_json(time.ms);
     json["latency_ms"] = to_json(report.latency_ms);
+    for (const DeckDevice& wheel : report.wheels)
+        json["wheels"].push_back({{"name", wheel.model},
+                                  {"path", wheel.place.path},
+                                  {"usable", wheel.usable},
+                                  {"fault", wheel.fault},
+                                  {"reports", wheel.reports},
+                                  {"unread", wheel.unread}});
     if (!report.film.empty())
         json["film"] = {{"path", report.film},
                         {"pictures", report.film_pictures},
@@ -154,6 +169,10 @@ std::string to_text(const LiveReport& report) {
     text += fmt::format(
         "\nexposure to picture: p50 {:.1f} ms, p95 {:.1f}, p99 {:.1f}, max {:.1f}\n",
         report.latency_ms.p50, report.latency_ms.p95, report.latency_ms.p99, report.latency_ms.max);
+    for (const DeckDevice& wheel : report.wheels)
+        text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
+                            wheel.model, wheel.place.path, wheel.reports, wheel.unread,
+                            wheel.fault.empty() ? "" : "; ", wheel.fault);
     if (!report.film.empty())
         text += fmt::format("film: {}, {} pictures, {} left out because the encoder was busy\n",
                             report.film, report.film_pictures, report.film_dropped);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/percentiles.h"
+#include "host_app/flight/orbit_view.h"
+#include "host_app/jog/jog_deck.h"
 #include "host_app/receive/stage_receiver.h"
 
 namespace vantage {
@@ -29,6 +31,7 @@ struct LiveReport {
     double rate_hz = 0;
     std::string synthesiser, renderer;
     double duration_s = 0;
+    OrbitView view;  ///< of the last picture
     std::uint64_t pictures = 0;
     std::uint64_t skipped_ticks = 0;  ///< of the output, for which no picture was ready in time
 
@@ -40,6 +43,8 @@ struct LiveReport {
     /// render, readback, encode. Of network and decode the worst rig's; without samples: not done.
     std::vector<StageTime> stages;
     Percentiles latency_ms;  ///< from exposure to the picture, of every set that was shown
+
+    std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
     std::string film;  ///< path; empty: none
     std::uint64_t film_pictures = 0, film_dropped = 0;

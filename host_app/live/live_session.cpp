@@ -80,14 +80,19 @@ const ReceiverStatus& LiveSession::refresh_status() {
     return status_;
 }
 
-bool LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
-    const MonotonicTime deadline = MonotonicClock::now() + limit;
+void LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
+    const MonotonicTime start = MonotonicClock::now();
+    const MonotonicTime deadline = start + limit;
+    log_info("waiting for {} rigs", status_.rigs.size());
     while (MonotonicClock::now() < deadline) {
-        if (stop.requested()) return false;
+        if (stop.requested())
+            fail(
+                "interrupted after {:.1f} s of waiting for the rigs, before anything was flown: {}",
+                ms_since(start) / 1000, states_of_missing(status_, shown()));
         if (std::optional<FrameSet> set = newest_.take(std::chrono::milliseconds(50))) {
             const bool all = set->present() == static_cast<int>(set->slots.size());
             show(std::move(*set));
-            if (all) return true;
+            if (all) return;
         }
         refresh_status();
         if (!status_.rigs.empty() &&
@@ -101,7 +106,6 @@ bool LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop
              states_of_missing(status_, shown()));
     log_warning("after {:g} s these rigs are missing: {}", limit_s,
                 states_of_missing(status_, shown()));
-    return true;
 }
 
 void LiveSession::show(FrameSet set) {
@@ -156,6 +160,7 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
         if (recorder_) recorder_->add(picture, time);
     }
     last_texture_ = &texture;
+    last_view_ = view;
     ++pictures_;
     last_picture_ = MonotonicClock::now();
     return texture;
@@ -206,6 +211,7 @@ LiveReport LiveSession::report() const {
     if (first_picture_)
         report.duration_s = std::chrono::duration<double>(last_picture_ - *first_picture_).count();
     report.pictures = pictures_;
+    report.view = last_view_;
 
     const NewestSet::Superseded superseded = newest_.superseded();
     report.sets_closed = status_.sets;

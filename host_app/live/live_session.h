@@ -33,9 +33,9 @@ class LiveSession {
     LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed);
 
     /// Waits until a set with all rigs has come; at the limit, goes on with those that are there
-    /// and says which are missing. Returns false if the program was asked to stop meanwhile. Throws
-    /// Error, with every rig's state, if none came, and at once if all rigs refuse this host.
-    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+    /// and says which are missing. Throws Error, with every rig's state, if none came or the
+    /// program was asked to stop meanwhile, and at once if all rigs refuse this host.
+    void wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
 
     /// Renders the newest set from `view`, for the moment `time` after the start of the output;
     /// times must grow. The texture is valid until the next call. Throws Error if the film fails.
@@ -84,6 +84,7 @@ class LiveSession {
     MomentCollector moments_;
 
     const Texture* last_texture_ = nullptr;
+    OrbitView last_view_;
     std::optional<FrameSet> shown_;
     bool is_new_ = false;  ///< shown_ was in no picture yet
     bool frozen_ = false;

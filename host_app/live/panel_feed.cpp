@@ -74,7 +74,7 @@ void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicT
 }
 
 PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                            std::optional<double> move_progress, std::uint64_t pictures) {
+                            const FlightControls& controls, std::uint64_t pictures) {
     const MonotonicTime now = MonotonicClock::now();
     if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
     if (session.sets_shown() != last_set_ && session.latest_latency_ms() > 0) {
@@ -99,7 +99,8 @@ PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const 
     state_.synthesiser = session.synthesiser();
     state_.renderer = renderer_;
     state_.view = view;
-    state_.move_progress = move_progress;
+    state_.move_progress = controls.move_progress();
+    state_.wheel = controls.wheel_line();
     return state_;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host_app/live/live_session.h"
+#include "host_app/live/flight_controls.h"
 #include "host_app/live/rate_meter.h"
 #include "host_app/ui/operator_panel.h"
 
@@ -17,7 +17,7 @@ namespace vantage {
 class PanelFeed {
   public:
     PanelState state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                     std::optional<double> move_progress, std::uint64_t pictures);
+                     const FlightControls& controls, std::uint64_t pictures);
 
   private:
     void refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now);

@@ -253,6 +253,11 @@ void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top)
         text(palette::dim, "planned move; steer to take over");
         ImGui::ProgressBar(static_cast<float>(*state.move_progress), {-1, 0.4f * em()}, "");
     }
+    if (!state.wheel.empty()) {
+        ImGui::PushTextWrapPos(0);
+        text(palette::dim, state.wheel);
+        ImGui::PopTextWrapPos();
+    }
     ImGui::End();
 }
 

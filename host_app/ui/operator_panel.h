@@ -41,7 +41,8 @@ struct PanelState {
     std::vector<PanelStage> stages;
     std::vector<PanelRig> rigs;
     OrbitView view;
-    std::optional<double> move_progress;  ///< 0..1 while a planned move plays
+    std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+    std::string wheel;                    ///< what the jog wheel does; empty: there is none
     bool show_panels = true, show_help = false;
 };
 

@@ -149,7 +149,7 @@ void OperatorWindow::take_held_keys(double dt_s) {
         (axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD));
 }
 
-OperatorInput OperatorWindow::poll(double dt_s) {
+FlightInput OperatorWindow::poll(double dt_s) {
     input_ = {};
     glfwPollEvents();
     ImGui_ImplGlfw_NewFrame();

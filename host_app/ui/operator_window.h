@@ -9,28 +9,13 @@
 #include "common/gl/framebuffer.h"
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
+#include "host_app/flight/flight_input.h"
 #include "host_app/ui/operator_panel.h"
 #include "host_app/ui/ui_renderer.h"
 
 struct GLFWwindow;
 
 namespace vantage {
-
-/// What the operator's hands did since the last look. Angles in radians, shifts in picture widths,
-/// dolly and zoom in powers of e (see OrbitCamera).
-struct OperatorInput {
-    double orbit_azimuth_rad = 0, orbit_elevation_rad = 0;
-    double pan_right_widths = 0, pan_up_widths = 0;
-    double dolly = 0, zoom = 0;
-    bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
-    int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
-
-    /// True if the operator has the camera in hand.
-    bool steers() const {
-        return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
-               pan_up_widths != 0 || dolly != 0 || zoom != 0 || reset || recall_shot != 0;
-    }
-};
 
 /// GLFW for as long as it lives. Throws Error with GLFW's reason if there is no display.
 class GlfwLibrary {
@@ -53,7 +38,7 @@ class OperatorWindow {
     OperatorWindow& operator=(const OperatorWindow&) = delete;
 
     /// Looks at mouse and keyboard; `dt_s` is how long a held key has acted.
-    OperatorInput poll(double dt_s);
+    FlightInput poll(double dt_s);
     bool closed() const;
 
     /// Draws the operator's screen and shows it. Whether panels and help show is the window's.
@@ -84,7 +69,7 @@ class OperatorWindow {
     std::optional<UiContext> ui_;
     std::optional<UiRenderer> renderer_;
     std::unique_ptr<Screen> screen_;
-    OperatorInput input_;
+    FlightInput input_;
     bool show_panels_ = true, show_help_ = false;
 };
 

@@ -148,6 +148,50 @@ target_m = [0.0, 1.0, 0.0]
                 "world_from_camera = [[1,0,0,0],[0,1,0,0],[0,0,1,0]]\n");
 }
 
+void write_wheels(const Seeds& seeds) {
+    using namespace std::string_view_literals;
+    seeds.write("jog_report", "contour", "\5\0\5\0\0\0\5\7\6\0\x10\1"sv);
+    seeds.write("jog_report", "speed_editor",
+                "\7\3\0\0\2\0\0\xff\x0d\4\x33\0\x1c\0\0\0\0\0\0\0\0\0"sv);
+    seeds.write("jog_report", "spacemouse", "\7\1\xaf\0\xa2\xfe\0\0\2\3\2"sv);
+    seeds.write("wheel_profile", "all", R"(version = 1
+name = "w"
+devices = ["1209:b0b0"]
+[[report]]
+name = "jog"
+kind = "counter"
+report_id = 1
+byte = 3
+bit = 0
+bits = 8
+[[report]]
+name = "ring"
+kind = "axis"
+report_id = 1
+byte = 4
+signed = true
+centre = 0
+full_scale = 127
+[[report]]
+name = "b"
+kind = "buttons"
+byte = 1
+bits = 16
+[axes.jog]
+action = "wheel"
+sensitivity = 1.0
+inverted = false
+[axes.ring]
+action = "shuttle"
+dead_zone = 0.1
+[buttons]
+b1 = "shot 1"
+)");
+    seeds.write("wheel_profile", "known",
+                "version = 1\nname = \"w\"\ndevices = [\"0b33:0020\"]\n"
+                "[axes.jog]\naction = \"orbit\"\n[buttons]\nb5 = \"mode\"\n");
+}
+
 void write_calibration(const Seeds& seeds) {
     CameraModel camera;
     camera.width_px = 320;
@@ -178,6 +222,7 @@ int main(int argc, char** argv) {
         vantage::write_pictures(seeds);
         vantage::write_messages(seeds);
         vantage::write_configurations(seeds);
+        vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         return 0;
     } catch (const std::exception& error) {

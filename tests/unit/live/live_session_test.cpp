@@ -42,7 +42,7 @@ class LiveSessionTest : public testing::Test {
 TEST_F(LiveSessionTest, ShowsTheNewestSet) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}, {200, 100, 50, 255}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     session.make_picture(view_, 0ns);
     EXPECT_NEAR(middle(session.last_picture())[0], 200, 2);
     feed_.push(feed_.set(2, {"north", "south"}, {20, 100, 50, 255}));
@@ -54,7 +54,7 @@ TEST_F(LiveSessionTest, ShowsTheNewestSet) {
 TEST_F(LiveSessionTest, FreezesTheInstantAndNotTheFlight) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     session.set_frozen(true);
     feed_.push(feed_.set(2, {"north", "south"}));
     while (!feed_.drained()) std::this_thread::sleep_for(1ms);
@@ -73,13 +73,21 @@ TEST_F(LiveSessionTest, FreezesTheInstantAndNotTheFlight) {
 TEST_F(LiveSessionTest, GoesOnWithTheRigsThatCame) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"south"}));
-    EXPECT_TRUE(session.wait_for_rigs(300ms, stop_));
+    session.wait_for_rigs(300ms, stop_);
     EXPECT_EQ(session.shown()->present(), 1);
 }
 
 TEST_F(LiveSessionTest, SaysWhichRigsHaveNotCome) {
     LiveSession session = this->session();
     const std::string sentence = thrown_sentence([&] { session.wait_for_rigs(100ms, stop_); });
+    EXPECT_NE(sentence.find("north connected; south connected"), std::string::npos) << sentence;
+}
+
+TEST_F(LiveSessionTest, SaysWhatItWaitedForWhenItIsInterrupted) {
+    LiveSession session = this->session();
+    kill(getpid(), SIGTERM);
+    const std::string sentence = thrown_sentence([&] { session.wait_for_rigs(1h, stop_); });
+    EXPECT_NE(sentence.find("interrupted"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("north connected; south connected"), std::string::npos) << sentence;
 }
 
@@ -136,9 +144,9 @@ TEST_F(LiveSessionTest, WritesFilmAndContactSheetOfAFlight) {
     settings_.contact_sheet = folder_.path() / "sheet.png";
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     const FlightPlan plan{.start = view_, .move = {}, .frames = 12, .seconds = {}};
-    fly_headless(session, plan, settings_.rate_hz, stop_);
+    fly_headless(session, plan, nullptr, settings_.rate_hz, stop_);
     session.finish();
     const LiveReport report = session.report();
     EXPECT_EQ(report.pictures, 12u);
@@ -153,12 +161,12 @@ TEST_F(LiveSessionTest, WritesFilmAndContactSheetOfAFlight) {
 TEST_F(LiveSessionTest, EndsWithAMoveThatDoesNotLoop) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     OrbitView end = view_;
     end.azimuth_rad = 0.3;
     const Move move({{0, view_, Easing::linear}, {0.2, end, Easing::linear}}, false);
     const std::uint64_t skipped = fly_headless(
-        session, {.start = view_, .move = move, .frames = {}, .seconds = {}}, 50, stop_);
+        session, {.start = view_, .move = move, .frames = {}, .seconds = {}}, nullptr, 50, stop_);
     session.finish();
     const std::uint64_t pictures = session.report().pictures;
     EXPECT_LE(pictures, 11u) << "ticks 0 to 10 of 20 ms, both included";
@@ -168,9 +176,9 @@ TEST_F(LiveSessionTest, EndsWithAMoveThatDoesNotLoop) {
 TEST_F(LiveSessionTest, EndsAfterTheSecondsOfThePlan) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     const FlightPlan plan{.start = view_, .move = {}, .frames = {}, .seconds = 0.1};
-    const std::uint64_t skipped = fly_headless(session, plan, 50, stop_);
+    const std::uint64_t skipped = fly_headless(session, plan, nullptr, 50, stop_);
     session.finish();
     const std::uint64_t pictures = session.report().pictures;
     EXPECT_GE(pictures, 1u);
@@ -181,9 +189,10 @@ TEST_F(LiveSessionTest, EndsAfterTheSecondsOfThePlan) {
 TEST_F(LiveSessionTest, StopsWhenAsked) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));
-    ASSERT_TRUE(session.wait_for_rigs(10s, stop_));
+    session.wait_for_rigs(10s, stop_);
     kill(getpid(), SIGTERM);
-    fly_headless(session, {.start = view_, .move = {}, .frames = {}, .seconds = {}}, 50, stop_);
+    fly_headless(session, {.start = view_, .move = {}, .frames = {}, .seconds = {}}, nullptr, 50,
+                 stop_);
     session.finish();
     EXPECT_LE(session.report().pictures, 1u);
 }

@@ -145,6 +145,20 @@ TEST_F(LiveProcesses, EndWithASentenceWhenNoRigComes) {
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
 }
 
+TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigComes) {
+    const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
+    for (int i = 0; i < 6000; ++i) {
+        if (host->standard_error().find("waiting for 2 rigs") != std::string::npos) break;
+        usleep(10'000);
+    }
+    host->send(SIGINT);
+    EXPECT_EQ(host->wait(), 1);
+    for (const char* rig : {"left disconnected", "right disconnected"})
+        EXPECT_NE(host->standard_error().find(rig), std::string::npos) << host->standard_error();
+    EXPECT_EQ(host->standard_output(), "");
+    EXPECT_FALSE(std::filesystem::exists(file("last.png")));
+}
+
 TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
     const struct {
         std::vector<std::string> options;

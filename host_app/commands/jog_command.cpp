@@ -1,0 +1,197 @@
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/stop_signal.h"
+#include "host_app/jog/jog_deck.h"
+
+namespace vantage {
+namespace {
+
+struct JogOptions {
+    std::string wheels;
+    bool json = false, all = false, raw = false;
+    double seconds = 0;
+    std::uint64_t events = 0;
+};
+
+const char* name_of(JogTransport transport) {
+    return transport == JogTransport::hidraw ? "hidraw" : "evdev";
+}
+
+/// Opens it and lets it go again; why it cannot be used, or nothing.
+std::string fault_of(JogBus& bus, const JogPlace& place) {
+    try {
+        bus.open(place);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void print_places(const std::vector<JogPlace>& places, bool json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const JogPlace& place : places) {
+        if (json)
+            list.push_back({{"device", to_text(place.id)},
+                            {"name", place.name},
+                            {"path", place.path},
+                            {"transport", name_of(place.transport)},
+                            {"interface", place.interface_number},
+                            {"usage_page", place.usage_page},
+                            {"usage", place.usage}});
+        else
+            std::cout << fmt::format("{}  {}  {}  {}\n", to_text(place.id), place.path,
+                                     name_of(place.transport), place.name);
+    }
+    if (json) std::cout << nlohmann::ordered_json{{"devices", list}}.dump() << '\n';
+}
+
+void list(const JogOptions& options) {
+    const std::vector<WheelProfile> profiles = load_wheel_profiles(options.wheels);
+    const std::unique_ptr<JogBus> bus = make_system_jog_bus();
+    const std::vector<JogPlace> places = bus->list();
+    if (options.all) {
+        print_places(places, options.json);
+        return;
+    }
+    nlohmann::ordered_json controllers = nlohmann::ordered_json::array();
+    for (const ReadableJog& jog : readable_jogs(places, profiles)) {
+        const std::string fault = fault_of(*bus, jog.place);
+        controllers.push_back({{"name", jog.model},
+                               {"device", to_text(jog.place.id)},
+                               {"path", jog.place.path},
+                               {"serial", jog.place.serial},
+                               {"usable", fault.empty()},
+                               {"fault", fault}});
+    }
+    if (options.json) {
+        std::cout << nlohmann::ordered_json{{"controllers", controllers}}.dump() << '\n';
+        return;
+    }
+    for (const nlohmann::ordered_json& c : controllers)
+        std::cout << fmt::format("{}  {}  {}  {}\n", c["device"].get<std::string>(),
+                                 c["path"].get<std::string>(), c["name"].get<std::string>(),
+                                 c["usable"] ? "ready" : c["fault"].get<std::string>());
+    if (controllers.empty())
+        std::cout << "no jog controller is plugged in; `vantage jog list --all` shows every device "
+                     "there is, hw_config/jog/described_wheel.toml.example how to describe one\n";
+}
+
+const char* name_of(JogKind kind) {
+    switch (kind) {
+        case JogKind::step:
+            return "step";
+        case JogKind::axis:
+            return "axis";
+        case JogKind::button:
+            break;
+    }
+    return "button";
+}
+
+std::string for_people(const DeckEvent& event) {
+    const std::string device = event.profile->name;
+    const std::string bytes = fmt::format("{:02x}", fmt::join(event.report, " "));
+    switch (event.kind) {
+        case DeckEvent::Kind::plugged:
+            return fmt::format("{}  plugged in at {}", device, event.path);
+        case DeckEvent::Kind::lost:
+            return fmt::format("{}  gone from {}", device, event.path);
+        case DeckEvent::Kind::unread:
+            return fmt::format("{}  report not understood: {}", device, bytes);
+        case DeckEvent::Kind::report:
+            return fmt::format("{}  report: {}", device, bytes);
+        case DeckEvent::Kind::control:
+            break;
+    }
+    if (event.event.kind == JogKind::button)
+        return fmt::format("{}  {} {}", device, event.event.control,
+                           event.event.value != 0 ? "pressed" : "let go");
+    return fmt::format("{}  {} {:+.3g}", device, event.event.control, event.event.value);
+}
+
+nlohmann::ordered_json for_machines(const DeckEvent& event) {
+    nlohmann::ordered_json json{
+        {"time_ns", to_ns(event.time)}, {"device", event.profile->name}, {"path", event.path}};
+    switch (event.kind) {
+        case DeckEvent::Kind::plugged:
+            json["event"] = "plugged";
+            break;
+        case DeckEvent::Kind::lost:
+            json["event"] = "lost";
+            break;
+        case DeckEvent::Kind::unread:
+        case DeckEvent::Kind::report:
+            json["event"] = event.kind == DeckEvent::Kind::unread ? "unread" : "report";
+            json["bytes"] = event.report;
+            break;
+        case DeckEvent::Kind::control:
+            json["event"] = name_of(event.event.kind);
+            json["control"] = event.event.control;
+            json["value"] = event.event.value;
+    }
+    return json;
+}
+
+void monitor(const JogOptions& options) {
+    // Before the deck's threads, so that they leave the signals to it.
+    StopSignal stop;
+    JogDeck deck(make_system_jog_bus(), load_wheel_profiles(options.wheels),
+                 {.raw_reports = options.raw});
+    const MonotonicTime start = MonotonicClock::now();
+    const auto is_over = [&](std::uint64_t events) {
+        const std::chrono::duration<double> gone = MonotonicClock::now() - start;
+        return stop.requested() || (options.events > 0 && events >= options.events) ||
+               (options.seconds > 0 && gone.count() >= options.seconds);
+    };
+    for (std::uint64_t events = 0; !is_over(events);) {
+        const std::optional<DeckEvent> event = deck.next(std::chrono::milliseconds(50));
+        if (!event) continue;
+        ++events;
+        std::cout << (options.json ? for_machines(*event).dump() : for_people(*event)) << std::endl;
+    }
+    if (deck.dropped() > 0)
+        log_warning("{} events came faster than they could be written", deck.dropped());
+}
+
+}  // namespace
+
+CommandEntry jog_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<JogOptions>();
+        CLI::App* jog = program.add_subcommand("jog", "Jog wheels and their like");
+        jog->require_subcommand(1);
+        const auto add_common = [&](CLI::App* command) {
+            command->add_option("--wheels", options->wheels,
+                                "Wheels beyond the built-in ones: a file like those in "
+                                "hw_config/jog, or a folder of them (TOML)");
+            command->add_flag("--json", options->json, "For machines");
+        };
+        CLI::App* list_command = jog->add_subcommand(
+            "list", "The controllers that are plugged in, and what keeps one from being used");
+        add_common(list_command);
+        list_command->add_flag("--all", options->all,
+                               "Every HID and input device instead, known or not");
+        list_command->callback([options] { list(*options); });
+        CLI::App* monitor_command =
+            jog->add_subcommand("monitor", "What hands do, a line an event, until Ctrl-C");
+        add_common(monitor_command);
+        monitor_command->add_flag("--raw", options->raw, "Every report too, byte by byte");
+        monitor_command->add_option("--seconds", options->seconds, "End after this time")
+            ->check(CLI::PositiveNumber);
+        monitor_command->add_option("--events", options->events, "End after so many lines")
+            ->check(CLI::PositiveNumber);
+        monitor_command->callback([options] { monitor(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,24 @@
+#include "host_app/flight/flight_input.h"
+
+namespace vantage {
+
+void FlightInput::add(const FlightInput& other) {
+    orbit_azimuth_rad += other.orbit_azimuth_rad;
+    orbit_elevation_rad += other.orbit_elevation_rad;
+    pan_right_widths += other.pan_right_widths;
+    pan_up_widths += other.pan_up_widths;
+    dolly += other.dolly;
+    zoom += other.zoom;
+    wheel_steps += other.wheel_steps;
+    shuttle_s += other.shuttle_s;
+    // Two presses of a switch undo each other.
+    toggle_freeze ^= other.toggle_freeze;
+    toggle_move ^= other.toggle_move;
+    reset |= other.reset;
+    next_synthesiser |= other.next_synthesiser;
+    next_wheel_mode |= other.next_wheel_mode;
+    if (other.recall_shot != 0) recall_shot = other.recall_shot;
+    if (other.store_shot != 0) store_shot = other.store_shot;
+}
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+#pragma once
+
+namespace vantage {
+
+/// What the operator's hands did since the last look, whatever they held. Angles in radians, shifts
+/// in picture widths, dolly and zoom in powers of e (see OrbitCamera).
+struct FlightInput {
+    double orbit_azimuth_rad = 0, orbit_elevation_rad = 0;
+    double pan_right_widths = 0, pan_up_widths = 0;
+    double dolly = 0, zoom = 0;
+    bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
+    bool next_wheel_mode = false;
+    int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
+
+    /// Detents of a jog wheel, clockwise positive.
+    double wheel_steps = 0;
+    /// What a shuttle ring asks for: seconds of normal speed in this look's time, so at 2x speed
+    /// twice its length.
+    double shuttle_s = 0;
+
+    /// True if the operator has the camera itself in hand.
+    bool steers() const {
+        return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
+               pan_up_widths != 0 || dolly != 0 || zoom != 0 || reset || recall_shot != 0;
+    }
+    bool turns_wheel() const { return wheel_steps != 0 || shuttle_s != 0; }
+
+    /// Both hands together.
+    void add(const FlightInput& other);
+};
+
+}  // namespace vantage

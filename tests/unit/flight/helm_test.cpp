@@ -1,0 +1,184 @@
+#include "host_app/flight/helm.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+OrbitView looking(double azimuth_rad) {
+    OrbitView view;
+    view.azimuth_rad = azimuth_rad;
+    return view;
+}
+std::optional<OrbitView> no_rig(int) { return std::nullopt; }
+
+/// 1 rad/s from 0 to 10 rad.
+Move straight_move(bool loop = false) {
+    const double end = loop ? 2 * std::numbers::pi : 10;
+    return Move({{0, looking(0), Easing::linear}, {end, looking(end), Easing::linear}}, loop);
+}
+
+class HelmTest : public testing::Test {
+  protected:
+    static void pass(Helm& helm, double seconds, const FlightInput& each_time = {}) {
+        for (double t = 0; t < seconds - 1e-9; t += 0.02) {
+            helm.take(each_time, no_rig);
+            helm.advance(0.02);
+        }
+    }
+    static FlightInput steps(double n) {
+        FlightInput input;
+        input.wheel_steps = n;
+        return input;
+    }
+    static FlightInput shuttle(double seconds) {
+        FlightInput input;
+        input.shuttle_s = seconds;
+        return input;
+    }
+};
+
+TEST_F(HelmTest, WheelStepsGoAroundTheOrbitByADegree) {
+    Helm helm(looking(0), {});
+    helm.take(steps(3), no_rig);
+    helm.advance(0.02);
+    EXPECT_GT(helm.view().azimuth_rad, 0) << "to be seen in the very next picture";
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().azimuth_rad, 3 * deg, 1e-9);
+}
+
+TEST_F(HelmTest, ShuttleGoesAroundTheOrbitAndStopsWhenItIsLetGo) {
+    Helm helm(looking(0), {});
+    pass(helm, 1, shuttle(0.02));
+    pass(helm, 3);
+    const double there = helm.view().azimuth_rad;
+    EXPECT_NEAR(there, 30 * deg, 1e-9);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, there, 1e-9);
+}
+
+TEST_F(HelmTest, PlaysAMoveUntilTheWheelTakesHold) {
+    Helm helm(looking(0), straight_move());
+    EXPECT_EQ(helm.wheel_mode(), WheelMode::move);
+    pass(helm, 2);
+    EXPECT_NEAR(helm.view().azimuth_rad, 2, 1e-9);
+    helm.take(steps(-10), no_rig);
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().azimuth_rad, 1, 1e-6) << "a step is 0.1 s";
+    EXPECT_NEAR(*helm.move_progress(), 0.1, 1e-6);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, 1, 1e-6) << "it holds there";
+}
+
+TEST_F(HelmTest, ShuttleDrivesAMoveBothWaysAndEndsAtItsEnds) {
+    Helm helm(looking(0), straight_move());
+    pass(helm, 1, shuttle(0.04));
+    EXPECT_NEAR(helm.view().azimuth_rad, 2, 0.03) << "at 2x";
+    pass(helm, 1, shuttle(-0.06));
+    EXPECT_NEAR(helm.view().azimuth_rad, 0, 1e-9);
+    pass(helm, 1, shuttle(1));
+    EXPECT_NEAR(helm.view().azimuth_rad, 10, 1e-9);
+}
+
+TEST_F(HelmTest, WheelTurnsALoopRoundAndRound) {
+    Helm helm(looking(0), straight_move(true));
+    pass(helm, 1, shuttle(-0.02));
+    EXPECT_NEAR(std::remainder(helm.view().azimuth_rad + 1, 2 * std::numbers::pi), 0, 0.03);
+    EXPECT_NEAR(*helm.move_progress(), 1 - 1 / (2 * std::numbers::pi), 0.01);
+}
+
+TEST_F(HelmTest, PlayGoesOnFromWhereTheWheelHeldTheMove) {
+    Helm helm(looking(0), straight_move());
+    pass(helm, 2, shuttle(0.02));
+    const double held = helm.view().azimuth_rad;
+    FlightInput play;
+    play.toggle_move = true;
+    helm.take(play, no_rig);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, held + 1, 1e-9);
+}
+
+TEST_F(HelmTest, HandsTakeTheCameraOffTheMoveWithoutAJump) {
+    Helm helm(looking(0), straight_move());
+    pass(helm, 2);
+    FlightInput drag;
+    drag.orbit_elevation_rad = 0.001;
+    helm.take(drag, no_rig);
+    helm.advance(0.02);
+    EXPECT_NEAR(helm.view().azimuth_rad, 2, 1e-9);
+    EXPECT_FALSE(helm.move_progress());
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, 2, 1e-9);
+}
+
+TEST_F(HelmTest, WheelGlidesBackOntoTheMove) {
+    Helm helm(looking(0), straight_move());
+    pass(helm, 2);
+    FlightInput drag;
+    drag.orbit_azimuth_rad = 1;
+    helm.take(drag, no_rig);
+    pass(helm, 3);
+    helm.take(steps(1), no_rig);
+    double last = helm.view().azimuth_rad;
+    EXPECT_NEAR(last, 3, 1e-9);
+    for (int i = 0; i < 100; ++i) {
+        helm.advance(0.02);
+        EXPECT_LT(std::abs(helm.view().azimuth_rad - last), 0.06) << "no jump";
+        last = helm.view().azimuth_rad;
+    }
+    EXPECT_NEAR(last, 2.1, 1e-6);
+}
+
+TEST_F(HelmTest, ModeChangesWhatTheWheelDrivesIfThereIsAMove) {
+    FlightInput mode;
+    mode.next_wheel_mode = true;
+    Helm with(looking(0), straight_move());
+    with.take(mode, no_rig);
+    EXPECT_EQ(with.wheel_mode(), WheelMode::orbit);
+    with.take(mode, no_rig);
+    EXPECT_EQ(with.wheel_mode(), WheelMode::move);
+    Helm without(looking(0), {});
+    without.take(mode, no_rig);
+    EXPECT_EQ(without.wheel_mode(), WheelMode::orbit);
+}
+
+TEST_F(HelmTest, FliesToShotsStoredElseToWhatARigSees) {
+    Helm helm(looking(0), {});
+    FlightInput input;
+    input.recall_shot = 2;
+    helm.take(input, [](int number) { return std::optional(looking(0.1 * number)); });
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().azimuth_rad, 0.2, 1e-6);
+    input = {};
+    input.store_shot = 2;
+    helm.take(input, no_rig);
+    helm.take(steps(20), no_rig);
+    pass(helm, 3);
+    input = {};
+    input.recall_shot = 2;
+    helm.take(input, no_rig);
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().azimuth_rad, 0.2, 1e-6);
+    input.recall_shot = 5;
+    helm.take(input, no_rig);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, 0.2, 1e-6) << "nobody stored it and there is no rig 5";
+}
+
+TEST(FlightInput, TwoHandsOnOneSwitchUndoEachOther) {
+    FlightInput a, b;
+    a.toggle_freeze = b.toggle_freeze = true;
+    a.wheel_steps = 1;
+    b.wheel_steps = 2;
+    a.add(b);
+    EXPECT_FALSE(a.toggle_freeze);
+    EXPECT_EQ(a.wheel_steps, 3);
+}
+
+}  // namespace
+}  // namespace vantage
