@@ -1,8 +1,9 @@
 // The colour of the virtual view on the surface that fused_depth.frag found. Every rig whose own depth map says that it
 // sees a point gives its colour, weighted by how close its line of sight is to the virtual camera's, its resolution
-// there and its distance from depth edges (an unstructured lumigraph: Buehler et al., 2001). Close to a depth edge,
-// where depth is least to be trusted, the nearer and the farther surface of the neighbourhood compete: the rigs' colours
-// agree on the right one. The loser fades, so that edges are soft.
+// there and its distance from depth edges (an unstructured lumigraph: Buehler et al., 2001). Close to a depth edge the
+// two surfaces are mixed by the share that lens and sensor would see of each, and, since depth is least to be trusted
+// there, by how well the rigs' colours agree on either. What only rigs from far aside show counts as seen if some rig
+// has seen that nothing stands before it.
 #include "rig_layers.glsl"
 #include "sharp_sample.glsl"
 
@@ -18,10 +19,11 @@ const float unlike_doubt = 8.0;   // per squared difference of the rigs' colours
 const float lonely_doubt = 0.3;   // only one rig shows the surface
 const float fringe_doubt = 3.0;   // only one rig shows it, and that one beside the surface's edge
 const float through_doubt = 0.5;  // per rig that sees through it
-const float stay_doubt = 0.6;     // it is not the one that was drawn here
-const float hidden_doubt = 0.6;   // it lies behind one that a rig shows right here
-const float decisiveness = 8.0;   // how fast a surface fades with its doubt
+const float hidden_doubt = 0.35;   // it lies behind one that a rig shows right here
+const float decisiveness = 4.0;   // how fast a surface fades with its doubt
+const float blur_px = 0.75;         // standard deviation of what lens and sensor spread
 const float direct_support = 0.01;
+const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's word on what is hidden means little
 
 struct Evidence {
     vec3 sum, squares;
@@ -29,6 +31,7 @@ struct Evidence {
     float rigs;      // that see the point
     float through;   // rigs that see through it
     float direct;    // the best support by a rig whose depth map has it right there
+    float apart;     // from the nearest line of sight that supports it
 };
 
 // The share of a rig's four pixels around a point that lie on its surface.
@@ -68,7 +71,10 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     }
     if (sure <= 0.0) return;
     vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
-    float weight = sure * (smoothstep(0.0, 0.04, inside) + 0.001) / (apart(point, centre[i]) + 1e-5);
+    float trust = textureLod(picture, uv, 0.0).a;
+    float away = apart(point, centre[i]);
+    float weight = sure * trust * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
+    e.apart = min(e.apart, away);
     vec3 c = sharp(picture, uv, detail_level(pixel_from_target[i], z, q.z));
     e.sum += weight * c;
     e.squares += weight * c * c;
@@ -77,7 +83,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
 }
 
 Evidence gather(vec2 pixel, float z, bool near_edge) {
-    Evidence e = Evidence(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    Evidence e = Evidence(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0, 2.0);
 #define ADD(i) add(i, colour[i], source_depth[i], pixel, z, near_edge, e);
     FOR_LAYERS(ADD)
     return e;
@@ -93,49 +99,94 @@ float doubt(Evidence e) {
            through_doubt * e.through;
 }
 
+// Whether a rig sees the point and nothing there: what it shows on that line of sight is farther.
+bool sees_empty(int i, sampler2D map, vec2 pixel, float z) {
+    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
+    if (q.z <= 0.0 || any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return false;
+    return abs(texelFetch(map, ivec2(uv * vec2(textureSize(map, 0))), 0).r) > q.z;
+}
+
+// Whether some rig has seen that nothing stands before a surface, at steps along the virtual camera's ray. A rig that
+// looks from far aside may show what is behind a thing that no rig shows.
+bool is_clear(vec2 pixel, float z) {
+    for (float part = 0.5; part < 0.95; part += 0.075) {
+        bool empty = false;
+#define LOOK_THROUGH(i) empty = empty || sees_empty(i, source_depth[i], pixel, part * z);
+        FOR_LAYERS(LOOK_THROUGH)
+        if (!empty) return false;
+    }
+    return true;
+}
+
+bool same_surface(float a, float b) { return max(a, b) < min(a, b) * edge_ratio; }
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
     ivec2 last = textureSize(fused_depth, 0) - 1;
-    float own = texelFetch(fused_depth, at, 0).r;
-    float least = nothing, most = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            float z = texelFetch(fused_depth, clamp(at + ivec2(x, y), ivec2(0), last), 0).r;
-            if (z > 0.0) {
-                least = min(least, z);
-                most = max(most, z);
-            }
-        }
+    float around[25];
+    float own = texelFetch(fused_depth, at, 0).r, other = 0.0, nearest = 1e9;
     bool is_known = own > 0.0;
     float z = abs(own);
-    bool near_edge = most > least * edge_ratio;
+    for (int k = 0; k < 25; ++k) {
+        ivec2 off = ivec2(k % 5, k / 5) - 2;
+        around[k] = texelFetch(fused_depth, clamp(at + off, ivec2(0), last), 0).r;
+        float away = float(off.x * off.x + off.y * off.y);
+        if (around[k] <= 0.0 || away >= nearest) continue;
+        if (z == 0.0) {
+            z = around[k];
+            nearest = away;
+        }
+        if (same_surface(around[k], z)) continue;
+        other = around[k];
+        nearest = away;
+    }
     fused = vec4(0.0);
     fused_z = 0.0;
-    if (z == 0.0 && most == 0.0) return;
-    if (z > 0.0 && !near_edge) {
+    if (z == 0.0) return;
+    if (other == 0.0) {
+        if (own == 0.0) return;
         Evidence e = gather(pixel, z, false);
         if (e.weight > 0.0) {
+            if (e.apart > far_aside && !is_clear(pixel, z)) is_known = false;
             fused = vec4(e.sum / e.weight, is_known ? 1.0 : 0.25);
             fused_z = z;
-            return;
         }
-        near_edge = true;
-        if (most == 0.0) return;
+        return;
     }
-    Evidence n = gather(pixel, least, true), f = gather(pixel, most, true);
-    float doubt_n = doubt(n), doubt_f = doubt(f);
-    float to_near = z > 0.0 ? abs(z / least - 1.0) : 0.5, to_far = z > 0.0 ? abs(most / z - 1.0) : 0.5;
-    doubt_n += stay_doubt * step(to_far, to_near);
-    doubt_f += stay_doubt * step(to_near, to_far);
-    doubt_f += hidden_doubt * step(direct_support, n.direct);
-    float wn = n.weight > 0.0 ? exp2(-decisiveness * (doubt_n - min(doubt_n, doubt_f))) : 0.0;
-    float wf = f.weight > 0.0 ? exp2(-decisiveness * (doubt_f - min(doubt_n, doubt_f))) : 0.0;
+    // The share of either surface in what lens and sensor would see here.
+    float mine = 0.0, its = 0.0, its_nearness = 0.0;
+    for (int k = 0; k < 25; ++k) {
+        if (around[k] <= 0.0) continue;
+        ivec2 off = ivec2(k % 5, k / 5) - 2;
+        float w = exp(-float(off.x * off.x + off.y * off.y) / (2.0 * blur_px * blur_px));
+        if (same_surface(around[k], z)) {
+            mine += w;
+        } else if (same_surface(around[k], other)) {
+            its += w;
+            its_nearness += w / around[k];
+        }
+    }
+    other = its / its_nearness;
+    Evidence a = gather(pixel, z, true), b = gather(pixel, other, true);
+    float doubt_a = doubt(a), doubt_b = doubt(b);
+    if (z < other)
+        doubt_b += hidden_doubt * step(direct_support, a.direct);
+    else
+        doubt_a += hidden_doubt * step(direct_support, b.direct);
+    float least_doubt = min(doubt_a, doubt_b);
+    float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (doubt_a - least_doubt)) : 0.0;
+    float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (doubt_b - least_doubt)) : 0.0;
     // Where nothing was drawn, only the surface behind reaches in, and only if a rig shows it right here.
-    if (z == 0.0) wn = 0.0;
-    if (z == 0.0 && f.direct == 0.0) wf = 0.0;
-    if (wn + wf == 0.0) return;
-    vec3 c = (wn > 0.0 ? wn * n.sum / n.weight : vec3(0.0)) + (wf > 0.0 ? wf * f.sum / f.weight : vec3(0.0));
-    fused = vec4(c / (wn + wf), is_known ? 1.0 : 0.25);
-    fused_z = wn > wf ? least : most;
+    if (own == 0.0) {
+        if (z < other || a.direct == 0.0) wa = 0.0;
+        if (z > other || b.direct == 0.0) wb = 0.0;
+    }
+    if (wa + wb == 0.0) return;
+    vec3 c = (wa > 0.0 ? wa * a.sum / a.weight : vec3(0.0)) + (wb > 0.0 ? wb * b.sum / b.weight : vec3(0.0));
+    if (wa > wb ? a.apart > far_aside && !is_clear(pixel, z) : b.apart > far_aside && !is_clear(pixel, other))
+        is_known = false;
+    fused = vec4(c / (wa + wb), is_known ? 1.0 : 0.25);
+    fused_z = wa > wb ? z : other;
 }

@@ -1,7 +1,7 @@
 // Catmull-Rom interpolation by five bilinear fetches (the four corners' weights are negligible); trilinear where the
 // picture is minified. Coordinates in 0..1.
 vec3 sharp(sampler2D picture, vec2 uv, float lod) {
-    if (lod > 0.2) return textureLod(picture, uv, lod).rgb;
+    if (lod > 0.7) return textureLod(picture, uv, lod).rgb;
     vec2 size = vec2(textureSize(picture, 0));
     vec2 at = uv * size - 0.5;
     vec2 f = fract(at);

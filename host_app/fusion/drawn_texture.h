@@ -10,22 +10,26 @@ namespace vantage {
 /// A texture to draw into, allocated anew only when the size changes.
 class DrawnTexture {
   public:
-    explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest)
-        : format_(format), filter_(filter) {}
+    explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest,
+                          bool mipmapped = false)
+        : format_(format), filter_(filter), mipmapped_(mipmapped) {}
 
     void resize(cv::Size size) {
         if (texture_ && texture_->size() == size) return;
         target_.reset();
-        texture_.emplace(format_, size.width, size.height, filter_);
+        texture_.emplace(format_, size.width, size.height, filter_, mipmapped_);
         target_.emplace(std::initializer_list<const Texture*>{&*texture_});
     }
     bool empty() const { return !texture_; }
     const Texture& texture() const { return *texture_; }
     const Framebuffer& target() const { return *target_; }
+    /// Precondition: mipmapped.
+    void generate_mipmaps() { texture_->generate_mipmaps(); }
 
   private:
     TextureFormat format_;
     Filter filter_;
+    bool mipmapped_;
     std::optional<Texture> texture_;
     std::optional<Framebuffer> target_;
 };

@@ -37,6 +37,11 @@ const Framebuffer& GpuView::surface_target() {
     return surface_.target();
 }
 
+const Framebuffer& GpuView::trusted_colour_target() {
+    trusted_.resize(colour_->size());
+    return trusted_.target();
+}
+
 Eigen::Matrix3d GpuView::K_depth() const {
     return scaled_intrinsics(camera_.K,
                              static_cast<double>(depth_->width_px()) / colour_->width_px(),

@@ -26,6 +26,13 @@ class GpuView {
     const Texture& surface() const { return surface_.empty() ? *depth_ : surface_.texture(); }
     /// To draw mended depth into: r32f, of depth()'s size, negative = guessed.
     const Framebuffer& surface_target();
+    /// colour() with what finish_trusted_colour() saw drawn into its target since: alpha is how far
+    /// the colour can be trusted. colour() itself where nothing was drawn.
+    const Texture& trusted_colour() const {
+        return trusted_.empty() ? *colour_ : trusted_.texture();
+    }
+    const Framebuffer& trusted_colour_target();
+    void finish_trusted_colour() { trusted_.generate_mipmaps(); }
     /// Index buffer of the depth map's triangles: two a quad of four neighbouring pixels.
     const Buffer& triangles() const { return *triangles_; }
     Eigen::Matrix3d K_depth() const;
@@ -41,6 +48,7 @@ class GpuView {
     DepthView camera_;
     std::optional<Texture> colour_, depth_;
     DrawnTexture surface_{TextureFormat::r32f};
+    DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
     std::optional<Buffer> triangles_;
     std::vector<Eigen::Vector3d> sample_points_m_;
     double median_depth_m_ = 0;

@@ -74,6 +74,26 @@ double coverage(const ColourImage& rendered) {
     return cv::countNonZero(covered_mask(rendered)) / static_cast<double>(rendered.total());
 }
 
+double mean_error(const ColourImage& a, const ColourImage& b, const cv::Mat1b& mask) {
+    CV_Assert(a.size() == b.size() && mask.size() == a.size());
+    cv::Mat difference;
+    cv::absdiff(a, b, difference);
+    const cv::Scalar mean = cv::mean(difference, mask);
+    return (mean[0] + mean[1] + mean[2]) / 3;
+}
+
+cv::Mat1b depth_edge_band(const DepthImage& depth_m, int width_px) {
+    constexpr double edge_ratio = 1.05;
+    cv::Mat farthest, nearest;
+    const cv::Mat pair = cv::getStructuringElement(cv::MORPH_RECT, {2, 2});
+    cv::dilate(depth_m, farthest, pair);
+    cv::erode(depth_m, nearest, pair);
+    const cv::Mat1b edges = farthest > nearest * edge_ratio;
+    cv::Mat1b band;
+    cv::dilate(edges, band, cv::getStructuringElement(cv::MORPH_ELLIPSE, {width_px, width_px}));
+    return band;
+}
+
 ColourImage difference_picture(const ColourImage& a, const ColourImage& b, double gain) {
     cv::Mat difference;
     cv::absdiff(a, b, difference);

@@ -20,6 +20,14 @@ double ssim(const ColourImage& a, const ColourImage& b);
 double coverage(const ColourImage& rendered);
 cv::Mat1b covered_mask(const ColourImage& rendered);
 
+/// Mean absolute difference of R, G and B, 0..255, over the pixels where `mask` is not zero; 0 if
+/// it leaves none.
+double mean_error(const ColourImage& a, const ColourImage& b, const cv::Mat1b& mask);
+
+/// 255 within half of `width_px` of a depth edge (where neighbours' depths differ by more than 5
+/// %), where halos are.
+cv::Mat1b depth_edge_band(const DepthImage& depth_m, int width_px);
+
 /// The difference for a person to look at: |a - b| * gain per channel.
 ColourImage difference_picture(const ColourImage& a, const ColourImage& b, double gain = 4);
 

@@ -52,7 +52,7 @@ void RigLayers::bind(Program& program) const {
         set("centre", Eigen::Vector3f(centre.cast<float>()));
         set("spread", f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f);
         layers_[static_cast<std::size_t>(i)]->depth.bind(i);
-        view.colour().bind(count + i);
+        view.trusted_colour().bind(count + i);
         view.surface().bind(2 * count + i);
     }
     program.set("ray_from_pixel", Eigen::Matrix3f(target_.K.inverse().cast<float>()));

@@ -4,6 +4,7 @@
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_picture.h"
+#include "host_app/fusion/edge_trust.h"
 #include "host_app/fusion/gpu_view.h"
 #include "host_app/fusion/hole_filler.h"
 #include "host_app/fusion/rig_layers.h"
@@ -24,7 +25,7 @@ constexpr float edge_ratio = 1.03f;
 class FusedSynthesiser final : public Synthesiser {
   public:
     explicit FusedSynthesiser(const ShaderLibrary& library)
-        : closer_(library), layers_(library), filler_(library) {
+        : closer_(library), edge_trust_(library), layers_(library), filler_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers) {
             const ShaderDefines defines{{"LAYERS", std::to_string(layers)}};
             depth_pass_.emplace_back(library, "fused_depth.frag", defines);
@@ -36,6 +37,7 @@ class FusedSynthesiser final : public Synthesiser {
         upload_views(views, views_);
         for (const auto& view : views_) {
             closer_.close(view->depth(), view->surface_target());
+            edge_trust_.judge(*view);
             layers_.rasteriser().build_triangles(*view);
         }
     }
@@ -71,6 +73,7 @@ class FusedSynthesiser final : public Synthesiser {
 
     std::vector<std::unique_ptr<GpuView>> views_;
     DepthCloser closer_;
+    EdgeTrust edge_trust_;
     RigLayers layers_;
     HoleFiller filler_;
     std::vector<FullscreenPass> depth_pass_, colour_pass_;  ///< one for every number of layers
@@ -82,7 +85,8 @@ class FusedSynthesiser final : public Synthesiser {
 
 SynthesiserEntry fused_synthesiser_entry() {
     return {
-        "fused", "quad grids displaced by depth, cut at edges, blended by viewing angle",
+        "fused",
+        "per-pixel visibility in all rigs, soft depth edges, colours trusted by their place",
         [](const ShaderLibrary& library) { return std::make_unique<FusedSynthesiser>(library); }};
 }
 

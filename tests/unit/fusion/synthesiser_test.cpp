@@ -114,7 +114,7 @@ TEST_P(SynthesiserTest, ShowsASceneFromTheSideWithoutStretchingTheSquare) {
     side.world_from_camera = look_at({2, 0, 0.5}, {0, 0, 3}, {0, -1, 0});
     const ColourImage picture = render({&view, 1}, side);
     const double covered = coverage(picture);
-    EXPECT_GT(covered, 0.2);
+    EXPECT_GT(covered, 0.15);
     EXPECT_LT(covered, 0.98);
 }
 
@@ -167,9 +167,9 @@ TEST_P(HeldOutViewTest, IsMetByTheOthers) {
 INSTANTIATE_TEST_SUITE_P(RealViews, HeldOutViewTest,
                          testing::Values(HeldOut{"mesh", "aloe_half", "view3", 30.0},
                                          HeldOut{"mesh", "teddy", "im4", 28.0},
-                                         HeldOut{"fused", "aloe_half", "view3", 33.0},
-                                         HeldOut{"fused", "aloe_half", "view0", 31.5},
-                                         HeldOut{"fused", "teddy", "im4", 30.5}));
+                                         HeldOut{"fused", "aloe_half", "view3", 34.3},
+                                         HeldOut{"fused", "aloe_half", "view0", 32.1},
+                                         HeldOut{"fused", "teddy", "im4", 30.3}));
 
 TEST(MakeSynthesiser, NamesTheKnownOnesWhenAskedForAnother) {
     const EglContext context;
