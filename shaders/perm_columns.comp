@@ -2,44 +2,45 @@
 // up; on the way up the sums are complete, and the best disparity so far is kept for every pixel with its two
 // neighbours' costs (for sub-pixel positions), so that slabs follow one another through the same small volume.
 #include "perm_common.glsl"
+#include "winner_takes_all.glsl"
 
 // Disparities of this slab that count, 1..16.
 #ifndef VALID
 #define VALID 16
+#endif
+// 1: leaves a cost of 0..MOST for every disparity, the sum divided by the pixel's weight, for passes that follow; in
+// place of winners.
+#ifndef KEEP
+#define KEEP 0
+#endif
+#ifndef MOST
+#define MOST 48
 #endif
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
 layout(std430, binding = 1) readonly buffer Volume { uvec4 volume[]; };
 layout(std430, binding = 2) buffer Down { uvec4 down[]; };
-// x: cost << 20 | disparity << 12 | cost of the last disparity seen; y: cost of the disparity before the best << 12 |
-// of the one after (0xfff: there is none).
-layout(std430, binding = 3) buffer Winners { uvec2 winners[]; };
+#if KEEP
+layout(std430, binding = 3) writeonly buffer Costs { uvec4 costs[]; };  // a byte each, slab after slab
+layout(std430, binding = 4) readonly buffer Weight { uint weight[]; };
+uniform int plane;  // pixels of a slab of costs
+#else
+layout(std430, binding = 3) buffer Winners { uvec2 winners[]; };  // see winner_takes_all.glsl
+#endif
 uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
 
-// The least of the 16 costs with its index below it: two costs a word, so that a minimum of words is one of the upper
-// halves.
-#define CONSIDER(k, w)                                                \
-    {                                                                 \
-        uint keys = (w << 4) | (uint(2 * k) | (uint(2 * k + 1) << 16)); \
-        if (2 * k < VALID) least_low = min(least_low, keys << 16);    \
-        if (2 * k + 1 < VALID) least_high = min(least_high, keys);    \
-    }
-uint least_of(uvec4 a, uvec4 b) {
-    uint least_low = ~0u, least_high = ~0u;
-    CONSIDER(0, a.x) CONSIDER(1, a.y) CONSIDER(2, a.z) CONSIDER(3, a.w)
-    CONSIDER(4, b.x) CONSIDER(5, b.y) CONSIDER(6, b.z) CONSIDER(7, b.w)
-    return min(least_low >> 16, least_high >> 16);
+#if KEEP
+// Sums come to 26 / 16 of the weight at most.
+#define CODE(i, sum) (i < VALID ? min(uint(int(float(int(sum)) * factor)), uint(MOST)) : uint(MOST))
+#define CODES(i, p, q) \
+    CODE(i, p & 0xffffu) | (CODE(i + 1, p >> 16) << 8) | (CODE(i + 2, q & 0xffffu) << 16) | (CODE(i + 3, q >> 16) << 24)
+uvec4 codes_of(uvec4 a, uvec4 b, float factor) {
+    return uvec4(CODES(0, a.x, a.y), CODES(4, a.z, a.w), CODES(8, b.x, b.y), CODES(12, b.z, b.w));
 }
-
-uint cost_at(uint i, uvec4 a, uvec4 b) {
-    uvec4 four = (i & 8u) != 0u ? b : a;
-    uvec2 two = (i & 4u) != 0u ? four.zw : four.xy;
-    uint one = (i & 2u) != 0u ? two.y : two.x;
-    return (i & 1u) != 0u ? one >> 16 : one & 0xffffu;
-}
+#endif
 
 void main() {
     int x = int(gl_GlobalInvocationID.x);
@@ -70,23 +71,14 @@ void main() {
         down_a = above_a;
         down_b = above_b;
 
-        uint best = 0xfffu, best_d = 0xffu, before = 0xfffu, after = 0xfffu, last = 0xfffu;
-        if (first_disparity > 0) {
-            uvec2 state = winners[at];
-            best = state.x >> 20;
-            best_d = (state.x >> 12) & 255u;
-            last = state.x & 0xfffu;
-            before = state.y >> 12;
-            after = best_d + 1u == uint(first_disparity) ? sum_a.x & 0xffffu : state.y & 0xfffu;
-        }
-        uint least = least_of(sum_a, sum_b), i = least & 15u;
-        if ((least >> 4) < best) {
-            best = least >> 4;
-            best_d = uint(first_disparity) + i;
-            before = i == 0u ? last : cost_at(i - 1u, sum_a, sum_b);
-            after = i == uint(VALID - 1) ? 0xfffu : cost_at(i + 1u, sum_a, sum_b);
-        }
-        last = sum_b.w >> 16;
-        winners[at] = uvec2((best << 20) | (best_d << 12) | last, (before << 12) | after);
+#if KEEP
+        float factor = float(MOST) * 16.0 / 26.0 / float(max(weight[y * stride + x], 1u));
+        costs[(first_disparity >> 4) * plane + at] = codes_of(sum_a, sum_b, factor);
+#else
+        no_winner_yet();
+        if (first_disparity > 0) resume_winner(winners[at]);
+        consider_slab(first_disparity, sum_a, sum_b, VALID);
+        winners[at] = winner();
+#endif
     }
 }

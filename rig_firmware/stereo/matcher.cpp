@@ -31,7 +31,15 @@ MatchPreset parse_preset(const std::string& name) {
 }
 
 std::string default_matcher(MatchPreset preset) {
-    return preset == MatchPreset::fast ? "coarse" : "perm";
+    switch (preset) {
+        case MatchPreset::fast:
+            return "coarse";
+        case MatchPreset::balanced:
+            return "perm";
+        case MatchPreset::quality:
+            return "perm_sgm";
+    }
+    return "perm";
 }
 
 }  // namespace vantage

@@ -33,13 +33,18 @@ void FeaturePass::features(const Buffer& luma, const Buffer& words) {
         layout_.stride_px() / 4, (layout_.height_px + rows_an_invocation - 1) / rows_an_invocation);
 }
 
-void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
+void FeaturePass::run_words(PassProfiler& profiler, const LumaPass& luma) {
     const std::size_t pixels = layout_.pixels();
     profiler.run("census and gradient", {pixels * 10, static_cast<double>(pixels) * 220}, [&] {
         features(luma.left(), left_features_);
         features(luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
+}
+
+void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
+    run_words(profiler, luma);
+    const std::size_t pixels = layout_.pixels();
     profiler.run("permeability", {pixels * 7, static_cast<double>(pixels) * 55}, [&] {
         median_program_.use();
         median_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));

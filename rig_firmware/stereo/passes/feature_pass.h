@@ -17,6 +17,8 @@ class FeaturePass {
     FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma);
 
     void run(PassProfiler& profiler, const LumaPass& luma);
+    /// The feature words alone.
+    void run_words(PassProfiler& profiler, const LumaPass& luma);
 
     const Buffer& left_features() const { return left_features_; }
     const Buffer& right_features() const { return right_features_; }

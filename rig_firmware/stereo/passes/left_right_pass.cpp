@@ -5,12 +5,13 @@ namespace vantage {
 LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout)
     : layout_(layout),
       clear_(Program::compute(library, "stereo_clear.comp")),
-      splat_(Program::compute(library, "left_right_splat.comp")),
+      splat_weighted_(Program::compute(library, "left_right_splat.comp", {{"WEIGHTED", "1"}})),
+      splat_(Program::compute(library, "left_right_splat.comp", {{"WEIGHTED", "0"}})),
       resolve_(Program::compute(library, "left_right_resolve.comp")),
       claims_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       disparity_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
 
-void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer& weight) {
+void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight) {
     const std::size_t pixels = layout_.pixels();
     const Eigen::Vector2i size(layout_.width_px, layout_.height_px);
     profiler.run("left-right check", {pixels * 56, static_cast<double>(pixels) * 30}, [&] {
@@ -20,13 +21,14 @@ void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buf
         claims_.bind_storage(0);
         clear_.dispatch_over(vectors, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        splat_.use();
-        splat_.set("size", size);
-        splat_.set("stride", layout_.stride_px());
+        Program& splat = weight ? splat_weighted_ : splat_;
+        splat.use();
+        splat.set("size", size);
+        splat.set("stride", layout_.stride_px());
         winners.bind_storage(0);
-        weight.bind_storage(1);
+        if (weight) weight->bind_storage(1);
         claims_.bind_storage(2);
-        splat_.dispatch_over(layout_.width_px, layout_.height_px);
+        splat.dispatch_over(layout_.width_px, layout_.height_px);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         resolve_.use();
         resolve_.set("size", size);

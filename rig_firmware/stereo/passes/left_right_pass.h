@@ -15,8 +15,8 @@ class LeftRightPass {
   public:
     LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout);
 
-    /// winners and weight in PermPass's form.
-    void run(PassProfiler& profiler, const Buffer& winners, const Buffer& weight);
+    /// winners and weight in PermPass's form; no weight where costs compare as they are.
+    void run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
 
     /// uint a pixel: disparity in 1/32 px (0 = unknown) | confidence << 16.
     const Buffer& disparity() const { return disparity_; }
@@ -24,7 +24,7 @@ class LeftRightPass {
 
   private:
     StereoLayout layout_;
-    Program clear_, splat_, resolve_;
+    Program clear_, splat_weighted_, splat_, resolve_;
     Buffer claims_, disparity_;
 };
 

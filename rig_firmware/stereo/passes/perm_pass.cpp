@@ -7,26 +7,51 @@
 
 namespace vantage {
 
-PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities)
+namespace {
+
+ShaderDefines column_defines(PermOutput output, int valid) {
+    return {{"KEEP", output == PermOutput::costs ? "1" : "0"},
+            {"MOST", std::to_string(most_perm_code)},
+            {"VALID", std::to_string(valid)}};
+}
+
+}  // namespace
+
+PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                   PermOutput output)
     : layout_(layout),
       disparities_(disparities),
+      kind_(output),
       rows_(Program::compute(library, "perm_rows.comp", lane_defines())),
-      full_columns_(Program::compute(library, "perm_columns.comp")),
-      last_columns_(
-          Program::compute(library, "perm_columns.comp",
-                           {{"VALID", std::to_string((disparities - 1) % slab_disparities + 1)}})),
+      full_columns_(
+          Program::compute(library, "perm_columns.comp", column_defines(output, slab_disparities))),
+      last_columns_(Program::compute(library, "perm_columns.comp",
+                                     column_defines(output, valid_in_last_slab(disparities)))),
       weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
       weight_columns_(Program::compute(library, "perm_weight.comp", {{"ALONG", "1"}})),
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
       down_(layout.block_pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
-      winners_(layout.block_pixels() * 8, GL_DYNAMIC_COPY),
+      output_(layout.block_pixels() *
+                  (output == PermOutput::costs
+                       ? static_cast<std::size_t>(slabs_of(disparities) * slab_disparities)
+                       : 8U),
+              GL_DYNAMIC_COPY),
       weight_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
+
+std::size_t PermPass::volume_bytes() const {
+    return volume_.bytes() + down_.bytes() + (kind_ == PermOutput::costs ? output_.bytes() : 0U);
+}
+
+std::size_t PermPass::gpu_bytes() const {
+    return volume_.bytes() + down_.bytes() + output_.bytes() + weight_.bytes();
+}
 
 void PermPass::run_line_pass(Program& program, int lines, int first_disparity) {
     program.use();
     program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
     program.set("stride", layout_.stride_px());
     program.set("first_disparity", first_disparity);
+    program.set("plane", static_cast<int>(layout_.block_pixels()));
     program.dispatch_over(lines, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -36,6 +61,12 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
     const double evaluations = static_cast<double>(pixels) * slab_disparities;
     const int row_lanes =
         lane_mapping() == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
+    profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
+        features.permeability().bind_storage(0);
+        weight_.bind_storage(1);
+        run_line_pass(weight_rows_, layout_.height_px, 0);
+        run_line_pass(weight_columns_, layout_.width_px, 0);
+    });
     for (int first = 0; first < disparities_; first += slab_disparities) {
         profiler.run("cost and rows", {pixels * (3 * 16 + 20), evaluations * 28}, [&] {
             features.left_features().bind_storage(0);
@@ -49,17 +80,12 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
                 features.permeability().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);
-                winners_.bind_storage(3);
+                output_.bind_storage(3);
+                weight_.bind_storage(4);
                 const bool is_last = first + slab_disparities >= disparities_;
                 run_line_pass(is_last ? last_columns_ : full_columns_, layout_.width_px, first);
             });
     }
-    profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
-        features.permeability().bind_storage(0);
-        weight_.bind_storage(1);
-        run_line_pass(weight_rows_, layout_.height_px, 0);
-        run_line_pass(weight_columns_, layout_.width_px, 0);
-    });
 }
 
 }  // namespace vantage

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "common/gl/buffer.h"
 #include "common/gl/program.h"
@@ -11,30 +11,40 @@
 
 namespace vantage {
 
-/// Cost, permeability aggregation and winner takes all over the whole search range. The cost volume
-/// is only ever a slab of 16 disparities: aggregation does not mix disparities, so that slabs
-/// follow one another and only the winner so far stays. After C. Cigla, A. A. Alatan, "Information
-/// permeability for stereo matching", Signal Processing: Image Communication 28 (2013).
+/// What PermPass leaves.
+enum class PermOutput {
+    winners,  ///< the best disparity; the cost volume is only ever a slab of 16 disparities
+    costs,    ///< a cost of 0..48 a disparity, divided by the pixel's weight, for SgmPass
+};
+
+/// Cost, permeability aggregation and winner takes all over the whole search range. Aggregation
+/// does not mix disparities, so that slabs follow one another and only the winner so far stays.
+/// After C. Cigla, A. A. Alatan, "Information permeability for stereo matching", Signal Processing:
+/// Image Communication 28 (2013).
 class PermPass {
   public:
-    PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities);
+    PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+             PermOutput output = PermOutput::winners);
 
     void run(PassProfiler& profiler, const FeaturePass& features);
 
-    /// uvec2 a pixel in blocks (StereoLayout), see perm_columns.comp.
-    const Buffer& winners() const { return winners_; }
+    /// uvec2 a pixel in blocks (StereoLayout), see winner_takes_all.glsl; of PermOutput::winners.
+    const Buffer& winners() const { return output_; }
+    /// 16 bytes a pixel, pixels in blocks, slab after slab; of PermOutput::costs.
+    const Buffer& costs() const { return output_; }
     /// uint a pixel: what a pixel's sums are divided by before pixels are compared.
     const Buffer& weight() const { return weight_; }
-    std::size_t volume_bytes() const { return volume_.bytes() + down_.bytes(); }
-    std::size_t gpu_bytes() const { return volume_bytes() + winners_.bytes() + weight_.bytes(); }
+    std::size_t volume_bytes() const;
+    std::size_t gpu_bytes() const;
 
   private:
     void run_line_pass(Program& program, int lines, int first_disparity);
 
     StereoLayout layout_;
     int disparities_;
+    PermOutput kind_;
     Program rows_, full_columns_, last_columns_, weight_rows_, weight_columns_;
-    Buffer volume_, down_, winners_, weight_;
+    Buffer volume_, down_, output_, weight_;
 };
 
 }  // namespace vantage

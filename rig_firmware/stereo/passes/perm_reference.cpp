@@ -57,34 +57,78 @@ int feature_cost(int left, int right) {
     return std::min(census, 16) + std::min(2 * gradient, 10);
 }
 
+Winners no_winners(cv::Size size) {
+    return {cv::Mat1i(size, 0), cv::Mat1i(size, no_cost), cv::Mat1i(size, no_cost),
+            cv::Mat1i(size, no_cost), cv::Mat1i(size, 16)};
+}
+
+void consider_disparity(Winners& winners, cv::Mat1i& last, const cv::Mat1i& costs, int d) {
+    for (int y = 0; y < costs.rows; ++y)
+        for (int x = 0; x < costs.cols; ++x) {
+            const int cost = costs(y, x);
+            if (d > 0 && winners.disparity(y, x) == d - 1) winners.cost_after(y, x) = cost;
+            if (cost < winners.cost(y, x)) {
+                winners.cost(y, x) = cost;
+                winners.disparity(y, x) = d;
+                winners.cost_before(y, x) = last(y, x);
+                winners.cost_after(y, x) = no_cost;
+            }
+            last(y, x) = cost;
+        }
+}
+
+namespace {
+
+cv::Mat1i matching_cost(const cv::Mat1i& left, const cv::Mat1i& right, int d) {
+    cv::Mat1i costs(left.size());
+    for (int y = 0; y < costs.rows; ++y)
+        for (int x = 0; x < costs.cols; ++x)
+            costs(y, x) = feature_cost(left(y, x), x >= d ? right(y, x - d) : outside_feature);
+    return costs;
+}
+
+cv::Mat1i weight_of(const cv::Mat1b& permeability) {
+    cv::Mat1i weight(permeability.size(), 16);
+    permeate_picture(weight, permeability, {0, 3}, {0, 0});
+    return weight;
+}
+
+cv::Mat1i perm_sums(const cv::Mat1i& left, const cv::Mat1i& right, const cv::Mat1b& permeability,
+                    int d) {
+    cv::Mat1i costs = matching_cost(left, right, d);
+    permeate_picture(costs, permeability, {1, 3}, {0, 0});
+    return costs;
+}
+
+}  // namespace
+
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities) {
-    const cv::Size size = left_features.size();
-    Winners winners{cv::Mat1i(size, 0), cv::Mat1i(size, no_cost), cv::Mat1i(size, no_cost),
-                    cv::Mat1i(size, no_cost), cv::Mat1i(size, 16)};
-    permeate_picture(winners.weight, permeability, {0, 3}, {0, 0});
-    cv::Mat1i last(size, no_cost);
+    Winners winners = no_winners(left_features.size());
+    winners.weight = weight_of(permeability);
+    cv::Mat1i last(left_features.size(), no_cost);
+    for (int d = 0; d < disparities; ++d)
+        consider_disparity(winners, last, perm_sums(left_features, right_features, permeability, d),
+                           d);
+    return winners;
+}
+
+std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                                  const cv::Mat1b& permeability, int disparities) {
+    const cv::Mat1i weight = weight_of(permeability);
+    std::vector<cv::Mat1b> costs;
     for (int d = 0; d < disparities; ++d) {
-        cv::Mat1i costs(size);
-        for (int y = 0; y < size.height; ++y)
-            for (int x = 0; x < size.width; ++x)
-                costs(y, x) = feature_cost(left_features(y, x),
-                                           x >= d ? right_features(y, x - d) : outside_feature);
-        permeate_picture(costs, permeability, {1, 3}, {0, 0});
-        for (int y = 0; y < size.height; ++y)
-            for (int x = 0; x < size.width; ++x) {
-                const int cost = costs(y, x);
-                if (d > 0 && winners.disparity(y, x) == d - 1) winners.cost_after(y, x) = cost;
-                if (cost < winners.cost(y, x)) {
-                    winners.cost(y, x) = cost;
-                    winners.disparity(y, x) = d;
-                    winners.cost_before(y, x) = last(y, x);
-                    winners.cost_after(y, x) = no_cost;
-                }
-                last(y, x) = cost;
+        const cv::Mat1i sums = perm_sums(left_features, right_features, permeability, d);
+        cv::Mat1b& codes = costs.emplace_back(sums.size());
+        for (int y = 0; y < sums.rows; ++y)
+            for (int x = 0; x < sums.cols; ++x) {
+                const float factor = static_cast<float>(most_perm_code) * 16.0f / 26.0f /
+                                     static_cast<float>(std::max(weight(y, x), 1));
+                codes(y, x) = static_cast<unsigned char>(std::min(
+                    static_cast<int>(static_cast<float>(sums(y, x)) * factor), most_perm_code));
             }
     }
-    return winners;
+    return costs;
 }
 
 }  // namespace vantage

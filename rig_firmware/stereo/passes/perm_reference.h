@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 namespace vantage {
@@ -13,9 +15,21 @@ struct Winners {
     cv::Mat1i weight;  ///< what the sum of a cost of 16 everywhere would be
 };
 
+/// Winners to begin with, and one more disparity's costs for them: the CPU form of
+/// winner_takes_all.glsl. `last` holds the costs of the disparity before, no_cost at first.
+Winners no_winners(cv::Size size);
+void consider_disparity(Winners& winners, cv::Mat1i& last, const cv::Mat1i& costs, int d);
+
 /// CPU form of PermPass, bit for bit.
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities);
+
+/// The largest cost that PermPass leaves for passes that follow.
+inline constexpr int most_perm_code = 48;
+
+/// CPU form of PermPass with PermOutput::costs: a picture a disparity, 0..most_perm_code.
+std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                                  const cv::Mat1b& permeability, int disparities);
 
 /// Truncated census distance plus truncated gradient difference of two feature words, 0..26.
 int feature_cost(int left, int right);

@@ -34,5 +34,11 @@ struct StereoLayout {
 
 /// Disparities that one slab of the cost volume holds; also how far the shaders are unrolled.
 inline constexpr int slab_disparities = 16;
+constexpr int slabs_of(int disparities) {
+    return (disparities + slab_disparities - 1) / slab_disparities;
+}
+constexpr int valid_in_last_slab(int disparities) {
+    return (disparities - 1) % slab_disparities + 1;
+}
 
 }  // namespace vantage

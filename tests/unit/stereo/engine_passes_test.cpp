@@ -1,10 +1,8 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
-#include "common/image/image_file.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
 #include "rig_firmware/stereo/passes/fill_pass.h"
 #include "rig_firmware/stereo/passes/fill_reference.h"
@@ -15,94 +13,12 @@
 #include "rig_firmware/stereo/passes/result_pass.h"
 #include "rig_firmware/stereo/passes/upsample_pass.h"
 #include "rig_firmware/stereo/passes/upsample_reference.h"
+#include "tests/unit/stereo/engine_buffers.h"
 
 namespace vantage {
 namespace {
 
-/// Every component of a buffer of `channels` words a pixel, without the row padding.
-cv::Mat1i channel_of(const Buffer& buffer, const StereoLayout& layout, int channels, int channel) {
-    std::vector<int> words(buffer.bytes() / 4);
-    buffer.read(0, std::as_writable_bytes(std::span(words)));
-    cv::Mat1i image(layout.height_px, layout.width_px);
-    for (int y = 0; y < image.rows; ++y)
-        for (int x = 0; x < image.cols; ++x)
-            image(y, x) =
-                words[static_cast<std::size_t>((y * layout.stride_px() + x) * channels + channel)];
-    return image;
-}
-
-/// Likewise of PermPass's winners, which lie in blocks.
-cv::Mat1i winners_channel(const Buffer& buffer, const StereoLayout& layout, std::size_t channel) {
-    std::vector<int> words(buffer.bytes() / 4);
-    buffer.read(0, std::as_writable_bytes(std::span(words)));
-    cv::Mat1i image(layout.height_px, layout.width_px);
-    for (int y = 0; y < image.rows; ++y)
-        for (int x = 0; x < image.cols; ++x)
-            image(y, x) = words[layout.block_at(x, y) * 2 + channel];
-    return image;
-}
-
-void expect_equal(const cv::Mat1i& a, const cv::Mat1i& b, const char* what) {
-    ASSERT_EQ(a.size(), b.size());
-    for (int y = 0; y < a.rows; ++y)
-        for (int x = 0; x < a.cols; ++x)
-            ASSERT_EQ(a(y, x), b(y, x)) << what << " at " << x << ", " << y;
-}
-
-cv::Mat1i bits_of(const cv::Mat1i& words, int first, int count) {
-    cv::Mat1i result(words.size());
-    for (int i = 0; i < words.rows * words.cols; ++i)
-        result(i) = static_cast<int>(static_cast<unsigned>(words(i)) >> first) & ((1 << count) - 1);
-    return result;
-}
-
-cv::Mat1i upper_half(const cv::Mat1i& words) { return bits_of(words, 16, 16); }
-
-cv::Mat1i lower_half(const cv::Mat1i& words) { return bits_of(words, 0, 16); }
-
-cv::Mat1i as_int(const cv::Mat& image) {
-    cv::Mat1i result;
-    image.convertTo(result, CV_32S);
-    return result;
-}
-
-struct Pair {
-    ColourImage left, right;
-};
-
-/// Smooth noise seen at a disparity that steps from 3 to 9 px, with sensor noise.
-Pair textured_pair(int width, int height) {
-    cv::RNG random(5);
-    cv::Mat3b wide(height, width + 16);
-    random.fill(wide, cv::RNG::UNIFORM, 0, 256);
-    cv::GaussianBlur(wide, wide, {5, 5}, 1.2);
-    Pair pair{ColourImage(height, width), ColourImage(height, width)};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const auto pixel = [&](int at) {
-                const cv::Vec3b& c = wide(y, std::clamp(at, 0, wide.cols - 1));
-                const int noise = random.uniform(-3, 4);
-                return cv::Vec4b(cv::saturate_cast<unsigned char>(c[0] + noise), c[1], c[2], 255);
-            };
-            pair.left(y, x) = pixel(x);
-            pair.right(y, x) = pixel(x + (y > height / 2 ? 9 : 3));
-        }
-    return pair;
-}
-
-struct Case {
-    int width, height, disparities;
-};
-
-class EnginePassesTest : public testing::TestWithParam<Case> {
-  protected:
-    EglContext context_;
-    ShaderLibrary library_;
-    PassProfiler profiler_;
-    StereoLayout layout_{GetParam().width, GetParam().height};
-    Pair pair_ = textured_pair(GetParam().width, GetParam().height);
-    GreyImage left_luma_ = to_grey(pair_.left), right_luma_ = to_grey(pair_.right);
-};
+using EnginePassesTest = EnginePassTest;
 
 TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
@@ -136,7 +52,7 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(bits_of(beside, 0, 12), winners.cost_after, "cost after");
 
     LeftRightPass check(library_, layout_);
-    check.run(profiler_, perm.winners(), perm.weight());
+    check.run(profiler_, perm.winners(), &perm.weight());
     const CheckedDisparity checked = left_right_checked(winners);
     const cv::Mat1i words = channel_of(check.disparity(), layout_, 1, 0);
     expect_equal(lower_half(words), as_int(checked.disparity), "checked disparity");
@@ -184,8 +100,8 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
-                         testing::Values(Case{61, 47, 13}, Case{16, 16, 16}, Case{131, 38, 37},
-                                         Case{311, 239, 21}));
+                         testing::Values(PassCase{61, 47, 13}, PassCase{16, 16, 16},
+                                         PassCase{131, 38, 37}, PassCase{311, 239, 21}));
 
 TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
     const EglContext context;

@@ -1,0 +1,24 @@
+#include "rig_firmware/stereo/engine_matcher.h"
+
+namespace vantage {
+
+EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
+    : luma_(library, layout_of(settings)), result_(library, layout_of(settings)) {}
+
+const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {
+    profiler_.begin_frame();
+    luma_.run(profiler_, left, right);
+    const Texture& result = result_.run(profiler_, search(profiler_, luma_));
+    profiler_.end_frame();
+    return result;
+}
+
+const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& winners,
+                                const Buffer* weight) {
+    check_.run(profiler, winners, weight);
+    if (!fills_) return check_.disparity();
+    fill_.run(profiler, check_.disparity());
+    return fill_.filled();
+}
+
+}  // namespace vantage

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "rig_firmware/stereo/match_limits.h"
+#include "rig_firmware/stereo/matcher.h"
+#include "rig_firmware/stereo/passes/feature_pass.h"
+#include "rig_firmware/stereo/passes/fill_pass.h"
+#include "rig_firmware/stereo/passes/left_right_pass.h"
+#include "rig_firmware/stereo/passes/luma_pass.h"
+#include "rig_firmware/stereo/passes/result_pass.h"
+
+namespace vantage {
+
+/// What the engine's matchers share: luma of the pictures before the search, the median after it,
+/// and the book-keeping.
+class EngineMatcher : public Matcher {
+  public:
+    const Texture& match(const Texture& left, const Texture& right) final;
+    std::vector<PassReport> passes() const final { return profiler_.reports(); }
+    void set_profiling(bool on) final { profiler_.set_enabled(on); }
+    std::size_t gpu_bytes() const final {
+        return luma_.gpu_bytes() + result_.gpu_bytes() + search_bytes();
+    }
+
+  protected:
+    EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings);
+
+    /// From the pictures' lumas to a disparity for each of their pixels, in LeftRightPass's form.
+    virtual const Buffer& search(PassProfiler& profiler, const LumaPass& luma) = 0;
+    /// GL objects of the search.
+    virtual std::size_t search_bytes() const = 0;
+
+  private:
+    PassProfiler profiler_;
+    LumaPass luma_;
+    ResultPass result_;
+};
+
+/// What follows a search at its own size: left-right check, then fill if `fill` is set.
+class CheckAndFill {
+  public:
+    CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill)
+        : fills_(fill), check_(library, layout), fill_(library, layout) {}
+
+    const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
+    std::size_t gpu_bytes() const { return check_.gpu_bytes() + fill_.gpu_bytes(); }
+
+  private:
+    bool fills_;
+    LeftRightPass check_;
+    FillPass fill_;
+};
+
+inline StereoLayout layout_of(const MatchSettings& settings) {
+    return {settings.width_px, settings.height_px};
+}
+
+/// The entry of a matcher that is constructed from library and settings.
+template <class M>
+MatcherEntry engine_entry(const char* name, const char* summary) {
+    return {name, summary,
+            [](const ShaderLibrary& library,
+               const MatchSettings& settings) -> std::unique_ptr<Matcher> {
+                require_match_limits(settings);
+                return std::make_unique<M>(library, settings);
+            }};
+}
+
+}  // namespace vantage

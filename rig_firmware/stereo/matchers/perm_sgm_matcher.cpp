@@ -1,0 +1,51 @@
+#include "rig_firmware/stereo/engine_matcher.h"
+#include "rig_firmware/stereo/passes/perm_pass.h"
+#include "rig_firmware/stereo/passes/sgm_pass.h"
+
+namespace vantage {
+namespace {
+
+/// Permeability aggregation, whose normalised sums are the costs of a light semi-global matching
+/// along the rows.
+class PermSgmMatcher : public EngineMatcher {
+  public:
+    PermSgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
+        : EngineMatcher(library, settings),
+          features_(library, layout_of(settings), sigma),
+          perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
+          paths_(library, layout_of(settings), settings.disparities,
+                 {.p1 = 4, .p2 = 20, .columns = false}),
+          check_(library, layout_of(settings), settings.fill) {}
+
+    std::size_t cost_volume_bytes() const override {
+        return perm_.volume_bytes() + paths_.volume_bytes();
+    }
+
+  private:
+    /// Smaller than where permeability has to smooth alone: paths do the rest.
+    static constexpr double sigma = 9;
+
+    const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
+        features_.run(profiler, luma);
+        perm_.run(profiler, features_);
+        paths_.run(profiler, perm_.costs());
+        return check_.run(profiler, paths_.winners(), nullptr);
+    }
+    std::size_t search_bytes() const override {
+        return features_.gpu_bytes() + perm_.gpu_bytes() + paths_.gpu_bytes() + check_.gpu_bytes();
+    }
+
+    FeaturePass features_;
+    PermPass perm_;
+    SgmPass paths_;
+    CheckAndFill check_;
+};
+
+}  // namespace
+
+MatcherEntry perm_sgm_matcher_entry() {
+    return engine_entry<PermSgmMatcher>("perm_sgm",
+                                        "perm, then semi-global matching along the rows");
+}
+
+}  // namespace vantage

@@ -1,0 +1,45 @@
+#include "rig_firmware/stereo/engine_matcher.h"
+#include "rig_firmware/stereo/passes/sgm_pass.h"
+
+namespace vantage {
+namespace {
+
+/// Census and gradient cost, semi-global matching along four paths.
+class SgmMatcher : public EngineMatcher {
+  public:
+    SgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
+        : EngineMatcher(library, settings),
+          features_(library, layout_of(settings), 1),
+          cost_(library, layout_of(settings), settings.disparities, 1),
+          paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
+          check_(library, layout_of(settings), settings.fill) {}
+
+    std::size_t cost_volume_bytes() const override {
+        return cost_.costs().bytes() + paths_.volume_bytes();
+    }
+
+  private:
+    const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
+        features_.run_words(profiler, luma);
+        cost_.run(profiler, features_);
+        paths_.run(profiler, cost_.costs());
+        return check_.run(profiler, paths_.winners(), nullptr);
+    }
+    std::size_t search_bytes() const override {
+        return features_.gpu_bytes() + cost_.costs().bytes() + paths_.gpu_bytes() +
+               check_.gpu_bytes();
+    }
+
+    FeaturePass features_;
+    SgmCostPass cost_;
+    SgmPass paths_;
+    CheckAndFill check_;
+};
+
+}  // namespace
+
+MatcherEntry sgm_matcher_entry() {
+    return engine_entry<SgmMatcher>("sgm", "census and gradient cost, semi-global, four paths");
+}
+
+}  // namespace vantage

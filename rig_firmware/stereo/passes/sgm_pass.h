@@ -1,0 +1,56 @@
+#pragma once
+
+#include "common/gl/buffer.h"
+#include "common/gl/program.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/passes/feature_pass.h"
+#include "rig_firmware/stereo/passes/sgm_reference.h"
+#include "rig_firmware/stereo/passes/stereo_layout.h"
+
+namespace vantage {
+
+/// Matching cost of every pixel and disparity, as SgmPass takes it.
+class SgmCostPass {
+  public:
+    /// `scale`: what a feature cost of 0..26 is multiplied by.
+    SgmCostPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                int scale);
+
+    void run(PassProfiler& profiler, const FeaturePass& features);
+
+    /// 16 bytes a pixel, pixels in blocks (StereoLayout), slab after slab.
+    const Buffer& costs() const { return costs_; }
+
+  private:
+    StereoLayout layout_;
+    int disparities_;
+    Program program_;
+    Buffer costs_;
+};
+
+/// Path aggregation and winner takes all over a whole cost volume. H. Hirschmueller, "Stereo
+/// processing by semiglobal matching and mutual information", PAMI 30 (2008).
+class SgmPass {
+  public:
+    SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+            const SgmSettings& settings);
+
+    /// costs: bytes in SgmCostPass's form, at most SgmSettings::most_cost().
+    void run(PassProfiler& profiler, const Buffer& costs);
+
+    /// In PermPass's form; costs of all pixels compare as they are.
+    const Buffer& winners() const { return winners_; }
+    std::size_t volume_bytes() const { return sums_.bytes(); }
+    std::size_t gpu_bytes() const { return sums_.bytes() + winners_.bytes(); }
+
+  private:
+    StereoLayout layout_;
+    int disparities_;
+    SgmSettings settings_;
+    int sum_rows_;
+    Program rows_;
+    Program columns_;
+    Buffer sums_, winners_;
+};
+
+}  // namespace vantage
