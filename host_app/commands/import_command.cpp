@@ -1,0 +1,74 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/print_result.h"
+#include "host_app/fusion/data_set_import.h"
+
+namespace vantage {
+namespace {
+
+struct ImportOptions {
+    std::string folder, view_set;
+    int instant = 0;
+    std::vector<double> depth_range;
+    bool json = false;
+};
+
+void print(const ImportedViews& imported, const ImportOptions& options) {
+    print_result(nlohmann::ordered_json{{"view_set", options.view_set},
+                                        {"views", imported.views},
+                                        {"with_geometry", imported.with_geometry}},
+                 options.json);
+}
+
+CLI::App* add_data_set(CLI::App& import, const std::string& name, const std::string& summary,
+                       const std::shared_ptr<ImportOptions>& options) {
+    CLI::App* command = import.add_subcommand(name, summary);
+    command->add_option("DIR", options->folder, "Folder of the data set")->required();
+    command->add_option("-o,--output", options->view_set, "Folder for the view set")->required();
+    command->add_flag("--json", options->json, "Write the result as one JSON object");
+    return command;
+}
+
+}  // namespace
+
+CommandEntry import_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<ImportOptions>();
+        CLI::App* import = program.add_subcommand(
+            "import", "Make a view set of a published data set, undoing its conventions");
+        import->require_subcommand(1);
+
+        CLI::App* microsoft = add_data_set(
+            *import, "msr3dvideo", "Microsoft Research 3-D video: ballet, breakdancers", options);
+        auto* instant = microsoft
+                            ->add_option("--instant", options->instant,
+                                         "Number in the files' names; the first there is if left "
+                                         "out")
+                            ->check(CLI::NonNegativeNumber);
+        microsoft
+            ->add_option("--depth-range", options->depth_range,
+                         "MinZ and MaxZ of the depth codes, for other sequences than these two")
+            ->expected(2);
+        microsoft->callback([options, instant] {
+            std::optional<int> wanted;
+            if (instant->count() > 0) wanted = options->instant;
+            std::optional<std::pair<double, double>> range;
+            if (!options->depth_range.empty())
+                range.emplace(options->depth_range[0], options->depth_range[1]);
+            print(import_msr3dvideo(options->folder, options->view_set, wanted, range), *options);
+        });
+
+        CLI::App* middlebury =
+            add_data_set(*import, "middlebury",
+                         "Middlebury stereo scenes of 2001, 2003, 2005, 2006, 2014", options);
+        middlebury->callback(
+            [options] { print(import_middlebury(options->folder, options->view_set), *options); });
+    }};
+}
+
+}  // namespace vantage
