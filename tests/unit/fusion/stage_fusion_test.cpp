@@ -103,6 +103,8 @@ TEST_P(StageFusionTest, MeetsTheStageBetweenTwoCloseRigs) {
 
 INSTANTIATE_TEST_SUITE_P(All, StageFusionTest,
                          testing::Values(Reached{"mesh", 25, 0.85, 29, 0.9},
+                                         Reached{"points", 21, 0.7, 23, 0.8},
+                                         Reached{"layered", 25, 0.84, 28, 0.88},
                                          Reached{"fused", 27.3, 0.9, 30, 0.93}),
                          [](const auto& test) { return std::string(test.param.synthesiser); });
 

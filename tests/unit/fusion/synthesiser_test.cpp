@@ -167,6 +167,8 @@ TEST_P(HeldOutViewTest, IsMetByTheOthers) {
 INSTANTIATE_TEST_SUITE_P(RealViews, HeldOutViewTest,
                          testing::Values(HeldOut{"mesh", "aloe_half", "view3", 30.0},
                                          HeldOut{"mesh", "teddy", "im4", 28.0},
+                                         HeldOut{"layered", "aloe_half", "view3", 31.0},
+                                         HeldOut{"layered", "teddy", "im4", 29.0},
                                          HeldOut{"fused", "aloe_half", "view3", 34.3},
                                          HeldOut{"fused", "aloe_half", "view0", 32.1},
                                          HeldOut{"fused", "teddy", "im4", 30.3}));

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "common/gl/fullscreen_pass.h"
+#include "host_app/fusion/depth_picture.h"
+#include "host_app/fusion/gpu_view.h"
+#include "host_app/fusion/hole_filler.h"
+#include "host_app/fusion/layer_splitter.h"
+#include "host_app/fusion/rig_layers.h"
+#include "host_app/fusion/synthesiser.h"
+#include "host_app/fusion/view_ranking.h"
+
+namespace vantage {
+namespace {
+
+/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+constexpr float softness = 0.01f;
+/// As in the paper, the two nearest cameras are blended.
+constexpr std::size_t blended_views = 2;
+
+/// Layered view interpolation after Zitnick et al. (2004).
+class LayeredSynthesiser final : public Synthesiser {
+  public:
+    explicit LayeredSynthesiser(const ShaderLibrary& library)
+        : splitter_(library), layers_(library), filler_(library) {
+        for (std::size_t views = 1; views <= blended_views; ++views)
+            blend_.emplace_back(library, "layered_blend.frag",
+                                ShaderDefines{{"LAYERS", std::to_string(2 * views)}});
+    }
+
+    void set_views(std::span<const DepthView> views) override {
+        upload_views(views, mains_);
+        upload_views(views, boundaries_);
+        for (std::size_t i = 0; i < mains_.size(); ++i) {
+            splitter_.split(*mains_[i], *mains_[i], *boundaries_[i]);
+            layers_.rasteriser().build_triangles(*mains_[i]);
+            layers_.rasteriser().build_triangles(*boundaries_[i]);
+        }
+    }
+
+    const Texture& render(const VirtualView& view) override {
+        std::vector<const GpuView*> used;
+        for (const GpuView* main : most_useful(mains_, view, blended_views)) {
+            used.push_back(main);
+            const auto at = std::find_if(mains_.begin(), mains_.end(),
+                                         [&](const auto& other) { return other.get() == main; });
+            used.push_back(boundaries_[static_cast<std::size_t>(at - mains_.begin())].get());
+        }
+        layers_.draw(used, view);
+        blended_.resize({view.width_px, view.height_px});
+        if (used.empty()) {
+            blended_.clear();
+        } else {
+            FullscreenPass& pass = blend_[used.size() / 2 - 1];
+            Program& program = pass.use();
+            layers_.bind(program);
+            program.set("softness", softness);
+            pass.draw(blended_.target());
+        }
+        return filler_.fill(blended_.colour(), blended_.depth_m());
+    }
+
+  private:
+    std::vector<std::unique_ptr<GpuView>> mains_, boundaries_;  ///< in the same order
+    LayerSplitter splitter_;
+    RigLayers layers_;
+    HoleFiller filler_;
+    std::vector<FullscreenPass> blend_;  ///< one for every number of views
+    DepthPicture blended_;
+};
+
+}  // namespace
+
+SynthesiserEntry layered_synthesiser_entry() {
+    return {
+        "layered", "main layers with matted boundary layers, the two nearest rigs blended",
+        [](const ShaderLibrary& library) { return std::make_unique<LayeredSynthesiser>(library); }};
+}
+
+}  // namespace vantage

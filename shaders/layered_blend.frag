@@ -1,0 +1,63 @@
+// Composes the layers of the nearest rigs (Zitnick et al., 2004): even layers are the rigs' main layers, odd ones their
+// matted boundary layers. What the rigs have in front is blended and laid over what they have behind.
+#include "rig_layers.glsl"
+
+uniform float softness;  // relative depth within which two surfaces are one
+
+layout(location = 0) out vec4 blended;
+layout(location = 1) out float blended_z;
+
+// Colour and matte of layer i at a point, and how much the rig counts there.
+vec4 look(int i, sampler2D picture, float z, vec2 pixel, vec3 ray, out float weight) {
+    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
+    vec2 margin = min(uv, 1.0 - uv);
+    weight = (smoothstep(0.0, 0.04, min(margin.x, margin.y)) + 0.001) / (apart(ray * z, centre[i]) + 1e-5);
+    return textureLod(picture, uv, detail_level(pixel_from_target[i], z, q.z));
+}
+
+bool is_one(int i, float z, float nearest) {
+    return z < nothing && z / nearest - 1.0 < 1.5 * (softness + spread[i] * nearest);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec2 pixel = vec2(at);
+    vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
+    float z[LAYERS];
+    float back = nothing, front = nothing;
+#define LOOK(i)                          \
+    z[i] = layer_z(layer_depth[i], at);  \
+    if (i % 2 == 0)                      \
+        back = min(back, z[i]);          \
+    else                                 \
+        front = min(front, z[i]);
+    FOR_LAYERS(LOOK)
+    vec4 behind = vec4(0.0), before = vec4(0.0);
+    float matte = 0.0, weight;
+#define ADD(i)                                                       \
+    if (is_one(i, z[i], i % 2 == 0 ? back : front)) {                \
+        vec4 c = look(i, colour[i], z[i], pixel, ray, weight);       \
+        if (i % 2 == 0) {                                            \
+            behind += weight * vec4(c.rgb, 1.0);                     \
+        } else {                                                     \
+            before += weight * vec4(c.rgb, 1.0);                     \
+            matte += weight * c.a;                                   \
+        }                                                            \
+    }
+    FOR_LAYERS(ADD)
+    float share = before.a > 0.0 ? matte / before.a : 0.0;
+    // A strip that lies behind the main layer is hidden by it.
+    if (front > back * (1.0 + softness)) share = 0.0;
+    blended = vec4(0.0);
+    blended_z = 0.0;
+    if (behind.a == 0.0 && share < 0.5) return;
+    if (behind.a == 0.0) {
+        blended = vec4(before.rgb / before.a, 1.0);
+        blended_z = front;
+        return;
+    }
+    vec3 b = behind.rgb / behind.a;
+    blended = vec4(share > 0.0 ? mix(b, before.rgb / before.a, share) : b, 1.0);
+    blended_z = share > 0.5 ? front : back;
+}
