@@ -88,6 +88,7 @@ class JogDeck::Reader {
         } catch (const std::exception& error) {
             fault_ = error.what();
         }
+        if (usable_ && !stopping_) log_warning("{}; what it drove holds until it is back", fault_);
         if (usable_) push(DeckEvent::Kind::lost);
         gone_ = true;
     }

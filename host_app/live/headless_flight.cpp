@@ -1,5 +1,7 @@
 #include "host_app/live/headless_flight.h"
 
+#include <numbers>
+
 #include "common/base/log.h"
 #include "host_app/live/output_clock.h"
 
@@ -13,10 +15,13 @@ void log_progress(LiveSession& session, const FlightPlan& plan, std::uint64_t pi
     int connected = 0;
     const ReceiverStatus& status = session.refresh_status();
     for (const RigStatus& rig : status.rigs) connected += rig.connected;
-    log_info("{}{} pictures, {:.1f} a second, {} of {} rigs, {:.0f} ms from exposure to picture",
-             pictures, plan.frames ? fmt::format(" of {}", *plan.frames) : "",
-             seconds > 0 ? static_cast<double>(pictures) / seconds : 0.0, connected,
-             status.rigs.size(), session.latest_latency_ms());
+    constexpr double deg = 180 / std::numbers::pi;
+    log_info(
+        "{}{} pictures, {:.1f} a second, {} of {} rigs, {:.0f} ms from exposure to picture, "
+        "camera at azimuth {:.1f} degrees",
+        pictures, plan.frames ? fmt::format(" of {}", *plan.frames) : "",
+        seconds > 0 ? static_cast<double>(pictures) / seconds : 0.0, connected, status.rigs.size(),
+        session.latest_latency_ms(), session.last_view().azimuth_rad * deg);
 }
 
 }  // namespace

@@ -49,6 +49,9 @@ class LiveSession {
     /// The picture that was made last, read back. Precondition: there is one.
     ColourImage last_picture() const { return last_texture_->download(); }
 
+    /// Of the picture that was made last.
+    const OrbitView& last_view() const { return last_view_; }
+
     /// Changes to the registered synthesiser after the current one.
     void next_synthesiser();
     const std::string& synthesiser() const { return settings_.synthesiser; }

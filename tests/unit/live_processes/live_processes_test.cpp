@@ -14,7 +14,9 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/virtual_screen.h"
 #include "tests/unit/live_processes/child_process.h"
 
 namespace vantage {
@@ -175,6 +177,30 @@ TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
         EXPECT_NE(host->standard_error().find(c.reason), std::string::npos)
             << host->standard_error();
     }
+}
+
+TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
+    if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+    const VirtualScreen screen(640, 360);
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const TemporaryFolder host_folder;
+    ChildProgram host(VANTAGE_PROGRAM,
+                      {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
+                       "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
+                      host_folder.path(), {screen.environment()});
+    screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
+    // A fifth of the window's width to the right, slowly: the stage turns with the hand by 36
+    // degrees. The follower that smooths it needs a second.
+    screen.hands({"mousemove", "320", "120", "sleep", "1", "mousedown", "1", "sleep", "1",
+                  "mousemove", "448", "120", "sleep", "1", "mouseup", "1", "sleep", "3"});
+    screen.hands({"key", "Escape"});
+    const ProgramResult result = host.wait();
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    EXPECT_NEAR(summary["camera"]["azimuth_deg"].get<double>(), -36, 1);
+    EXPECT_NEAR(summary["camera"]["elevation_deg"].get<double>(), 10, 0.1);
+    EXPECT_EQ(read_colour_image(file("screen.png")).size(), cv::Size(640, 360));
 }
 
 TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {

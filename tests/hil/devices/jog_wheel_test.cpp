@@ -1,0 +1,209 @@
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tests/hil/devices/uhid_wheel.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+
+class JogWheel : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (access("/dev/uhid", W_OK) != 0) GTEST_SKIP() << "SKIPPED: /dev/uhid is not there";
+    }
+
+    static UhidWheel::Kind xpress() {
+        return {0x0b33, 0x0020, "Contour Design ShuttleXpress", UhidWheel::five_bytes(), {}, {}};
+    }
+    static UhidWheel::Kind unknown_wheel() {
+        return {0x1209, 0xb0b0, "Workshop wheel", UhidWheel::five_bytes(), {}, {}};
+    }
+    std::string describe_unknown_wheel() const {
+        const std::string file = (folder_.path() / "workshop.toml").string();
+        std::ofstream(file) << "version = 1\nname = \"Workshop\"\ndevices = [\"1209:b0b0\"]\n"
+                               "[[report]]\nname = \"jog\"\nkind = \"delta\"\nbyte = 2\n"
+                               "[[report]]\nname = \"b\"\nkind = \"buttons\"\nbyte = 4\n"
+                               "[axes.jog]\naction = \"wheel\"\n[buttons]\nb8 = \"freeze\"\n";
+        return file;
+    }
+    /// Waits until `ready` holds; false after minutes, which emulation may take.
+    template <class Condition>
+    static bool comes(const Condition& ready) {
+        for (int i = 0; i < 4800; ++i) {
+            if (ready()) return true;
+            std::this_thread::sleep_for(50ms);
+        }
+        return false;
+    }
+    static bool holds(const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    }
+    std::unique_ptr<ChildProgram> monitor(std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"jog", "monitor"});
+        return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, more, folder_.path());
+    }
+    /// `vantage jog list` as a user without rights of his own but those of a group.
+    ProgramResult list_as(const std::string& group, const std::string& wheels) {
+        return run_to_end("/usr/bin/setpriv",
+                          {"--reuid=nobody", "--regid=" + group, "--clear-groups", VANTAGE_PROGRAM,
+                           "jog", "list", "--wheels", wheels});
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(JogWheel, ReportsComeThroughTheKernelAsEvents) {
+    std::optional<UhidWheel> wheel(xpress());
+    const auto program = monitor();
+    ASSERT_TRUE(comes([&] { return holds(program->out(), "plugged in"); })) << program->err();
+    wheel->send({0, 100, 0, 0, 0});
+    wheel->send({0, 103, 0, 0x10, 0});
+    wheel->send({0xfe, 103, 0, 0, 0});
+    EXPECT_TRUE(comes([&] { return holds(program->out(), "shuttle -0.286"); }));
+    EXPECT_THAT(program->out(), HasSubstr("jog +3"));
+    EXPECT_THAT(program->out(), HasSubstr("b1 pressed"));
+    EXPECT_THAT(program->out(), HasSubstr("b1 let go"));
+    wheel.reset();
+    EXPECT_TRUE(comes([&] { return holds(program->out(), "gone from"); })) << program->out();
+    program->send_signal(SIGINT);
+    EXPECT_EQ(program->wait().status, 0);
+}
+
+TEST_F(JogWheel, OneThatIsOnlyDescribedIsReadToo) {
+    const UhidWheel wheel(unknown_wheel());
+    const auto program = monitor({"--wheels", describe_unknown_wheel(), "--json"});
+    ASSERT_TRUE(comes([&] { return holds(program->out(), "plugged"); })) << program->err();
+    wheel.send({9, 9, 0xfd, 9, 0x80});
+    EXPECT_TRUE(comes([&] { return holds(program->out(), R"("control":"b8","value":1.0)"); }));
+    EXPECT_THAT(program->out(), HasSubstr(R"("control":"jog","value":-3.0)"));
+}
+
+TEST_F(JogWheel, RulesLetAnOperatorUseItAndAFaultNamesThem) {
+    const UhidWheel known(xpress()), other(unknown_wheel());
+    const std::string described = describe_unknown_wheel();
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+    ProgramResult result;
+    EXPECT_TRUE(comes([&] {
+        result = list_as("input", described);
+        return holds(result.out, "ShuttleXpress  ready");
+    })) << result.out
+        << result.err;
+    EXPECT_THAT(result.out, HasSubstr("may not be opened by this user: copy "
+                                      "udev/70-vantage-jog.rules"))
+        << "no rule names the workshop's wheel";
+    EXPECT_THAT(list_as("nogroup", described).out, Not(HasSubstr("ready")));
+}
+
+TEST_F(JogWheel, OpensASpeedEditorByItsHandshake) {
+    UhidWheel::Kind kind{0x1edb, 0xda0e, "DaVinci Resolve Speed Editor", {}, {}, {}};
+    kind.descriptor = {0x06, 0x00, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x15, 0x00, 0x26, 0xff, 0x00, 0x75,
+                       0x08, 0x85, 0x03, 0x09, 0x01, 0x95, 0x06, 0x81, 0x02, 0x09, 0x01, 0x95, 0x06,
+                       0x91, 0x02, 0x85, 0x04, 0x09, 0x01, 0x95, 0x0c, 0x81, 0x02, 0x09, 0x01, 0x95,
+                       0x01, 0x91, 0x02, 0x85, 0x06, 0x09, 0x01, 0x95, 0x09, 0xb1, 0x02, 0xc0};
+    // The device as its procedure is known: it takes the answer to its challenge and then talks.
+    auto step = std::make_shared<std::atomic<int>>(-1);
+    auto answer = std::make_shared<std::atomic<std::uint64_t>>(0);
+    kind.set_feature = [step, answer](std::span<const std::uint8_t> report) {
+        if (report.size() < 10) return;
+        step->store(report[1]);
+        std::uint64_t number = 0;
+        for (std::size_t i = 10; i-- > 2;) number = number << 8 | report[i];
+        if (report[1] == 3) answer->store(number);
+    };
+    kind.get_feature = [step](std::uint8_t) -> std::vector<std::uint8_t> {
+        switch (step->load()) {
+            case 0:
+                return {6, 0, 0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01};
+            case 1:
+                return {6, 2, 0, 0, 0, 0, 0, 0, 0, 0};
+            default:
+                return {6, 4, 0x58, 0x02, 0, 0, 0, 0, 0, 0};
+        }
+    };
+    const UhidWheel wheel(kind);
+    const auto program = monitor();
+    ASSERT_TRUE(comes([&] { return holds(program->out(), "plugged in"); })) << program->err();
+    EXPECT_EQ(answer->load(), 0xe5c7b689e9967608u);
+    wheel.send({3, 0, 0x00, 0x01, 0, 0, 255});
+    EXPECT_TRUE(comes([&] { return holds(program->out(), "jog +1"); })) << program->out();
+}
+
+TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
+    const auto file = [&](const char* name) { return (folder_.path() / name).string(); };
+    // A pulse every five seconds: under emulation a picture of the stage takes seconds.
+    std::ofstream(file("rig.toml"))
+        << "version = 1\nname = \"rig\"\n[source]\nrate_hz = 0.2\nwidth_px = 80\nheight_px = 60\n"
+        << "[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+        << "[stream]\nbind = \"tcp://127.0.0.1:5690\"\n";
+    std::ofstream(file("stage.toml"))
+        << "version = 1\nrate_hz = 0.2\nlatency_budget_ms = 60000\n[view]\nwidth_px = 64\n"
+        << "height_px = 36\nsynthesiser = \"mesh\"\n[[rigs]]\nname = \"rig\"\n"
+        << "endpoint = \"tcp://127.0.0.1:5690\"\n";
+    const TemporaryFolder rig_folder;
+    ChildProgram rig(VANTAGE_RIG_PROGRAM, {"run", "--config", file("rig.toml")}, rig_folder.path());
+    std::optional<UhidWheel> wheel(xpress());
+    ChildProgram live(VANTAGE_PROGRAM,
+                      {"live", "--stage", file("stage.toml"), "--headless", "--jog", "--rate", "4",
+                       "--wait", "300", "--seconds", "900", "--json"},
+                      folder_.path());
+    const auto camera_is_at = [&](const std::string& azimuth) {
+        const std::string log = live.err();
+        const std::size_t last = log.rfind("azimuth ");
+        return last != std::string::npos && log.compare(last + 8, azimuth.size(), azimuth) == 0;
+    };
+    ASSERT_TRUE(comes([&] { return holds(live.err(), "is ready"); })) << live.err();
+    ASSERT_TRUE(comes([&] { return camera_is_at("0.0 "); })) << live.err() << rig.err();
+    wheel->send({0, 250, 0, 0, 0});
+    wheel->send({0, 14, 0, 0, 0});
+    EXPECT_TRUE(comes([&] { return camera_is_at("20.0 "); })) << live.err();
+
+    wheel->send({0x07, 14, 0, 0, 0});
+    EXPECT_TRUE(comes([&] { return !camera_is_at("20.0 "); })) << "the ring is held at its end";
+    wheel.reset();
+    ASSERT_TRUE(comes([&] { return holds(live.err(), "is gone"); })) << live.err();
+    // Two looks at it after the last of the movement; one is logged every two seconds.
+    std::this_thread::sleep_for(5s);
+    const auto azimuth_now = [&] {
+        const std::string log = live.err();
+        return std::stod(log.substr(log.rfind("azimuth ") + 8));
+    };
+    const double held = azimuth_now();
+    EXPECT_GT(held, 21);
+    std::this_thread::sleep_for(5s);
+    EXPECT_EQ(azimuth_now(), held) << live.err();
+
+    wheel.emplace(xpress());
+    ASSERT_TRUE(comes([&] { return live.err().rfind("is ready") > live.err().find("is gone"); }));
+    wheel->send({0, 3, 0, 0, 0});
+    wheel->send({0, 0, 0, 0, 0});
+    EXPECT_TRUE(comes([&] { return std::abs(azimuth_now() - (held - 3)) < 0.11; })) << live.err();
+    live.send_signal(SIGINT);
+    const ProgramResult result = live.wait();
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    std::printf("hil: wheel %s camera %s\n", summary["wheels"].dump().c_str(),
+                summary["camera"].dump().c_str());
+    EXPECT_NEAR(summary["camera"]["azimuth_deg"].get<double>(), held - 3, 0.1);
+    ASSERT_EQ(summary["wheels"].size(), 1u);
+    EXPECT_EQ(summary["wheels"][0]["unread"], 0);
+}
+
+}  // namespace
+}  // namespace vantage

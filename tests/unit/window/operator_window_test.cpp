@@ -1,0 +1,143 @@
+#include "host_app/ui/operator_window.h"
+
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/virtual_screen.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width_px = 640, height_px = 480;
+constexpr double pi = std::numbers::pi;
+
+class OperatorHands : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+        screen_.emplace(width_px, height_px);
+        setenv("DISPLAY", screen_->display().c_str(), 1);
+        unsetenv("WAYLAND_DISPLAY");
+        window_.emplace("Vantage", width_px, height_px);
+        look(0);
+        // Without a window manager nobody else gives it the keyboard.
+        screen_->hands(
+            {"search", "--sync", "--name", "Vantage", "windowfocus", "mousemove", "320", "240"});
+        look(0);
+    }
+
+    /// What the window takes in over a few pictures: its user interface takes presses and moves one
+    /// a picture, so that none is missed.
+    FlightInput look(double dt_s, int pictures = 6) {
+        FlightInput all;
+        for (int i = 0; i < pictures; ++i) {
+            all.add(window_->poll(dt_s / pictures));
+            window_->show(PanelState());
+        }
+        return all;
+    }
+    FlightInput after(const std::vector<std::string>& commands, double dt_s = 0) {
+        screen_->hands(commands);
+        return look(dt_s);
+    }
+
+    std::optional<VirtualScreen> screen_;
+    std::optional<OperatorWindow> window_;
+};
+
+TEST_F(OperatorHands, LeftDragOrbits) {
+    after({"mousedown", "1"});
+    const FlightInput input = after({"mousemove", "384", "192"});
+    EXPECT_NEAR(input.orbit_azimuth_rad, -0.1 * pi, 1e-6) << "a tenth of the width";
+    EXPECT_NEAR(input.orbit_elevation_rad, -48.0 / 640 * pi, 1e-6);
+    EXPECT_TRUE(input.steers());
+    after({"mouseup", "1"});
+    EXPECT_FALSE(after({"mousemove", "320", "240"}).steers()) << "the button is up";
+}
+
+TEST_F(OperatorHands, RightAndMiddleDragShift) {
+    for (const char* button : {"3", "2"}) {
+        after({"mousedown", button});
+        const FlightInput input = after({"mousemove", "384", "272"});
+        EXPECT_NEAR(input.pan_right_widths, -0.1, 1e-6) << button;
+        EXPECT_NEAR(input.pan_up_widths, 0.05, 1e-6) << button;
+        EXPECT_EQ(input.orbit_azimuth_rad, 0) << button;
+        after({"mouseup", button, "mousemove", "320", "240"});
+    }
+}
+
+TEST_F(OperatorHands, WheelGoesNearerAndWithControlZooms) {
+    EXPECT_NEAR(after({"click", "4"}).dolly, 0.12, 1e-6);
+    EXPECT_NEAR(after({"click", "5", "click", "5"}).dolly, -0.24, 1e-6);
+    after({"keydown", "Control_L"});
+    const FlightInput zoomed = after({"click", "4"});
+    EXPECT_NEAR(zoomed.zoom, 0.12, 1e-6);
+    EXPECT_EQ(zoomed.dolly, 0);
+    after({"keyup", "Control_L"});
+}
+
+TEST_F(OperatorHands, HeldKeysActAsLongAsTheyAreHeld) {
+    const struct {
+        const char* key;
+        double FlightInput::*amount;
+        double in_a_second;
+    } keys[] = {{"Right", &FlightInput::orbit_azimuth_rad, 0.9},
+                {"Left", &FlightInput::orbit_azimuth_rad, -0.9},
+                {"Up", &FlightInput::orbit_elevation_rad, 0.9},
+                {"d", &FlightInput::pan_right_widths, 0.35},
+                {"q", &FlightInput::pan_up_widths, -0.35},
+                {"w", &FlightInput::dolly, 0.8},
+                {"minus", &FlightInput::zoom, -0.6}};
+    for (const auto& k : keys) {
+        after({"keydown", k.key});
+        EXPECT_NEAR(look(0.5).*k.amount, 0.5 * k.in_a_second, 1e-6) << k.key;
+        after({"keyup", k.key});
+        EXPECT_FALSE(look(0.5).steers()) << k.key;
+    }
+}
+
+TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
+    EXPECT_TRUE(after({"key", "space"}).toggle_freeze);
+    EXPECT_TRUE(after({"key", "r"}).reset);
+    EXPECT_TRUE(after({"key", "p"}).toggle_move);
+    EXPECT_TRUE(after({"key", "F2"}).next_synthesiser);
+    EXPECT_EQ(after({"key", "4"}).recall_shot, 4);
+    const FlightInput stored = after({"key", "ctrl+3"});
+    EXPECT_EQ(stored.store_shot, 3);
+    EXPECT_EQ(stored.recall_shot, 0);
+}
+
+TEST_F(OperatorHands, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
+    after({"mousemove", "40", "100", "mousedown", "1"});
+    EXPECT_FALSE(after({"mousemove", "200", "240"}).steers());
+    after({"mouseup", "1"});
+}
+
+TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
+    const auto bright = [&] {
+        look(0);
+        cv::Mat1b lit;
+        cv::inRange(window_->screenshot(), cv::Scalar(150, 150, 150, 0),
+                    cv::Scalar(255, 255, 255, 255), lit);
+        return cv::countNonZero(lit);
+    };
+    const int plain = bright();
+    EXPECT_GT(plain, 100) << "the panels' words";
+    after({"key", "F1"});
+    EXPECT_GT(bright(), plain + 500);
+    after({"key", "F1"});
+    after({"key", "Tab"});
+    EXPECT_LT(bright(), plain / 2);
+}
+
+TEST_F(OperatorHands, EscapeEnds) {
+    EXPECT_FALSE(window_->closed());
+    after({"key", "Escape"});
+    EXPECT_TRUE(window_->closed());
+}
+
+}  // namespace
+}  // namespace vantage
