@@ -147,7 +147,8 @@ for config in "$demo"/rig*.toml "$demo"/pair.toml; do
 done
 echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs are in out/demo/" >&2
 
-live=(live --stage "$demo/stage.toml")
+# A processor that draws everything also compiles the programs first; a slow one takes its time.
+live=(live --stage "$demo/stage.toml" --wait 60)
 if $headless; then
   "$bin/vantage" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
