@@ -28,6 +28,11 @@ void read_source(TomlTable& table, RigConfig::Source& source) {
     if (!source.pixel_format.empty() && source.pixel_format.size() != 4)
         table.refuse("pixel_format", "must be a code of four characters such as 'GREY' or 'MJPG'");
     table.read("controls", source.controls);
+    constexpr double largest_gain = 64;
+    table.read("exposure_us", source.exposure_us, {1, 1e6});
+    table.read("analogue_gain", source.analogue_gain, {1, largest_gain});
+    table.read("red_gain", source.red_gain, {0, largest_gain});
+    table.read("blue_gain", source.blue_gain, {0, largest_gain});
 }
 
 void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {

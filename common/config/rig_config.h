@@ -15,7 +15,7 @@ struct RigConfig {
     std::string name;  ///< of this rig, unique on the stage: letters, digits, '-', '_'
 
     struct Source {
-        std::string kind = "virtual";  ///< virtual | files | v4l2
+        std::string kind = "virtual";  ///< virtual | files | v4l2 | libcamera
         double rate_hz = 30;           ///< pulses of the stage's clock per second
         // virtual
         int width_px = 320, height_px = 240;
@@ -30,6 +30,8 @@ struct RigConfig {
         std::string left_device = "", right_device = "";  ///< right empty: one side-by-side device
         std::string pixel_format = "";             ///< fourcc, empty: the best of those known
         std::map<std::string, int> controls = {};  ///< by the driver's control name
+        // libcamera, which takes the keys of v4l2 above too, but for the controls
+        double exposure_us = 5000, analogue_gain = 1, red_gain = 1, blue_gain = 1;
     } source;
 
     std::filesystem::path

@@ -82,7 +82,8 @@ Pose check_header(const wire::FrameHeader& header) {
     check_schema_version("frame", header.schema_version());
     // The last fields of a header are always written, so that one cut short between two fields
     // shows.
-    if (!header.has_times() || !header.has_counters()) fail("a frame header is truncated");
+    if (!header.has_times() || !header.has_counters() || !header.has_sync())
+        fail("a frame header is truncated");
     check_name("rig", header.rig());
     if (!header.calibration_id().empty()) check_name("calibration id", header.calibration_id());
     check_timecode(header.timecode());
@@ -165,6 +166,7 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     header.mutable_times()->set_rectify_ms(frame.times.rectify_ms);
     header.mutable_times()->set_match_ms(frame.times.match_ms);
     to_wire(frame.counters, *header.mutable_counters());
+    to_wire(frame.sync, *header.mutable_sync());
     if (!frame.colour.empty())
         header.set_colour_codec(impl_->jpeg_quality == 0 ? wire::FrameHeader::COLOUR_ZSTD_RGBA
                                                          : wire::FrameHeader::COLOUR_JPEG);
@@ -246,6 +248,7 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     frame.times = {header.times().capture_ms(), header.times().rectify_ms(),
                    header.times().match_ms(), header.times().pack_ms()};
     frame.counters = from_wire(header.counters());
+    frame.sync = from_wire(header.sync());
 
     switch (header.colour_codec()) {
         case wire::FrameHeader::COLOUR_NONE:

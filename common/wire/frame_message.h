@@ -28,6 +28,25 @@ struct RigCounters {
     bool operator==(const RigCounters&) const = default;
 };
 
+/// How a rig stands to the stage's clock and pulses.
+struct RigSync {
+    enum class Role { free, lead, follow };
+    Role role = Role::free;
+    bool ready = false;                ///< stands and waits for the first pulse, or is past it
+    std::uint64_t first_pulse = 0;     ///< from which on it has pulses; 0: none announced
+    std::uint64_t pulses = 0;          ///< lead: sent; follow: seen
+    std::uint64_t skipped = 0;         ///< lead: would have been too late
+    std::uint64_t unsynchronized = 0;  ///< frames without a pulse of their own
+    float lateness_p50_us = 0, lateness_p99_us = 0, lateness_max_us = 0;
+    double clock_ppm = 0;  ///< of the sensors' clock over the stage's
+    std::uint64_t clock_steps = 0;
+    bool disciplined = false;  ///< by PTP; false: the next two say nothing
+    double ptp_offset_ns = 0, ptp_path_delay_ns = 0;
+    std::string ptp_state;  ///< of ptp4l's port, such as "SLAVE"; empty: no ptp4l
+
+    bool operator==(const RigSync&) const = default;
+};
+
 /// What happened to the published frames on their way to one host, counted by the rig. Every
 /// offered frame is in exactly one of sent, send_dropped, thinned, or still in the host's bounded
 /// queue.
@@ -59,6 +78,7 @@ struct RigFrame {
     float max_disparity_px = 0;
     RigStageTimes times;
     RigCounters counters;
+    RigSync sync;
 };
 
 }  // namespace vantage

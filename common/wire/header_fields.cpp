@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "common/base/error.h"
 #include "common/wire/limits.h"
@@ -54,6 +55,55 @@ void to_wire(const RigCounters& counters, wire::Counters& out) {
 RigCounters from_wire(const wire::Counters& counters) {
     return {counters.captured(), counters.missed(), counters.late(), counters.published(),
             counters.send_dropped()};
+}
+
+void to_wire(const RigSync& sync, wire::Sync& out) {
+    out.set_role(static_cast<wire::Sync::Role>(sync.role));
+    out.set_ready(sync.ready);
+    out.set_first_pulse(sync.first_pulse);
+    out.set_pulses(sync.pulses);
+    out.set_skipped(sync.skipped);
+    out.set_unsynchronized(sync.unsynchronized);
+    out.set_lateness_p50_us(sync.lateness_p50_us);
+    out.set_lateness_p99_us(sync.lateness_p99_us);
+    out.set_lateness_max_us(sync.lateness_max_us);
+    out.set_clock_ppm(sync.clock_ppm);
+    out.set_clock_steps(sync.clock_steps);
+    out.set_disciplined(sync.disciplined);
+    out.set_ptp_offset_ns(sync.ptp_offset_ns);
+    out.set_ptp_path_delay_ns(sync.ptp_path_delay_ns);
+    out.set_ptp_state(sync.ptp_state);
+}
+
+RigSync from_wire(const wire::Sync& sync) {
+    for (const double value :
+         {static_cast<double>(sync.lateness_p50_us()), static_cast<double>(sync.lateness_p99_us()),
+          static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.ptp_offset_ns(),
+          sync.ptp_path_delay_ns()})
+        if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is no number", value);
+    if (sync.role() < wire::Sync::FREE || sync.role() > wire::Sync::FOLLOW)
+        fail("a rig's sync state has the role {}, which is not known here",
+             static_cast<int>(sync.role()));
+    if (sync.first_pulse() > max_trigger_index)
+        fail("a first pulse of {} is beyond {}", sync.first_pulse(), max_trigger_index);
+    if (!sync.ptp_state().empty()) check_name("PTP state", sync.ptp_state());
+    RigSync result;
+    result.role = static_cast<RigSync::Role>(sync.role());
+    result.ready = sync.ready();
+    result.first_pulse = sync.first_pulse();
+    result.pulses = sync.pulses();
+    result.skipped = sync.skipped();
+    result.unsynchronized = sync.unsynchronized();
+    result.lateness_p50_us = sync.lateness_p50_us();
+    result.lateness_p99_us = sync.lateness_p99_us();
+    result.lateness_max_us = sync.lateness_max_us();
+    result.clock_ppm = sync.clock_ppm();
+    result.clock_steps = sync.clock_steps();
+    result.disciplined = sync.disciplined();
+    result.ptp_offset_ns = sync.ptp_offset_ns();
+    result.ptp_path_delay_ns = sync.ptp_path_delay_ns();
+    result.ptp_state = sync.ptp_state();
+    return result;
 }
 
 }  // namespace vantage

@@ -16,7 +16,8 @@ namespace vantage {
 
 namespace wire {
 class Counters;
-}
+class Sync;
+}  // namespace wire
 
 // What all messages of the wire have in common.
 
@@ -34,5 +35,9 @@ void parse(std::span<const std::byte> part, std::string_view what,
 
 void to_wire(const RigCounters& counters, wire::Counters& out);
 RigCounters from_wire(const wire::Counters& counters);
+
+void to_wire(const RigSync& sync, wire::Sync& out);
+/// Throws Error for numbers that are none and a state that is no word.
+RigSync from_wire(const wire::Sync& sync);
 
 }  // namespace vantage

@@ -21,6 +21,7 @@ std::vector<std::byte> encode(const HostMessage& message) {
     out.set_credit_window(message.credit_window);
     out.set_streaming(message.streaming);
     out.set_rate_divisor(message.rate_divisor);
+    out.set_first_pulse(message.first_pulse);
     return serialise(out);
 }
 
@@ -34,8 +35,10 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
              max_credit_window);
     if (in.rate_divisor() < 1 || in.rate_divisor() > max_rate_divisor)
         fail("a rate divisor of {} is outside 1..{}", in.rate_divisor(), max_rate_divisor);
-    return {in.host_id(),       in.link(),      in.handled(),
-            in.credit_window(), in.streaming(), in.rate_divisor()};
+    if (in.first_pulse() > max_trigger_index)
+        fail("a first pulse of {} is beyond {}", in.first_pulse(), max_trigger_index);
+    return {in.host_id(),   in.link(),         in.handled(),    in.credit_window(),
+            in.streaming(), in.rate_divisor(), in.first_pulse()};
 }
 
 std::vector<std::byte> encode(const RigMessage& message) {
@@ -49,6 +52,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
     out.set_send_dropped(message.counters.send_dropped);
     out.set_thinned(message.counters.thinned);
     to_wire(message.rig_counters, *out.mutable_counters());
+    to_wire(message.sync, *out.mutable_sync());
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
     return serialise(out);
 }
@@ -70,6 +74,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.link = in.link();
     message.counters = {in.offered(), in.sent(), in.send_dropped(), in.thinned()};
     message.rig_counters = from_wire(in.counters());
+    message.sync = from_wire(in.sync());
     message.refusal = in.refusal();
     return message;
 }

@@ -19,6 +19,7 @@ struct HostMessage {
     std::uint32_t credit_window = 1;  ///< 1..max_credit_window frames beyond those
     bool streaming = true;
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; only pulses whose index it divides
+    std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
 
     bool operator==(const HostMessage&) const = default;
 };
@@ -30,6 +31,7 @@ struct RigMessage {
     std::uint64_t link = 0;  ///< random per host that is taken on; 0 in a refusal
     LinkCounters counters;   ///< of this link; `sent` numbers the frame that follows
     RigCounters rig_counters;
+    RigSync sync;
     std::string refusal;  ///< a sentence, when the rig does not serve this host; else empty
 };
 

@@ -127,6 +127,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.lost = account_.lost();
     view_.link = message.counters;
     view_.rig_counters = message.rig_counters;
+    view_.sync = message.sync;
     if (!with_frame) return false;
     delivery.message = std::move(message);
     std::move(parts.begin() + 1, parts.end(), delivery.parts.begin());
@@ -198,6 +199,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     message.credit_window = credit_window;
     message.streaming = wish.streaming;
     message.rate_divisor = wish.rate_divisor;
+    message.first_pulse = wish.first_pulse;
     if (now < next_heartbeat_ && message == told_) return;
     // Not taken while the rig is away; then the heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

@@ -31,7 +31,8 @@ class RigLink {
     struct Wish {
         bool streaming = true;
         std::uint32_t rate_divisor = 1;
-        std::uint64_t unhandled = 0;  ///< frames that came and are not decoded yet
+        std::uint64_t unhandled = 0;    ///< frames that came and are not decoded yet
+        std::uint64_t first_pulse = 0;  ///< of the take; 0: not announced yet
         bool operator==(const Wish&) const = default;
     };
 
@@ -43,6 +44,7 @@ class RigLink {
         std::uint64_t lost = 0;
         LinkCounters link;
         RigCounters rig_counters;
+        RigSync sync;
     };
 
     /// Frames under way or waiting to be decoded.

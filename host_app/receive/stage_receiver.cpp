@@ -13,6 +13,7 @@
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/config/endpoint.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/limits.h"
@@ -20,6 +21,7 @@
 #include "common/wire/zmq_helpers.h"
 #include "host_app/receive/frame_set_assembler.h"
 #include "host_app/receive/rig_link.h"
+#include "host_app/receive/take_starter.h"
 
 namespace vantage {
 namespace {
@@ -66,6 +68,7 @@ struct StageReceiver::Impl {
             const std::optional<CurveKeys>& keys)
             : name(config.name), link(context, config, keys), inbox(RigLink::credit_window) {
             status.rig = name;
+            status.same_clock = parse_endpoint(config.endpoint, "endpoint").loopback;
         }
         const std::string name;
         RigLink link;
@@ -81,7 +84,9 @@ struct StageReceiver::Impl {
     };
 
     explicit Impl(const StageConfig& stage)
-        : assembler(names_of(stage), assembler_options(stage)), closed_sets(max_closed_sets) {
+        : assembler(names_of(stage), assembler_options(stage)),
+          starter(PulseGrid(stage.rate_hz)),
+          closed_sets(max_closed_sets) {
         std::optional<CurveKeys> keys;
         if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
         for (const StageConfig::Rig& rig : stage.rigs)
@@ -129,6 +134,7 @@ struct StageReceiver::Impl {
                 wish = rig->wish;
             }
             wish.unhandled = rig->unhandled;
+            wish.first_pulse = first_pulse;
             rig->link.tick(wish, now);
         }
         const std::lock_guard lock(mutex);
@@ -137,6 +143,20 @@ struct StageReceiver::Impl {
             assembler.set_connected(i, rigs[i]->status.connected);
         }
         collect_closed(now);
+        start_take(now);
+    }
+
+    /// Precondition: mutex is held.
+    void start_take(MonotonicTime now) {
+        std::vector<TakeStarter::Rig> all;
+        for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
+        const auto first = starter.update(all, TaiClock::now(), now);
+        if (!first || first_pulse != 0) return;
+        first_pulse = *first;
+        log_info("the take's first pulse is {}", first_pulse);
+        for (const auto& rig : rigs)
+            if (!rig->status.connected || !rig->status.sync.ready)
+                log_warning("rig {} is not ready; it joins when it is", rig->name);
     }
 
     std::chrono::nanoseconds next_wait() {
@@ -235,6 +255,7 @@ struct StageReceiver::Impl {
         status.lost = view.lost;
         status.link = view.link;
         status.rig_counters = view.rig_counters;
+        status.sync = std::move(view.sync);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
     }
 
@@ -244,6 +265,8 @@ struct StageReceiver::Impl {
     mutable std::mutex mutex;  ///< of what follows and of the rigs' status; never held over a
                                ///< socket call or a decode
     FrameSetAssembler assembler;
+    TakeStarter starter;
+    std::uint64_t first_pulse = 0;  ///< 0: not announced yet; only the I/O thread uses it
     std::uint64_t sets = 0;
     std::uint64_t complete_sets = 0;
     std::string failure;
@@ -253,6 +276,17 @@ struct StageReceiver::Impl {
     std::atomic<bool> stopping = false;
     std::thread io_thread;
 };
+
+std::string clock_text(const RigStatus& rig) {
+    if (rig.same_clock) return "this computer's clock";
+    if (rig.sync.disciplined)
+        return fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", rig.sync.ptp_state,
+                           rig.sync.ptp_offset_ns, rig.sync.ptp_path_delay_ns);
+    return rig.sync.ptp_state.empty()
+               ? std::string("clocks not disciplined: skew unknown (no ptp4l at the rig)")
+               : fmt::format("clocks not disciplined: skew unknown (ptp4l is {})",
+                             rig.sync.ptp_state);
+}
 
 StageReceiver::StageReceiver(const StageConfig& stage) : impl_(std::make_unique<Impl>(stage)) {}
 

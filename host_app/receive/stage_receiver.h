@@ -35,6 +35,8 @@ struct RigStatus {
     std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy
     LinkCounters link;         ///< of the frames on their way to this host, as the rig counts
     RigCounters rig_counters;  ///< as the rig last reported
+    RigSync sync;              ///< as the rig last reported
+    bool same_clock = false;   ///< the rig is a program on this computer
     RigStageTimes rig_times;
     Percentiles latency_ms;  ///< exposure to decoded
     Percentiles network_ms;  ///< published by the rig to received here, on the stage's clock
@@ -49,6 +51,10 @@ struct ReceiverStatus {
     std::uint64_t sets_dropped =
         0;  ///< closed and not taken by next() before newer ones pushed them out
 };
+
+/// How far the rig's clock may be from the stage's, in words: PTP's offset and path delay, or that
+/// it is not known.
+std::string clock_text(const RigStatus& rig);
 
 /// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them by
 /// trigger index. Rigs may come, go and come back at any time. A host that is slower than its rigs

@@ -10,10 +10,12 @@
 
 #include "common/base/time.h"
 #include "common/image/image.h"
+#include "rig_firmware/clock/clock_model.h"
 
 namespace vantage {
 
 struct RigConfig;
+class RigTrigger;
 
 /// One instant seen by both sensors, not yet rectified.
 struct StereoFrame {
@@ -55,6 +57,12 @@ class StereoSource {
     /// Pulses since the first frame for which none came (late, sequence gaps, unplugged).
     virtual std::uint64_t missed() const = 0;
     virtual std::vector<SourceCounter> counters() const { return {}; }
+
+    /// Sensors on a trigger ask it which pulse exposed a frame. It outlives the source; set before
+    /// the first next().
+    virtual void use(RigTrigger* /*trigger*/) {}
+    /// How the sensors' clock runs by the stage's; empty where they have none of their own.
+    virtual std::optional<ClockModel::State> clock() const { return std::nullopt; }
 
     /// Lines for the start-up report: device, mode, import path, locked controls.
     virtual std::vector<std::string> report() const = 0;

@@ -9,6 +9,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/rig_config.h"
 #include "rig_firmware/daemon/rig_daemon.h"
+#include "rig_firmware/daemon/service_notifier.h"
 
 namespace vantage {
 namespace {
@@ -24,6 +25,23 @@ struct Options {
 
 nlohmann::json to_json(const Percentiles& p) {
     return {{"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}};
+}
+
+nlohmann::json to_json(const RigSync& sync) {
+    return {{"ready", sync.ready},
+            {"first_pulse", sync.first_pulse},
+            {"pulses", sync.pulses},
+            {"skipped", sync.skipped},
+            {"unsynchronized", sync.unsynchronized},
+            {"lateness_us",
+             {{"p50", sync.lateness_p50_us},
+              {"p99", sync.lateness_p99_us},
+              {"max", sync.lateness_max_us}}},
+            {"clock_ppm", sync.clock_ppm},
+            {"clock_steps", sync.clock_steps},
+            {"ptp_state", sync.ptp_state},
+            {"ptp_offset_ns", sync.ptp_offset_ns},
+            {"ptp_path_delay_ns", sync.ptp_path_delay_ns}};
 }
 
 nlohmann::json to_json(const std::string& rig, const DaemonStatus& status) {
@@ -46,6 +64,7 @@ nlohmann::json to_json(const std::string& rig, const DaemonStatus& status) {
             {"published", c.published},
             {"send_dropped", c.send_dropped},
             {"source", source},
+            {"sync", to_json(status.sync)},
             {"hosts", hosts},
             {"capture_ms", to_json(status.capture_ms)},
             {"rectify_ms", to_json(status.rectify_ms)},
@@ -65,16 +84,29 @@ class StatusLines {
         time_ = now;
         published_ = c.published;
         return fmt::format(
-            "{:.1f} frames/s; captured {}, published {}, missed {}, late {}, dropped for slow "
-            "hosts "
-            "{}; ms (p50): capture {:.1f}, rectify {:.1f}, match {:.1f}, pack {:.1f}, exposure to "
-            "publishing {:.1f}",
-            rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
-            status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50, status.pack_ms.p50,
-            status.latency_ms.p50);
+                   "{:.1f} frames/s; captured {}, published {}, missed {}, late {}, dropped for "
+                   "slow "
+                   "hosts "
+                   "{}; ms (p50): capture {:.1f}, rectify {:.1f}, match {:.1f}, pack {:.1f}, "
+                   "exposure to "
+                   "publishing {:.1f}",
+                   rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
+                   status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50,
+                   status.pack_ms.p50, status.latency_ms.p50) +
+               pulses(status.sync);
     }
 
   private:
+    static std::string pulses(const RigSync& sync) {
+        if (sync.role == RigSync::Role::free) return "";
+        if (sync.first_pulse == 0) return "; armed, no pulse announced yet";
+        return fmt::format(
+            "; {} pulses, {} skipped, late us p50 {:.1f}, p99 {:.1f}, max {:.1f}; {} frames "
+            "without a pulse",
+            sync.pulses, sync.skipped, sync.lateness_p50_us, sync.lateness_p99_us,
+            sync.lateness_max_us, sync.unsynchronized);
+    }
+
     MonotonicTime time_ = MonotonicClock::now();
     std::uint64_t published_ = 0;
 };
@@ -85,13 +117,18 @@ void run(const Options& options) {
     RigDaemon daemon(config, options.frames);
     for (const std::string& line : daemon.report()) log_info("{}: {}", config.name, line);
 
+    ServiceNotifier service;
+    service.ready();
     StatusLines lines;
     MonotonicTime next_status = MonotonicClock::now() + status_every;
     while (daemon.running() && !stop.wait_for(look_every)) {
+        service.alive(
+            fmt::format("{} frames published", daemon.status().publisher.counters.published));
         if (MonotonicClock::now() < next_status) continue;
         next_status += status_every;
         log_info("{}: {}", config.name, lines.next(daemon.status()));
     }
+    service.stopping();
     daemon.stop();
     daemon.rethrow_failure();
     const DaemonStatus status = daemon.status();

@@ -14,8 +14,10 @@
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "rig_firmware/capture/rig_calibration.h"
+#include "rig_firmware/clock/ptp4l_client.h"
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/timecode.h"
+#include "rig_firmware/trigger/rig_trigger.h"
 
 namespace vantage {
 namespace {
@@ -34,13 +36,16 @@ struct RigDaemon::Impl {
     Impl(const RigConfig& rig_config, std::uint64_t most_frames)
         : config(rig_config),
           frame_limit(most_frames),
-          publisher(rig_config.stream, rig_config.name) {}
+          publisher(rig_config.stream, rig_config.name),
+          trigger(RigTrigger::make(rig_config)) {}
 
     void start();
     void capture(std::promise<cv::Size> ready, const std::future<void>& go);
     void capture_one(StereoSource& source);
     void run_gpu(const StereoCalibration& calibration, std::promise<void> ready);
     void publish();
+    void keep_in_step();
+    RigSync sync_now(const std::optional<PtpState>& ptp) const;
     void stop();
 
     /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
@@ -71,6 +76,7 @@ struct RigDaemon::Impl {
     const RigConfig config;
     const std::uint64_t frame_limit;
     Publisher publisher;
+    const std::unique_ptr<RigTrigger> trigger;  ///< null: the role free
 
     BoundedQueue<CapturedFrame> captured{1};
     BoundedQueue<RigFrame> matched{1};
@@ -78,13 +84,15 @@ struct RigDaemon::Impl {
     mutable std::mutex mutex;
     RigCounters counters;
     std::vector<SourceCounter> source_counters;
+    std::optional<ClockModel::State> sensor_clock;
+    RigSync sync;
     PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
     std::vector<std::string> source_report, gpu_report;
     std::exception_ptr failure;
 
     std::atomic<bool> stopping = false;
     std::atomic<bool> finished = false;
-    std::thread capture_thread, gpu_thread, publish_thread;
+    std::thread capture_thread, gpu_thread, publish_thread, sync_thread;
 };
 
 void RigDaemon::Impl::start() {
@@ -109,12 +117,14 @@ void RigDaemon::Impl::start() {
         finished = true;
     });
     all_stand.set_value();
+    sync_thread = std::thread([this] { guarded("sync", [&] { keep_in_step(); }); });
 }
 
 void RigDaemon::Impl::capture(std::promise<cv::Size> ready, const std::future<void>& go) {
     std::unique_ptr<StereoSource> source;
     try {
         source = make_source(config);
+        source->use(trigger.get());
         const std::lock_guard lock(mutex);
         source_report = source->report();
     } catch (...) {
@@ -145,7 +155,60 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
         c.captured += has_frame;
         c.late += made_room;
         source_counters = source.counters();
+        sensor_clock = source.clock();
     });
+}
+
+/// Hands the host's first pulse to the trigger, and the state of pulses and clocks to the host.
+void RigDaemon::Impl::keep_in_step() {
+    constexpr std::chrono::milliseconds look_every(50);
+    constexpr int looks_between_ptp = 20;
+    std::optional<PtpState> ptp;
+    for (int look = 0; !stopping && !finished; ++look) {
+        if (look % looks_between_ptp == 0) ptp = read_ptp4l();
+        if (trigger) {
+            trigger->rethrow_failure();
+            if (const std::uint64_t first = publisher.announced_pulse()) trigger->announce(first);
+        }
+        const RigSync now = sync_now(ptp);
+        publisher.report(now);
+        {
+            const std::lock_guard lock(mutex);
+            sync = now;
+        }
+        std::this_thread::sleep_for(look_every);
+    }
+}
+
+RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp) const {
+    RigSync now;
+    now.ready = true;
+    if (trigger) {
+        const TriggerStatus status = trigger->status();
+        now.role = config.trigger.role == "lead" ? RigSync::Role::lead : RigSync::Role::follow;
+        now.ready = status.is_armed;
+        now.first_pulse = status.first_pulse;
+        now.pulses = status.pulses;
+        now.skipped = status.skipped;
+        now.unsynchronized = status.unsynchronized;
+        now.lateness_p50_us = static_cast<float>(status.lateness_us.p50);
+        now.lateness_p99_us = static_cast<float>(status.lateness_us.p99);
+        now.lateness_max_us = static_cast<float>(status.lateness_us.max);
+    } else {
+        now.first_pulse = publisher.announced_pulse();
+    }
+    if (ptp) {
+        now.disciplined = ptp->is_disciplined();
+        now.ptp_offset_ns = ptp->offset_ns;
+        now.ptp_path_delay_ns = ptp->path_delay_ns;
+        now.ptp_state = ptp->port_state;
+    }
+    const std::lock_guard lock(mutex);
+    if (sensor_clock) {
+        now.clock_ppm = sensor_clock->ppm;
+        now.clock_steps = sensor_clock->steps;
+    }
+    return now;
 }
 
 void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise<void> ready) {
@@ -208,6 +271,7 @@ void RigDaemon::Impl::stop() {
     if (gpu_thread.joinable()) gpu_thread.join();
     matched.close();
     if (publish_thread.joinable()) publish_thread.join();
+    if (sync_thread.joinable()) sync_thread.join();
 }
 
 RigDaemon::RigDaemon(const RigConfig& config, std::uint64_t frame_limit)
@@ -245,6 +309,7 @@ DaemonStatus RigDaemon::status() const {
     shown.missed = own.missed;
     shown.late = own.late;
     status.source_counters = impl_->source_counters;
+    status.sync = impl_->sync;
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();
@@ -257,6 +322,8 @@ std::vector<std::string> RigDaemon::report() const {
     const std::lock_guard lock(impl_->mutex);
     std::vector<std::string> lines = impl_->source_report;
     lines.insert(lines.end(), impl_->gpu_report.begin(), impl_->gpu_report.end());
+    if (impl_->trigger)
+        for (std::string& line : impl_->trigger->report()) lines.push_back(std::move(line));
     const std::string key = impl_->publisher.public_key();
     lines.push_back(
         fmt::format("publishing on {}, {}", impl_->publisher.endpoint(),

@@ -15,6 +15,7 @@ namespace vantage {
 struct DaemonStatus {
     PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
     std::vector<SourceCounter> source_counters;
+    RigSync sync;
     Percentiles capture_ms;  ///< exposure to delivered
     Percentiles rectify_ms;  ///< upload, rectify
     Percentiles match_ms;    ///< match, read back

@@ -9,13 +9,11 @@
 #include <sys/timex.h>
 #include <time.h>
 
+#include "rig_firmware/clock/ptp4l_client.h"
 #include "rig_firmware/probe/probe.h"
 
 namespace vantage {
 namespace {
-
-/// Where ptp4l listens for `pmc`, by its own default.
-constexpr const char* ptp4l_socket = "/var/run/ptp4l";
 
 struct Clock {
     const char* name;
@@ -77,6 +75,17 @@ void add_ptp(ProbePart& part) {
     part.facts["ptp4l"] = {{"management_socket", ptp4l_socket}, {"is_there", has_ptp4l}};
     part.lines.push_back(fmt::format("ptp4l's management socket {}: {}", ptp4l_socket,
                                      has_ptp4l ? "there" : "not there"));
+    if (const std::optional<PtpState> state = read_ptp4l()) {
+        part.facts["ptp4l"]["port_state"] = state->port_state;
+        part.facts["ptp4l"]["offset_ns"] = state->offset_ns;
+        part.facts["ptp4l"]["path_delay_ns"] = state->path_delay_ns;
+        part.lines.push_back(
+            fmt::format("ptp4l is {}, {:.0f} ns from its master, path delay {:.0f} ns",
+                        state->port_state, state->offset_ns, state->path_delay_ns));
+    } else if (has_ptp4l) {
+        part.unfit.push_back(
+            fmt::format("ptp4l does not answer on {}: may this user write to it?", ptp4l_socket));
+    }
     if (devices.empty())
         part.unfit.emplace_back(
             "there is no PTP hardware clock: ptp4l can only stamp in software, to some tens of "

@@ -171,6 +171,7 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.link = link.id;
     message.counters = link.counters;
     message.rig_counters = rig_counters_;
+    message.sync = sync_;
     return message;
 }
 

@@ -71,6 +71,9 @@ class HostLinks {
     /// here.
     void set_rig_counters(const RigCounters& counters);
     RigCounters rig_counters() const;
+    /// As heartbeats and messages report it.
+    void set_sync(RigSync sync) { sync_ = std::move(sync); }
+    const RigSync& sync() const { return sync_; }
 
     std::vector<HostStatus> hosts() const;
 
@@ -100,6 +103,7 @@ class HostLinks {
     std::uint64_t session_;
     std::size_t queue_frames_;
     RigCounters rig_counters_;
+    RigSync sync_;
     std::vector<Link> links_;
     std::vector<Outgoing> refusals_;
 };

@@ -139,6 +139,7 @@ struct Publisher::Impl {
             const HostMessage message = decode_host_message(bytes_of(parts[1]));
             const std::lock_guard lock(mutex);
             links.hear(route, host_key_of(parts[1]), message, now);
+            if (message.first_pulse != 0) announced_pulse = message.first_pulse;
         } catch (const Error& error) {
             const std::lock_guard lock(mutex);
             links.refuse(route, fmt::format("rig {}: {}", rig, error.what()));
@@ -195,6 +196,7 @@ struct Publisher::Impl {
     mutable std::mutex mutex;  ///< of links and failure; never held over a socket call
     HostLinks links;
     std::string failure;
+    std::atomic<std::uint64_t> announced_pulse = 0;
 
     zmq::context_t context;
     std::optional<HostAdmission> admission;
@@ -220,6 +222,7 @@ void Publisher::publish(RigFrame frame) {
         impl_->links.set_rig_counters(frame.counters);
         frame.counters = impl_->links.rig_counters();
         ++frame.counters.published;
+        frame.sync = impl_->links.sync();
     }
     auto packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
     {
@@ -233,6 +236,13 @@ void Publisher::report(const RigCounters& counters) {
     const std::lock_guard lock(impl_->mutex);
     impl_->links.set_rig_counters(counters);
 }
+
+void Publisher::report(const RigSync& sync) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->links.set_sync(sync);
+}
+
+std::uint64_t Publisher::announced_pulse() const { return impl_->announced_pulse; }
 
 PublisherStatus Publisher::status() const {
     const std::lock_guard lock(impl_->mutex);

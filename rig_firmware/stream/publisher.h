@@ -36,6 +36,13 @@ class Publisher {
     /// Any thread.
     void report(const RigCounters& counters);
 
+    /// Tells hosts, in every message and frame, how this rig stands to clock and pulses. Any
+    /// thread.
+    void report(const RigSync& sync);
+
+    /// The first pulse of the take as a host last announced it; 0: none did. Any thread.
+    std::uint64_t announced_pulse() const;
+
     PublisherStatus status() const;
 
     /// Random per start.

@@ -36,11 +36,12 @@ double to_us(std::chrono::nanoseconds time) {
 }  // namespace
 
 struct PulseSender::Impl {
-    Impl(const RigConfig::Trigger& trigger, double rate_hz)
+    Impl(const RigConfig::Trigger& trigger, double rate_hz, std::function<void(std::uint64_t)> tell)
         : timing(sensor_timing(trigger, rate_hz)),
           spin(from_us(trigger.spin_us)),
           priority(trigger.realtime_priority),
           line(open_pulse_line(trigger)),
+          on_sent(std::move(tell)),
           schedule(PulseGrid(rate_hz), from_us(trigger.late_limit_us)) {}
 
     /// False if the sending is to end, or the clock was set back before the deadline.
@@ -89,6 +90,7 @@ struct PulseSender::Impl {
         }
         line->set(true);
         const TaiTime begun = TaiClock::now();
+        if (on_sent) on_sent(index);
         const TaiTime end = begun + timing.pulse_width();
         // A pulse that has begun is ended in time, whatever else is to stop.
         sleep_until(end - spin);
@@ -107,6 +109,7 @@ struct PulseSender::Impl {
     const int priority;
     std::unique_ptr<PulseLine> line;
     std::vector<std::string> realtime_report;
+    const std::function<void(std::uint64_t)> on_sent;
 
     mutable std::mutex mutex;
     std::condition_variable go;
@@ -120,8 +123,9 @@ struct PulseSender::Impl {
     std::thread thread;
 };
 
-PulseSender::PulseSender(const RigConfig::Trigger& trigger, double rate_hz)
-    : impl_(std::make_unique<Impl>(trigger, rate_hz)) {
+PulseSender::PulseSender(const RigConfig::Trigger& trigger, double rate_hz,
+                         std::function<void(std::uint64_t)> on_sent)
+    : impl_(std::make_unique<Impl>(trigger, rate_hz, std::move(on_sent))) {
     std::promise<std::vector<std::string>> realtime;
     std::future<std::vector<std::string>> report = realtime.get_future();
     impl_->thread = std::thread(

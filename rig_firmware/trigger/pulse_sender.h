@@ -26,7 +26,9 @@ struct PulseStatus {
 class PulseSender {
   public:
     /// Takes the line. Throws Error if it, or the timing at `rate_hz`, cannot be had.
-    PulseSender(const RigConfig::Trigger& trigger, double rate_hz);
+    /// `on_sent` is told of every pulse that was sent, on the thread that sends them.
+    PulseSender(const RigConfig::Trigger& trigger, double rate_hz,
+                std::function<void(std::uint64_t)> on_sent = {});
     ~PulseSender();
 
     /// Sends from pulse `first` on, or from the next one if that has passed.

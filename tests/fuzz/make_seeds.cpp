@@ -73,7 +73,7 @@ void write_pictures(const Seeds& seeds) {
 }
 
 void write_messages(const Seeds& seeds) {
-    seeds.write("link_message", "host", encode(HostMessage{1, 2, 3, 4, true, 5}));
+    seeds.write("link_message", "host", encode(HostMessage{1, 2, 3, 4, true, 5, 6}));
     RigMessage message;
     message.rig = "rig-a";
     message.session = 1;

@@ -1,9 +1,31 @@
 #!/usr/bin/env bash
-# The device tests in the virtual machine: real drivers, and the very programs that were built.
-#   devices.sh WORK TEST_PROGRAM
+# The device tests in the virtual machine: real drivers, and the very programs that were built. Two USB cameras, which
+# are processes of this computer, are plugged into it.
+#   devices.sh WORK TEST_PROGRAM USB_CAMERA_PROGRAM
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-work=$1 program=$2
+work=$1 program=$2 usb_camera=$3
+data=${VANTAGE_DATA:-$here/../../../shared/data}
 "$here/prepare.sh" "$work"
-exec "$here/boot.sh" "$work" devices "HIL_TEST=$program" "HIL_RULES=$(realpath "$here/../../udev")" "GTEST_FILTER=${GTEST_FILTER:-*}" \
-  "VANTAGE_DATA=${VANTAGE_DATA:-$here/../../../shared/data}"
+
+cameras=()
+end_cameras() {
+  [ ${#cameras[@]} -eq 0 ] || kill "${cameras[@]}" 2>/dev/null || true
+}
+trap end_cameras EXIT
+qemu=
+if [ -d "$data/middlebury2003/teddy" ]; then
+  # The slot is part of libcamera's names: it is fixed.
+  qemu="-device qemu-xhci,id=usb,addr=10"
+  port=1
+  for picture in im2 im6; do
+    socket=$work/camera$port.socket
+    "$usb_camera" "$socket" "port$port" 320 240 10 "$data/middlebury2003/teddy/$picture.png" &
+    cameras+=($!)
+    for _ in $(seq 100); do [ -S "$socket" ] && break || sleep 0.1; done
+    qemu+=" -chardev socket,id=camera$port,path=$socket -device usb-redir,chardev=camera$port,bus=usb.0,port=$port"
+    port=$((port + 1))
+  done
+fi
+HIL_QEMU=$qemu "$here/boot.sh" "$work" devices "HIL_TEST=$program" "HIL_RULES=$(realpath "$here/../../udev")" \
+  "GTEST_FILTER=${GTEST_FILTER:-*}" "VANTAGE_DATA=$data"

@@ -20,6 +20,21 @@ RigFrame make_frame(std::uint64_t trigger_index, int width_px, int height_px) {
     frame.max_disparity_px = 64;
     frame.times = {1.5f, 2.5f, 3.5f, 0};
     frame.counters = {100, 2, 3, 0, 0};
+    frame.sync = {.role = RigSync::Role::lead,
+                  .ready = true,
+                  .first_pulse = 40,
+                  .pulses = 98,
+                  .skipped = 2,
+                  .unsynchronized = 1,
+                  .lateness_p50_us = 20.5f,
+                  .lateness_p99_us = 60.25f,
+                  .lateness_max_us = 99.5f,
+                  .clock_ppm = -3.5,
+                  .clock_steps = 1,
+                  .disciplined = true,
+                  .ptp_offset_ns = -150.5,
+                  .ptp_path_delay_ns = 1000,
+                  .ptp_state = "SLAVE"};
     cv::RNG random(trigger_index + 1);
     frame.colour.create(height_px, width_px);
     frame.disparity.create(height_px, width_px);

@@ -1,210 +1,22 @@
-#include <algorithm>
-#include <array>
-#include <thread>
-
-#include <poll.h>
-
-#include "common/base/error.h"
-#include "common/base/log.h"
+#include "common/base/pulse_grid.h"
 #include "common/config/rig_config.h"
-#include "rig_firmware/capture/frame_pairer.h"
-#include "rig_firmware/capture/pulse_numberer.h"
-#include "rig_firmware/capture/sequence_gaps.h"
-#include "rig_firmware/capture/stereo_material.h"
-#include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/capture/camera_source.h"
 #include "rig_firmware/capture/v4l2/v4l2_camera.h"
-#include "rig_firmware/clock/clock_pair.h"
 
 namespace vantage {
-namespace {
-
-using namespace std::chrono_literals;
-
-constexpr std::chrono::nanoseconds time_between_reopenings = 500ms;
-constexpr std::chrono::nanoseconds longest_silence = 3s;
-
-V4l2Wish wish_for(const RigConfig::Source& source, const std::string& device) {
-    const bool side_by_side = source.right_device.empty();
-    return {.path = device,
-            .width_px = source.width_px * (side_by_side ? 2 : 1),
-            .height_px = source.height_px,
-            .rate_hz = PulseGrid(source.rate_hz).rate_hz(),
-            .pixel_format = source.pixel_format,
-            .controls = source.controls};
-}
-
-/// Two V4L2 cameras, or one that delivers both pictures side by side. They run by themselves:
-/// pictures are joined by the kernel's time stamps, and get the index of the nearest pulse. A
-/// camera that is unplugged or falls silent is opened again until it is back.
-class V4l2Source final : public StereoSource {
-  public:
-    explicit V4l2Source(const RigConfig& config)
-        : config_(config.source),
-          grid_(config.source.rate_hz),
-          numberer_(grid_),
-          pairer_(grid_.period()) {
-        if (config_.left_device.empty())
-            fail("the source 'v4l2' needs a camera: name it with 'left_device' in [source]");
-        if (config_.left_device == config_.right_device)
-            fail(
-                "'left_device' and 'right_device' are both {}: name two cameras, or leave "
-                "'right_device' out for one that delivers both pictures side by side",
-                config_.left_device);
-        open();
-        for (const auto& camera : cameras_)
-            for (std::string& line : camera->report()) report_.push_back(std::move(line));
-        report_.push_back(
-            "the cameras are not triggered: pictures are joined by their time stamps, and their "
-            "pulse index is the nearest one");
-    }
-
-    cv::Size size() const override { return {config_.width_px, config_.height_px}; }
-
-    std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
-        const MonotonicTime deadline = MonotonicClock::now() + timeout;
-        do {
-            try {
-                if (cameras_.empty()) open();
-                if (!begun_) drain();
-                if (std::optional<StereoFrame> frame = take_frame(deadline)) return frame;
-                if (MonotonicClock::now() - last_picture_ > longest_silence)
-                    throw DeviceLost(
-                        fmt::format("the cameras gave no pair of pictures for {} s",
-                                    std::chrono::duration<double>(longest_silence).count()));
-            } catch (const Error& error) {
-                lose(error.what());
-                std::this_thread::sleep_until(
-                    std::chrono::steady_clock::now() +
-                    std::min(time_between_reopenings, deadline - MonotonicClock::now()));
-            }
-        } while (MonotonicClock::now() < deadline);
-        return std::nullopt;
-    }
-
-    std::uint64_t missed() const override { return numberer_.missed(); }
-
-    std::vector<SourceCounter> counters() const override {
-        std::uint64_t damaged = damaged_before_;
-        for (const auto& camera : cameras_) damaged += camera->damaged();
-        return {{"left_sequence_gaps", gaps_[0].lost()},
-                {"right_sequence_gaps", gaps_[1].lost()},
-                {"unpaired", pairer_.unpaired()},
-                {"surplus", numberer_.surplus()},
-                {"damaged", damaged},
-                {"reopened", reopened_},
-                {"clock_steps", numberer_.clock_steps()}};
-    }
-
-    std::vector<std::string> report() const override { return report_; }
-
-  private:
-    struct Joined {
-        MonotonicTime time{};
-        StereoPair pictures;
-    };
-
-    void open() {
-        std::vector<std::unique_ptr<V4l2Camera>> cameras;
-        cameras.push_back(std::make_unique<V4l2Camera>(wish_for(config_, config_.left_device)));
-        if (!config_.right_device.empty())
-            cameras.push_back(
-                std::make_unique<V4l2Camera>(wish_for(config_, config_.right_device)));
-        cameras_ = std::move(cameras);
-        last_picture_ = MonotonicClock::now();
-        if (lost_because_.empty()) return;
-        ++reopened_;
-        lost_because_.clear();
-        log_info("the cameras deliver again");
-    }
-
-    /// Lets go of what the drivers filled while the rest of the daemon was being built: those
-    /// pictures are old, and many are lost after them.
-    void drain() {
-        for (const auto& camera : cameras_)
-            while (camera->take()) {
-            }
-        last_picture_ = MonotonicClock::now();
-        begun_ = true;
-    }
-
-    void lose(const std::string& why) {
-        for (const auto& camera : cameras_) damaged_before_ += camera->damaged();
-        cameras_.clear();
-        pairer_.clear();
-        for (SequenceGaps& gaps : gaps_) gaps.restart();
-        if (why != lost_because_)
-            log_warning("{}; frames are missed until the cameras deliver again", why);
-        lost_because_ = why;
-    }
-
-    std::optional<StereoFrame> take_frame(MonotonicTime deadline) {
-        std::optional<Joined> joined = take_joined();
-        if (!joined) {
-            wait_for_picture(deadline);
-            joined = take_joined();
-        }
-        if (!joined) return std::nullopt;
-        last_picture_ = MonotonicClock::now();
-        const TaiTime exposure = ClockPair::now().to_tai(joined->time);
-        const std::optional<std::uint64_t> index = numberer_.number(exposure);
-        if (!index) return std::nullopt;
-        return StereoFrame{.trigger_index = *index,
-                           .synchronized = false,
-                           .exposure = exposure,
-                           .left = std::move(joined->pictures.left),
-                           .right = std::move(joined->pictures.right),
-                           .exact_disparity = {}};
-    }
-
-    void wait_for_picture(MonotonicTime deadline) const {
-        std::array<pollfd, 2> waits{};
-        for (std::size_t i = 0; i < cameras_.size(); ++i)
-            waits[i] = {.fd = cameras_[i]->fd(), .events = POLLIN, .revents = 0};
-        const auto left =
-            std::chrono::ceil<std::chrono::milliseconds>(deadline - MonotonicClock::now());
-        ::poll(waits.data(), cameras_.size(),
-               static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    }
-
-    std::optional<Joined> take_joined() {
-        if (cameras_.size() == 1) {
-            std::optional<V4l2Picture> both = take(0);
-            if (!both) return std::nullopt;
-            return Joined{both->time, split_side_by_side(both->colour, config_.left_device)};
-        }
-        if (auto left = take(0)) pairer_.push_left(left->time, std::move(left->colour));
-        if (auto right = take(1)) pairer_.push_right(right->time, std::move(right->colour));
-        auto pair = pairer_.pop();
-        if (!pair) return std::nullopt;
-        return Joined{pair->left.time + (pair->right.time - pair->left.time) / 2,
-                      {std::move(pair->left.picture), std::move(pair->right.picture)}};
-    }
-
-    std::optional<V4l2Picture> take(std::size_t side) {
-        std::optional<V4l2Picture> picture = cameras_[side]->take();
-        if (!picture) return std::nullopt;
-        gaps_[side].see(picture->sequence);
-        return picture;
-    }
-
-    RigConfig::Source config_;
-    PulseGrid grid_;
-    PulseNumberer numberer_;
-    FramePairer<ColourImage> pairer_;
-    std::vector<std::unique_ptr<V4l2Camera>> cameras_;  ///< left, right or both in one; none: lost
-    std::array<SequenceGaps, 2> gaps_;
-    bool begun_ = false;
-    MonotonicTime last_picture_{};  ///< of both sides
-    std::string lost_because_;
-    std::uint64_t reopened_ = 0, damaged_before_ = 0;
-    std::vector<std::string> report_;
-};
-
-}  // namespace
 
 SourceEntry v4l2_source_entry() {
     return {.kind = "v4l2", .takes_ideal_rig = false, .make = [](const RigConfig& config) {
-                return std::make_unique<V4l2Source>(config);
+                return make_camera_source(
+                    config, [source = config.source](const std::string& device, bool side_by_side) {
+                        return std::make_unique<V4l2Camera>(
+                            V4l2Wish{.path = device,
+                                     .width_px = source.width_px * (side_by_side ? 2 : 1),
+                                     .height_px = source.height_px,
+                                     .rate_hz = PulseGrid(source.rate_hz).rate_hz(),
+                                     .pixel_format = source.pixel_format,
+                                     .controls = source.controls});
+                    });
             }};
 }
 

@@ -239,7 +239,7 @@ void V4l2Camera::queue(std::uint32_t index) {
     device_.request(VIDIOC_QBUF, &request.buffer, "to take back a buffer");
 }
 
-std::optional<V4l2Picture> V4l2Camera::take() {
+std::optional<SensorPicture> V4l2Camera::take() {
     for (;;) {
         BufferRequest request(device_, 0);
         if (!device_.try_request(VIDIOC_DQBUF, &request.buffer)) {
@@ -250,7 +250,7 @@ std::optional<V4l2Picture> V4l2Camera::take() {
         const v4l2_buffer& buffer = request.buffer;
         const bool is_monotonic =
             (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-        V4l2Picture picture{
+        SensorPicture picture{
             .sequence = buffer.sequence,
             .time = is_monotonic ? to_monotonic(buffer.timestamp) : MonotonicClock::now(),
             .colour = {}};

@@ -11,6 +11,7 @@
 #include "common/base/time.h"
 #include "common/image/image.h"
 #include "rig_firmware/capture/pixel_conversion.h"
+#include "rig_firmware/capture/sensor_camera.h"
 #include "rig_firmware/capture/v4l2/v4l2_device.h"
 
 namespace vantage {
@@ -24,36 +25,23 @@ struct V4l2Wish {
     std::map<std::string, int> controls;  ///< by the driver's name, upper and lower case alike
 };
 
-/// One picture of a camera.
-struct V4l2Picture {
-    std::uint32_t sequence = 0;  ///< the driver's running count
-    MonotonicTime time{};        ///< the kernel's time stamp
-    ColourImage colour;
-};
-
 /// A V4L2 camera that streams into mapped buffers; pictures are converted and their buffers go back
 /// to the driver at once. Throws as V4l2Device does.
-class V4l2Camera {
+class V4l2Camera final : public SensorCamera {
   public:
     /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
     /// has if it cannot do as wished.
     explicit V4l2Camera(const V4l2Wish& wish);
-    ~V4l2Camera();
+    ~V4l2Camera() override;
     V4l2Camera(const V4l2Camera&) = delete;
     V4l2Camera& operator=(const V4l2Camera&) = delete;
 
-    /// For poll().
-    int fd() const { return device_.fd(); }
+    int fd() const override { return device_.fd(); }
     cv::Size size() const { return {mode_.width_px, mode_.height_px}; }
 
-    /// The next picture if one is there.
-    std::optional<V4l2Picture> take();
-
-    /// Pictures that came marked as faulty or could not be decoded.
-    std::uint64_t damaged() const { return damaged_; }
-
-    /// Lines for the start-up report: device and mode; what is automatic and should be fixed.
-    std::vector<std::string> report() const;
+    std::optional<SensorPicture> take() override;
+    std::uint64_t damaged() const override { return damaged_; }
+    std::vector<std::string> report() const override;
 
   private:
     struct Mode {

@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "common/base/error.h"
 #include "common/base/unique_fd.h"
+#include "rig_firmware/capture/device_lost.h"
 
 namespace vantage {
-
-/// The device is gone (unplugged, or its driver stopped); it may come back under the same path.
-class DeviceLost : public Error {
-  public:
-    using Error::Error;
-};
 
 struct V4l2Size {
     int width_px = 0, height_px = 0;

@@ -41,7 +41,7 @@ TEST(V4l2Camera, DeliversPicturesOfTheModeItWasAskedFor) {
                                .rate_hz = size.rates_hz.empty() ? 25 : size.rates_hz.front(),
                                .pixel_format = {},
                                .controls = {}});
-            std::optional<V4l2Picture> picture;
+            std::optional<SensorPicture> picture;
             const MonotonicTime deadline = MonotonicClock::now() + std::chrono::seconds(10);
             while (!picture && MonotonicClock::now() < deadline) picture = camera.take();
             ASSERT_TRUE(picture) << node;

@@ -336,5 +336,47 @@ TEST_F(LinkTest, APortInUseIsNamed) {
     EXPECT_THAT(sentence, HasSubstr(stream.bind.substr(stream.bind.rfind(':') + 1)));
 }
 
+TEST_F(LinkTest, TheFirstPulseIsAnnouncedOnceEveryRigIsReady) {
+    Publisher a(open_stream(), "rig-a"), b(open_stream(), "rig-b");
+    StageConfig stage = stage_of(a);
+    stage.rigs.push_back({"rig-b", b.endpoint(), {}});
+    RigSync armed;
+    armed.role = RigSync::Role::lead;
+    armed.ready = true;
+    a.report(armed);
+    StageReceiver host(stage);
+    ASSERT_TRUE(eventually([&] { return host.status().rigs[0].sync == armed; }));
+    EXPECT_EQ(a.announced_pulse(), 0u);
+    b.report(armed);
+    ASSERT_TRUE(eventually([&] { return a.announced_pulse() != 0 && b.announced_pulse() != 0; }));
+    EXPECT_EQ(a.announced_pulse(), b.announced_pulse());
+}
+
+TEST_F(LinkTest, ARigThatIsStartedAgainJoinsTheRunningTake) {
+    Publisher running(open_stream(), "rig-a");
+    RigSync started;
+    started.role = RigSync::Role::lead;
+    started.ready = true;
+    started.first_pulse = 4711;
+    running.report(started);
+    StageConfig stage = stage_of(running);
+    Publisher again(open_stream(), "rig-b");
+    stage.rigs.push_back({"rig-b", again.endpoint(), {}});
+    StageReceiver host(stage);
+    EXPECT_TRUE(eventually([&] { return again.announced_pulse() == 4711; }));
+}
+
+TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {
+    RigStatus rig;
+    EXPECT_THAT(clock_text(rig), HasSubstr("clocks not disciplined: skew unknown"));
+    rig.sync.ptp_state = "LISTENING";
+    EXPECT_THAT(clock_text(rig), HasSubstr("ptp4l is LISTENING"));
+    rig.sync.disciplined = true;
+    rig.sync.ptp_state = "SLAVE";
+    rig.sync.ptp_offset_ns = -151;
+    rig.sync.ptp_path_delay_ns = 1000;
+    EXPECT_EQ(clock_text(rig), "PTP SLAVE, offset -151 ns, path delay 1000 ns");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -53,6 +53,7 @@ void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
     EXPECT_EQ(got.counters.captured, sent.counters.captured);
     EXPECT_EQ(got.counters.missed, sent.counters.missed);
     EXPECT_EQ(got.counters.late, sent.counters.late);
+    EXPECT_EQ(got.sync, sent.sync);
 }
 
 TEST(FrameCodec, GivesBackEveryNumberAndPixelOfALosslessFrame) {

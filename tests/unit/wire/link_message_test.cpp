@@ -39,12 +39,17 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     sent.link = 2;
     sent.counters = {10, 5, 3, 2};
     sent.rig_counters = {20, 1, 2, 17, 3};
+    sent.sync.role = RigSync::Role::follow;
+    sent.sync.first_pulse = 4711;
+    sent.sync.ptp_state = "SLAVE";
+    sent.sync.ptp_offset_ns = -12.5;
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
     EXPECT_EQ(got.link, sent.link);
     EXPECT_EQ(got.counters, sent.counters);
     EXPECT_EQ(got.rig_counters, sent.rig_counters);
+    EXPECT_EQ(got.sync, sent.sync);
     EXPECT_EQ(got.refusal, "");
 }
 

@@ -1,0 +1,243 @@
+#include "rig_firmware/capture/camera_source.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include <poll.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/config/rig_config.h"
+#include "rig_firmware/capture/device_lost.h"
+#include "rig_firmware/capture/frame_pairer.h"
+#include "rig_firmware/capture/pulse_numberer.h"
+#include "rig_firmware/capture/sequence_gaps.h"
+#include "rig_firmware/capture/stereo_material.h"
+#include "rig_firmware/clock/clock_model.h"
+#include "rig_firmware/clock/clock_pair.h"
+#include "rig_firmware/trigger/rig_trigger.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::nanoseconds time_between_reopenings = 500ms;
+constexpr std::chrono::nanoseconds longest_silence = 3s;
+
+/// Two cameras, or one that delivers both pictures side by side. Pictures are joined by the
+/// kernel's time stamps. On a trigger they get the index of the pulse that exposed them; cameras
+/// that run by themselves get that of the nearest pulse. A camera that is unplugged or falls silent
+/// is opened again until it is back.
+class CameraSource final : public StereoSource {
+  public:
+    CameraSource(const RigConfig& config, CameraOpener opener)
+        : config_(config.source),
+          opener_(std::move(opener)),
+          grid_(config.source.rate_hz),
+          numberer_(grid_),
+          pairer_(grid_.period()) {
+        if (config_.left_device.empty())
+            fail("the source '{}' needs a camera: name it with 'left_device' in [source]",
+                 config_.kind);
+        if (config_.left_device == config_.right_device)
+            fail(
+                "'left_device' and 'right_device' are both {}: name two cameras, or leave "
+                "'right_device' out for one that delivers both pictures side by side",
+                config_.left_device);
+        open();
+        for (const auto& camera : cameras_)
+            for (std::string& line : camera->report()) report_.push_back(std::move(line));
+        if (config.trigger.role == "free")
+            report_.push_back(
+                "the cameras are not triggered: pictures are joined by their time stamps, and "
+                "their pulse index is the nearest one");
+    }
+
+    void use(RigTrigger* trigger) override { trigger_ = trigger; }
+
+    cv::Size size() const override { return {config_.width_px, config_.height_px}; }
+
+    std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
+        const MonotonicTime deadline = MonotonicClock::now() + timeout;
+        do {
+            try {
+                if (cameras_.empty()) open();
+                if (!begun_) drain();
+                if (std::optional<StereoFrame> frame = take_frame(deadline)) return frame;
+                if (MonotonicClock::now() - last_picture_ > longest_silence)
+                    throw DeviceLost(
+                        fmt::format("the cameras gave no pair of pictures for {} s",
+                                    std::chrono::duration<double>(longest_silence).count()));
+            } catch (const Error& error) {
+                lose(error.what());
+                std::this_thread::sleep_until(
+                    std::chrono::steady_clock::now() +
+                    std::min(time_between_reopenings, deadline - MonotonicClock::now()));
+            }
+        } while (MonotonicClock::now() < deadline);
+        return std::nullopt;
+    }
+
+    std::uint64_t missed() const override {
+        return trigger_ ? trigger_->missed() : numberer_.missed();
+    }
+
+    std::optional<ClockModel::State> clock() const override {
+        if (!clocks_.ready()) return std::nullopt;
+        return clocks_.state();
+    }
+
+    std::vector<SourceCounter> counters() const override {
+        std::uint64_t damaged = damaged_before_;
+        for (const auto& camera : cameras_) damaged += camera->damaged();
+        return {{"left_sequence_gaps", gaps_[0].lost()},
+                {"right_sequence_gaps", gaps_[1].lost()},
+                {"unpaired", pairer_.unpaired()},
+                {"surplus", numberer_.surplus()},
+                {"damaged", damaged},
+                {"reopened", reopened_},
+                {"copied_pictures", copied_},
+                {"clock_steps", clocks_.state().steps}};
+    }
+
+    std::vector<std::string> report() const override { return report_; }
+
+  private:
+    struct Joined {
+        MonotonicTime time{};
+        StereoPair pictures;
+    };
+
+    void open() {
+        std::vector<std::unique_ptr<SensorCamera>> cameras;
+        const bool side_by_side = config_.right_device.empty();
+        cameras.push_back(opener_(config_.left_device, side_by_side));
+        if (!side_by_side) cameras.push_back(opener_(config_.right_device, false));
+        cameras_ = std::move(cameras);
+        last_picture_ = MonotonicClock::now();
+        if (lost_because_.empty()) return;
+        ++reopened_;
+        lost_because_.clear();
+        log_info("the cameras deliver again");
+    }
+
+    /// Lets go of what the drivers filled while the rest of the daemon was being built: those
+    /// pictures are old, and many are lost after them.
+    void drain() {
+        for (const auto& camera : cameras_)
+            while (camera->take()) {
+            }
+        last_picture_ = MonotonicClock::now();
+        begun_ = true;
+    }
+
+    void lose(const std::string& why) {
+        for (const auto& camera : cameras_) damaged_before_ += camera->damaged();
+        cameras_.clear();
+        pairer_.clear();
+        for (SequenceGaps& gaps : gaps_) gaps.restart();
+        if (why != lost_because_)
+            log_warning("{}; frames are missed until the cameras deliver again", why);
+        lost_because_ = why;
+    }
+
+    std::optional<StereoFrame> take_frame(MonotonicTime deadline) {
+        std::optional<Joined> joined = take_joined();
+        if (!joined) {
+            wait_for_picture(deadline);
+            joined = take_joined();
+        }
+        if (!joined) return std::nullopt;
+        last_picture_ = MonotonicClock::now();
+        return frame_of(std::move(*joined));
+    }
+
+    std::optional<StereoFrame> frame_of(Joined joined) {
+        read_clocks();
+        const TaiTime stamp = clocks_.to_tai(joined.time);
+        StereoFrame frame;
+        frame.left = std::move(joined.pictures.left);
+        frame.right = std::move(joined.pictures.right);
+        if (trigger_) {
+            const std::optional<std::uint64_t> index = trigger_->index_of(stamp);
+            frame.synchronized = index.has_value();
+            frame.trigger_index = index.value_or(grid_.nearest_index(stamp));
+            frame.exposure = trigger_->exposure_centre(stamp);
+            return frame;
+        }
+        const std::optional<std::uint64_t> index = numberer_.number(stamp);
+        if (!index) return std::nullopt;
+        frame.trigger_index = *index;
+        frame.exposure = stamp;
+        return frame;
+    }
+
+    /// A pair of readings every quarter of a second keeps the model at hand without a cost.
+    void read_clocks() {
+        constexpr std::chrono::milliseconds between(250);
+        const MonotonicTime now = MonotonicClock::now();
+        if (clocks_.ready() && now - clocks_read_ < between) return;
+        const ClockPair pair = ClockPair::now();
+        clocks_.observe(pair.monotonic, pair.tai);
+        clocks_read_ = now;
+    }
+
+    void wait_for_picture(MonotonicTime deadline) const {
+        std::array<pollfd, 2> waits{};
+        for (std::size_t i = 0; i < cameras_.size(); ++i)
+            waits[i] = {.fd = cameras_[i]->fd(), .events = POLLIN, .revents = 0};
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(deadline - MonotonicClock::now());
+        ::poll(waits.data(), cameras_.size(),
+               static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    }
+
+    std::optional<Joined> take_joined() {
+        if (cameras_.size() == 1) {
+            std::optional<SensorPicture> both = take(0);
+            if (!both) return std::nullopt;
+            return Joined{both->time, split_side_by_side(both->colour, config_.left_device)};
+        }
+        if (auto left = take(0)) pairer_.push_left(left->time, std::move(left->colour));
+        if (auto right = take(1)) pairer_.push_right(right->time, std::move(right->colour));
+        auto pair = pairer_.pop();
+        if (!pair) return std::nullopt;
+        return Joined{pair->left.time + (pair->right.time - pair->left.time) / 2,
+                      {std::move(pair->left.picture), std::move(pair->right.picture)}};
+    }
+
+    std::optional<SensorPicture> take(std::size_t side) {
+        std::optional<SensorPicture> picture = cameras_[side]->take();
+        if (!picture) return std::nullopt;
+        gaps_[side].see(picture->sequence);
+        ++copied_;
+        return picture;
+    }
+
+    RigConfig::Source config_;
+    CameraOpener opener_;
+    PulseGrid grid_;
+    RigTrigger* trigger_ = nullptr;
+    ClockModel clocks_;
+    MonotonicTime clocks_read_{};
+    PulseNumberer numberer_;
+    FramePairer<ColourImage> pairer_;
+    std::vector<std::unique_ptr<SensorCamera>>
+        cameras_;  ///< left, right or both in one; none: lost
+    std::array<SequenceGaps, 2> gaps_;
+    bool begun_ = false;
+    MonotonicTime last_picture_{};  ///< of both sides
+    std::string lost_because_;
+    std::uint64_t reopened_ = 0, damaged_before_ = 0, copied_ = 0;
+    std::vector<std::string> report_;
+};
+
+}  // namespace
+
+std::unique_ptr<StereoSource> make_camera_source(const RigConfig& config, CameraOpener open) {
+    return std::make_unique<CameraSource>(config, std::move(open));
+}
+
+}  // namespace vantage

@@ -1,0 +1,359 @@
+#include "rig_firmware/capture/libcamera/libcamera_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include <fnmatch.h>
+#include <libcamera/libcamera.h>
+#include <linux/dma-buf.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/pulse_grid.h"
+#include "common/wire/wake_event.h"
+#include "rig_firmware/capture/device_lost.h"
+#include "rig_firmware/capture/pixel_conversion.h"
+
+namespace vantage {
+namespace {
+
+constexpr unsigned wanted_buffers = 4;
+
+/// libcamera's names of the forms that Vantage takes, in the order of preference.
+struct KnownFormat {
+    libcamera::PixelFormat theirs;
+    PixelFormat ours;
+};
+const std::vector<KnownFormat>& known_formats() {
+    static const std::vector<KnownFormat> formats = {
+        {libcamera::formats::YUYV, PixelFormat::yuyv},
+        {libcamera::formats::NV12, PixelFormat::nv12},
+        {libcamera::formats::R8, PixelFormat::grey},
+        {libcamera::formats::R10, PixelFormat::y10},
+        {libcamera::formats::R16, PixelFormat::y16},
+        {libcamera::formats::MJPEG, PixelFormat::mjpg}};
+    return formats;
+}
+
+std::string model_of(const libcamera::Camera& camera) {
+    return camera.properties().get(libcamera::properties::Model).value_or(std::string());
+}
+
+std::shared_ptr<libcamera::Camera> find_camera(const libcamera::CameraManager& manager,
+                                               const std::string& pattern) {
+    std::vector<std::shared_ptr<libcamera::Camera>> fitting;
+    std::string listed;
+    for (const std::shared_ptr<libcamera::Camera>& camera : manager.cameras()) {
+        const std::string model = model_of(*camera);
+        listed += fmt::format("{}'{}' ({})", listed.empty() ? "" : ", ", camera->id(), model);
+        // An id is taken as it is before it is taken for a pattern: ids may hold brackets.
+        if (camera->id() == pattern) return camera;
+        if (::fnmatch(pattern.c_str(), camera->id().c_str(), 0) == 0 ||
+            ::fnmatch(pattern.c_str(), model.c_str(), 0) == 0)
+            fitting.push_back(camera);
+    }
+    if (fitting.size() == 1) return fitting.front();
+    if (fitting.empty())
+        throw DeviceLost(fmt::format("libcamera has no camera '{}'; there {}", pattern,
+                                     listed.empty() ? "is none" : "are: " + listed));
+    fail("'{}' fits {} cameras of libcamera: name one more closely; there are: {}", pattern,
+         fitting.size(), listed);
+}
+
+/// Reads of a buffer that a device writes stand between these two.
+class BufferAccess {
+  public:
+    explicit BufferAccess(int fd) : fd_(fd) { sync(DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ); }
+    ~BufferAccess() { sync(DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ); }
+    BufferAccess(const BufferAccess&) = delete;
+    BufferAccess& operator=(const BufferAccess&) = delete;
+
+  private:
+    void sync(std::uint64_t flags) const {
+        dma_buf_sync request{.flags = flags};
+        ::ioctl(fd_, DMA_BUF_IOCTL_SYNC, &request);  // buffers of some drivers need and know none
+    }
+    int fd_;
+};
+
+/// The planes of one buffer, mapped as one piece.
+class MappedBuffer {
+  public:
+    explicit MappedBuffer(const libcamera::FrameBuffer& buffer) {
+        const auto& planes = buffer.planes();
+        fd_ = planes.front().fd.get();
+        std::size_t end = 0;
+        for (const libcamera::FrameBuffer::Plane& plane : planes) {
+            if (plane.fd.get() != fd_ || (end != 0 && plane.offset != end))
+                fail(
+                    "a camera delivers the planes of a picture in separate memory; choose "
+                    "another 'pixel_format' in [source]");
+            end = plane.offset + plane.length;
+        }
+        begin_ = planes.front().offset;
+        length_ = end;
+        void* start = ::mmap(nullptr, length_, PROT_READ, MAP_SHARED, fd_, 0);
+        if (start == MAP_FAILED) fail("a camera's buffer of {} bytes cannot be mapped", length_);
+        start_ = static_cast<std::byte*>(start);
+    }
+    ~MappedBuffer() { ::munmap(start_, length_); }
+    MappedBuffer(const MappedBuffer&) = delete;
+    MappedBuffer& operator=(const MappedBuffer&) = delete;
+
+    int fd() const { return fd_; }
+    std::span<const std::byte> bytes() const { return {start_ + begin_, length_ - begin_}; }
+
+  private:
+    int fd_ = -1;
+    std::byte* start_ = nullptr;
+    std::size_t begin_ = 0, length_ = 0;
+};
+
+class LibcameraCamera final : public SensorCamera {
+  public:
+    LibcameraCamera(std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
+                    const RigConfig::Source& wish, bool side_by_side)
+        : manager_(std::move(manager)), camera_(find_camera(*manager_, pattern)) {
+        if (camera_->acquire() != 0)
+            throw DeviceLost(fmt::format(
+                "camera '{}' is in use by another program: end that program", camera_->id()));
+        try {
+            configure(wish, side_by_side);
+            start(wish);
+        } catch (...) {
+            shut();
+            throw;
+        }
+    }
+
+    ~LibcameraCamera() override { shut(); }
+
+    int fd() const override { return ready_.fd(); }
+
+    std::optional<SensorPicture> take() override {
+        if (lost_) throw DeviceLost(fmt::format("camera '{}' is gone", camera_->id()));
+        libcamera::Request* request = nullptr;
+        {
+            const std::lock_guard lock(mutex_);
+            if (completed_.empty()) {
+                ready_.clear();
+                return std::nullopt;
+            }
+            request = completed_.front();
+            completed_.pop_front();
+        }
+        std::optional<SensorPicture> picture = picture_of(*request);
+        request->reuse(libcamera::Request::ReuseBuffers);
+        if (camera_->queueRequest(request) != 0)
+            throw DeviceLost(fmt::format("camera '{}' takes no more buffers", camera_->id()));
+        return picture;
+    }
+
+    std::uint64_t damaged() const override { return damaged_; }
+    std::vector<std::string> report() const override { return report_; }
+
+  private:
+    void configure(const RigConfig::Source& wish, bool side_by_side) {
+        configuration_ = camera_->generateConfiguration({libcamera::StreamRole::VideoRecording});
+        if (!configuration_ || configuration_->empty())
+            fail("camera '{}' delivers no pictures", camera_->id());
+        libcamera::StreamConfiguration& stream = configuration_->at(0);
+        const libcamera::Size size(static_cast<unsigned>(wish.width_px * (side_by_side ? 2 : 1)),
+                                   static_cast<unsigned>(wish.height_px));
+        const std::vector<libcamera::PixelFormat> offered = stream.formats().pixelformats();
+        for (const KnownFormat& known : known_formats()) {
+            if (!wish.pixel_format.empty() && parse_pixel_format(wish.pixel_format) != known.ours)
+                continue;
+            if (std::find(offered.begin(), offered.end(), known.theirs) == offered.end()) continue;
+            stream.pixelFormat = known.theirs;
+            stream.size = size;
+            stream.stride = 0;
+            stream.bufferCount = wanted_buffers;
+            if (configuration_->validate() == libcamera::CameraConfiguration::Invalid ||
+                stream.pixelFormat != known.theirs || stream.size != size)
+                continue;
+            if (camera_->configure(configuration_.get()) != 0)
+                throw DeviceLost(fmt::format("camera '{}' refuses its mode", camera_->id()));
+            format_ = known.ours;
+            return;
+        }
+        std::string listed;
+        for (const libcamera::PixelFormat& format : offered) {
+            listed += " " + format.toString() + ":";
+            for (const libcamera::Size& each : stream.formats().sizes(format))
+                listed += " " + each.toString();
+        }
+        fail("camera '{}' does not deliver {}x{} in {}; it has:{}", camera_->id(), size.width,
+             size.height, wish.pixel_format.empty() ? "a known format" : wish.pixel_format, listed);
+    }
+
+    void start(const RigConfig::Source& wish) {
+        libcamera::Stream* stream = configuration_->at(0).stream();
+        allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
+        if (allocator_->allocate(stream) <= 0)
+            fail("camera '{}' has no memory for its pictures", camera_->id());
+        for (const std::unique_ptr<libcamera::FrameBuffer>& buffer : allocator_->buffers(stream)) {
+            mappings_.emplace(std::piecewise_construct, std::forward_as_tuple(buffer.get()),
+                              std::forward_as_tuple(*buffer));
+            std::unique_ptr<libcamera::Request> request = camera_->createRequest();
+            if (!request || request->addBuffer(stream, buffer.get()) != 0)
+                fail("camera '{}' takes no buffers", camera_->id());
+            requests_.push_back(std::move(request));
+        }
+        camera_->requestCompleted.connect(this, &LibcameraCamera::on_completed);
+        camera_->disconnected.connect(this, &LibcameraCamera::on_disconnected);
+        libcamera::ControlList controls = fixed_controls(wish);
+        if (camera_->start(&controls) != 0)
+            throw DeviceLost(fmt::format("camera '{}' does not start", camera_->id()));
+        started_ = true;
+        for (const std::unique_ptr<libcamera::Request>& request : requests_)
+            if (camera_->queueRequest(request.get()) != 0)
+                throw DeviceLost(fmt::format("camera '{}' takes no requests", camera_->id()));
+        const libcamera::StreamConfiguration& mode = configuration_->at(0);
+        report_.insert(report_.begin(),
+                       fmt::format("camera '{}' ({}): {} in lines of {} bytes, {} buffers; every "
+                                   "picture is copied once on its way to the GPU",
+                                   camera_->id(), model_of(*camera_), mode.toString(), mode.stride,
+                                   requests_.size()));
+    }
+
+    /// Exposure, gain and white balance as configured; what the camera has no control for is said.
+    libcamera::ControlList fixed_controls(const RigConfig::Source& wish) {
+        namespace controls = libcamera::controls;
+        libcamera::ControlList list(camera_->controls());
+        std::string fixed, left_out;
+        const auto fix = [&](const auto& control, const auto& value, const std::string& text) {
+            const bool is_there = camera_->controls().count(&control) > 0;
+            if (is_there) list.set(control, value);
+            std::string& place = is_there ? fixed : left_out;
+            place += (place.empty() ? "" : ", ") + text;
+        };
+        const double period_us = 1e6 / PulseGrid(wish.rate_hz).rate_hz();
+        const auto period = static_cast<std::int64_t>(std::llround(period_us));
+        fix(controls::AeEnable, false, "automatic exposure off");
+        fix(controls::ExposureTime, static_cast<std::int32_t>(std::lround(wish.exposure_us)),
+            fmt::format("exposure {:.0f} us", wish.exposure_us));
+        fix(controls::AnalogueGain, static_cast<float>(wish.analogue_gain),
+            fmt::format("gain {:.2f}", wish.analogue_gain));
+        fix(controls::AwbEnable, false, "automatic white balance off");
+        const std::array<float, 2> gains = {static_cast<float>(wish.red_gain),
+                                            static_cast<float>(wish.blue_gain)};
+        fix(controls::ColourGains, libcamera::Span<const float, 2>(gains),
+            fmt::format("red gain {:.2f} and blue gain {:.2f}", wish.red_gain, wish.blue_gain));
+        const std::array<std::int64_t, 2> durations = {period, period};
+        fix(controls::FrameDurationLimits, libcamera::Span<const std::int64_t, 2>(durations),
+            fmt::format("period {} us", period));
+        if (!fixed.empty())
+            report_.push_back(fmt::format("camera '{}' is fixed: {}", camera_->id(), fixed));
+        if (!left_out.empty())
+            report_.push_back(
+                fmt::format("camera '{}' has no control for: {}; it may drift in a "
+                            "take",
+                            camera_->id(), left_out));
+        return list;
+    }
+
+    /// On libcamera's thread.
+    void on_completed(libcamera::Request* request) {
+        if (request->status() == libcamera::Request::RequestCancelled) return;
+        {
+            const std::lock_guard lock(mutex_);
+            completed_.push_back(request);
+        }
+        ready_.notify();
+    }
+    void on_disconnected() {
+        lost_ = true;
+        ready_.notify();
+    }
+
+    std::optional<SensorPicture> picture_of(libcamera::Request& request) {
+        const libcamera::FrameBuffer& buffer = *request.buffers().begin()->second;
+        const libcamera::FrameMetadata& metadata = buffer.metadata();
+        if (metadata.status != libcamera::FrameMetadata::FrameSuccess) {
+            ++damaged_;
+            return std::nullopt;
+        }
+        const MappedBuffer& mapping = mappings_.at(&buffer);
+        const libcamera::StreamConfiguration& mode = configuration_->at(0);
+        std::span<const std::byte> bytes = mapping.bytes();
+        if (format_ == PixelFormat::mjpg)
+            bytes =
+                bytes.first(std::min<std::size_t>(bytes.size(), metadata.planes()[0].bytesused));
+        const BufferAccess access(mapping.fd());
+        // The sensor's own time where the pipeline knows it, else the driver's of the buffer.
+        const auto sensor_time = request.metadata().get(libcamera::controls::SensorTimestamp);
+        try {
+            return SensorPicture{
+                .sequence = metadata.sequence,
+                .time = monotonic_from_ns(
+                    sensor_time.value_or(static_cast<std::int64_t>(metadata.timestamp))),
+                .colour = to_colour({.format = format_,
+                                     .width_px = static_cast<int>(mode.size.width),
+                                     .height_px = static_cast<int>(mode.size.height),
+                                     .bytes_per_line = mode.stride,
+                                     .bytes = bytes})};
+        } catch (const Error&) {
+            ++damaged_;
+            return std::nullopt;
+        }
+    }
+
+    void shut() {
+        camera_->requestCompleted.disconnect(this);
+        camera_->disconnected.disconnect(this);
+        if (started_) camera_->stop();
+        requests_.clear();
+        mappings_.clear();
+        allocator_.reset();
+        camera_->release();
+    }
+
+    std::shared_ptr<libcamera::CameraManager> manager_;
+    std::shared_ptr<libcamera::Camera> camera_;
+    std::unique_ptr<libcamera::CameraConfiguration> configuration_;
+    PixelFormat format_ = PixelFormat::grey;
+    std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
+    std::map<const libcamera::FrameBuffer*, MappedBuffer> mappings_;
+    std::vector<std::unique_ptr<libcamera::Request>> requests_;
+    bool started_ = false;
+    std::uint64_t damaged_ = 0;
+    std::vector<std::string> report_;
+
+    mutable WakeEvent ready_;
+    std::mutex mutex_;
+    std::deque<libcamera::Request*> completed_;  ///< as many as there are requests at most
+    std::atomic<bool> lost_ = false;
+};
+
+}  // namespace
+
+std::shared_ptr<libcamera::CameraManager> start_camera_manager() {
+    // It logs to standard error by itself: only what ends its work is of use there.
+    libcamera::logSetLevel("*", "ERROR");
+    auto manager = std::shared_ptr<libcamera::CameraManager>(new libcamera::CameraManager,
+                                                             [](libcamera::CameraManager* stopped) {
+                                                                 stopped->stop();
+                                                                 delete stopped;
+                                                             });
+    if (const int code = manager->start(); code != 0)
+        fail("libcamera does not start (error {}): is this user in the group 'video'?", code);
+    return manager;
+}
+
+std::unique_ptr<SensorCamera> open_libcamera_camera(
+    std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
+    const RigConfig::Source& wish, bool side_by_side) {
+    return std::make_unique<LibcameraCamera>(std::move(manager), pattern, wish, side_by_side);
+}
+
+}  // namespace vantage
