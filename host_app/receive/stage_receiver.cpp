@@ -146,8 +146,11 @@ struct StageReceiver::Impl {
         start_take(now);
     }
 
-    /// Precondition: mutex is held.
+    /// One that asks no rig for frames only looks on. Precondition: mutex is held.
     void start_take(MonotonicTime now) {
+        if (std::none_of(rigs.begin(), rigs.end(),
+                         [](const auto& rig) { return rig->wish.streaming; }))
+            return;
         std::vector<TakeStarter::Rig> all;
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);

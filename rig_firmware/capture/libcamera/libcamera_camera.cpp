@@ -338,8 +338,8 @@ class LibcameraCamera final : public SensorCamera {
 }  // namespace
 
 std::shared_ptr<libcamera::CameraManager> start_camera_manager() {
-    // It logs to standard error by itself: only what ends its work is of use there.
-    libcamera::logSetLevel("*", "ERROR");
+    // It logs to standard error by itself; what ends its work is said by what it returns.
+    libcamera::logSetTarget(libcamera::LoggingTargetNone);
     auto manager = std::shared_ptr<libcamera::CameraManager>(new libcamera::CameraManager,
                                                              [](libcamera::CameraManager* stopped) {
                                                                  stopped->stop();

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::seconds longest_wait{90};
+constexpr std::chrono::seconds longest_wait{300};
 
 StageConfig stage_of(const std::string& endpoint) {
     StageConfig stage;

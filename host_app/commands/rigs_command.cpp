@@ -1,0 +1,110 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/stop_signal.h"
+#include "common/config/stage_config.h"
+#include "host_app/live/live_report.h"
+#include "host_app/receive/stage_receiver.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    std::string stage;
+    double wait_s = 3;
+    bool json = false;
+};
+
+/// Looks until every rig has answered, or the time is up. Frames are not asked for.
+ReceiverStatus look(const StageConfig& stage, double wait_s) {
+    StageReceiver receiver(stage);
+    for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, false, 1);
+    StopSignal stop;
+    constexpr std::chrono::milliseconds look_every(50);
+    const MonotonicTime end =
+        MonotonicClock::now() +
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(wait_s));
+    while (MonotonicClock::now() < end && !stop.wait_for(look_every)) {
+        const ReceiverStatus status = receiver.status();
+        bool all = true;
+        for (const RigStatus& rig : status.rigs)
+            all = all && (rig.connected || !rig.refused.empty());
+        if (all) break;
+    }
+    return receiver.status();
+}
+
+nlohmann::ordered_json to_json(const RigStatus& rig) {
+    const RigCounters& counters = rig.rig_counters;
+    return {{"name", rig.rig},
+            {"state", state_of(rig)},
+            {"clock", clock_text(rig)},
+            {"disciplined", rig.sync.disciplined || rig.same_clock},
+            {"ptp_state", rig.sync.ptp_state},
+            {"ptp_offset_ns", rig.sync.ptp_offset_ns},
+            {"ptp_path_delay_ns", rig.sync.ptp_path_delay_ns},
+            {"clock_ppm", rig.sync.clock_ppm},
+            {"ready", rig.sync.ready},
+            {"first_pulse", rig.sync.first_pulse},
+            {"pulses", rig.sync.pulses},
+            {"pulses_skipped", rig.sync.skipped},
+            {"lateness_us",
+             {{"p50", rig.sync.lateness_p50_us},
+              {"p99", rig.sync.lateness_p99_us},
+              {"max", rig.sync.lateness_max_us}}},
+            {"unsynchronized", rig.sync.unsynchronized},
+            {"captured", counters.captured},
+            {"missed", counters.missed},
+            {"late", counters.late},
+            {"published", counters.published}};
+}
+
+void run(const Options& options) {
+    const StageConfig stage = load_stage_config(options.stage);
+    const ReceiverStatus status = look(stage, options.wait_s);
+    if (options.json) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (const RigStatus& rig : status.rigs) all.push_back(to_json(rig));
+        std::cout << nlohmann::ordered_json{{"rigs", all}}.dump() << '\n';
+        return;
+    }
+    for (const RigStatus& rig : status.rigs) {
+        std::cout << fmt::format("{}: {}\n", rig.rig, state_of(rig));
+        if (!rig.connected) continue;
+        const RigCounters& counters = rig.rig_counters;
+        std::cout << fmt::format("    {}\n    captured {}, missed {}, late {}, published {}\n",
+                                 clock_text(rig), counters.captured, counters.missed, counters.late,
+                                 counters.published);
+        if (rig.sync.role != RigSync::Role::free)
+            std::cout << fmt::format(
+                "    {} pulses, {} skipped; late us p50 {:.1f}, p99 {:.1f}, max {:.1f}; {} frames "
+                "without a pulse\n",
+                rig.sync.pulses, rig.sync.skipped, rig.sync.lateness_p50_us,
+                rig.sync.lateness_p99_us, rig.sync.lateness_max_us, rig.sync.unsynchronized);
+    }
+}
+
+}  // namespace
+
+CommandEntry rigs_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* rigs = program.add_subcommand("rigs", "The rigs of a stage");
+        rigs->require_subcommand(1);
+        auto options = std::make_shared<Options>();
+        CLI::App* status = rigs->add_subcommand(
+            "status", "Every rig: its clock by the stage's, pulses, and what became of its frames");
+        status->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
+            ->required();
+        status->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")
+            ->check(CLI::Range(0.1, 3600.0));
+        status->add_flag("--json", options->json, "Print it as JSON");
+        status->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage
