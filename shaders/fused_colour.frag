@@ -73,7 +73,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
     float trust = textureLod(picture, uv, 0.0).a;
     float away = apart(point, centre[i]);
-    float weight = sure * trust * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
+    float weight = presence[i] * sure * trust * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
     e.apart = min(e.apart, away);
     vec3 c = sharp(picture, uv, detail_level(pixel_from_target[i], z, q.z));
     e.sum += weight * c;

@@ -34,7 +34,7 @@ void main() {
     {                                                                                                        \
         float w = 1.0 - smoothstep(1.0, 2.0, abs(z[i] / nearest - 1.0) / (softness + spread[i] * nearest));  \
         if (w > 0.0) {                                                                                       \
-            w /= apart(ray * z[i], centre[i]) + 1e-5;                                                        \
+            w *= presence[i] / (apart(ray * z[i], centre[i]) + 1e-5);                                                       \
             sum += w * z[i];                                                                                 \
             weights += w;                                                                                    \
         }                                                                                                    \

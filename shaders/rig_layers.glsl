@@ -10,6 +10,7 @@ uniform mat4 pixel_from_target[LAYERS];  // the rigs' (u * z, v * z, z, 1) from 
 uniform vec2 colour_size[LAYERS];         // px
 uniform vec3 centre[LAYERS];             // of the rig's camera, in the virtual camera's coordinates
 uniform float spread[LAYERS];            // relative uncertainty of depth, per metre of depth
+uniform float presence[LAYERS];          // 0..1, less while a rig comes or goes
 uniform mat3 ray_from_pixel;             // of the virtual camera
 uniform float near_m;
 

@@ -14,6 +14,11 @@ constexpr int samples_a_side = 12;
 }  // namespace
 
 void GpuView::upload(const DepthView& view) {
+    const bool is_same_camera =
+        colour_ && depth_ && colour_->size() == view.colour.size() &&
+        depth_->size() == view.depth_m.size() && camera_.K == view.K &&
+        camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
+    if (!is_same_camera) has_steady_ = false;
     camera_ = view;
     camera_.colour.release();
     camera_.depth_m.release();
@@ -40,6 +45,17 @@ const Framebuffer& GpuView::surface_target() {
 const Framebuffer& GpuView::trusted_colour_target() {
     trusted_.resize(colour_->size());
     return trusted_.target();
+}
+
+const Framebuffer& GpuView::next_steady_target() {
+    DrawnTexture& next = steady_[1 - steady_now_];
+    next.resize(depth_->size());
+    return next.target();
+}
+
+void GpuView::finish_steady_depth() {
+    steady_now_ = 1 - steady_now_;
+    has_steady_ = true;
 }
 
 Eigen::Matrix3d GpuView::K_depth() const {

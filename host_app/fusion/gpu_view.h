@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,6 +34,19 @@ class GpuView {
     }
     const Framebuffer& trusted_colour_target();
     void finish_trusted_colour() { trusted_.generate_mipmaps(); }
+    /// depth() filtered along time: what finish_steady_depth() saw drawn last into
+    /// next_steady_target(). depth() itself where nothing was.
+    const Texture& steady_depth() const {
+        return has_steady_ ? steady_[steady_now_].texture() : *depth_;
+    }
+    bool has_steady_depth() const { return has_steady_; }
+    const Framebuffer& next_steady_target();
+    void finish_steady_depth();
+
+    /// How far this rig takes part, 0..1: it fades in when it comes and out when it is gone.
+    float presence() const { return presence_; }
+    void set_presence(float presence) { presence_ = presence; }
+
     /// Index buffer of the depth map's triangles: two a quad of four neighbouring pixels.
     const Buffer& triangles() const { return *triangles_; }
     Eigen::Matrix3d K_depth() const;
@@ -49,6 +63,11 @@ class GpuView {
     std::optional<Texture> colour_, depth_;
     DrawnTexture surface_{TextureFormat::r32f};
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
+    std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::r32f),
+                                        DrawnTexture(TextureFormat::r32f)};
+    std::size_t steady_now_ = 0;
+    bool has_steady_ = false;
+    float presence_ = 1;
     std::optional<Buffer> triangles_;
     std::vector<Eigen::Vector3d> sample_points_m_;
     double median_depth_m_ = 0;

@@ -16,6 +16,11 @@ constexpr double disparity_sigma_px = 0.15;
 
 }  // namespace
 
+float depth_spread(const DepthView& camera) {
+    const double f_baseline = camera.K(0, 0) * camera.baseline_m;
+    return f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f;
+}
+
 RigLayers::Layer::Layer(cv::Size size)
     : depth(TextureFormat::depth24, size.width, size.height), target({}, &depth) {}
 
@@ -38,7 +43,6 @@ void RigLayers::bind(Program& program) const {
         const GpuView& view = *used_[static_cast<std::size_t>(i)];
         const DepthView& camera = view.camera();
         const Eigen::Vector3d centre = target_from_world * camera.world_from_camera.translation();
-        const double f_baseline = camera.K(0, 0) * camera.baseline_m;
         const auto set = [&](const char* name, const auto& value) {
             program.set(fmt::format("{}[{}]", name, i), value);
         };
@@ -50,7 +54,8 @@ void RigLayers::bind(Program& program) const {
         set("colour_size", Eigen::Vector2f(static_cast<float>(view.colour().width_px()),
                                            static_cast<float>(view.colour().height_px())));
         set("centre", Eigen::Vector3f(centre.cast<float>()));
-        set("spread", f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f);
+        set("spread", depth_spread(camera));
+        set("presence", view.presence());
         layers_[static_cast<std::size_t>(i)]->depth.bind(i);
         view.trusted_colour().bind(count + i);
         view.surface().bind(2 * count + i);

@@ -10,6 +10,10 @@
 
 namespace vantage {
 
+/// The relative uncertainty of a stereo rig's depth, per metre of depth; 0 where it is not known to
+/// be stereo.
+float depth_spread(const DepthView& camera);
+
 /// The surfaces of the rigs that take part in one virtual view, each drawn alone into a depth
 /// buffer of the view's size, ready to be merged by a fragment shader that includes
 /// rig_layers.glsl.

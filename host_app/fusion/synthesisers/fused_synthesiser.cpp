@@ -4,10 +4,12 @@
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_picture.h"
+#include "host_app/fusion/depth_steadier.h"
 #include "host_app/fusion/edge_trust.h"
 #include "host_app/fusion/gpu_view.h"
 #include "host_app/fusion/hole_filler.h"
 #include "host_app/fusion/rig_layers.h"
+#include "host_app/fusion/rig_presence.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/fusion/view_ranking.h"
 
@@ -25,7 +27,12 @@ constexpr float edge_ratio = 1.03f;
 class FusedSynthesiser final : public Synthesiser {
   public:
     explicit FusedSynthesiser(const ShaderLibrary& library)
-        : closer_(library), edge_trust_(library), layers_(library), filler_(library) {
+
+        : steadier_(library),
+          closer_(library),
+          edge_trust_(library),
+          layers_(library),
+          filler_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers) {
             const ShaderDefines defines{{"LAYERS", std::to_string(layers)}};
             depth_pass_.emplace_back(library, "fused_depth.frag", defines);
@@ -34,9 +41,9 @@ class FusedSynthesiser final : public Synthesiser {
     }
 
     void set_views(std::span<const DepthView> views) override {
-        upload_views(views, views_);
-        for (const auto& view : views_) {
-            closer_.close(view->depth(), view->surface_target());
+        for (GpuView* view : upload_with_fades(views, views_)) {
+            steadier_.steady(*view);
+            closer_.close(view->steady_depth(), view->surface_target());
             edge_trust_.judge(*view);
             layers_.rasteriser().build_triangles(*view);
         }
@@ -72,6 +79,7 @@ class FusedSynthesiser final : public Synthesiser {
     }
 
     std::vector<std::unique_ptr<GpuView>> views_;
+    DepthSteadier steadier_;
     DepthCloser closer_;
     EdgeTrust edge_trust_;
     RigLayers layers_;

@@ -8,6 +8,7 @@
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/fusion/image_metrics.h"
+#include "host_app/fusion/rig_presence.h"
 #include "host_app/fusion/synthesiser.h"
 
 namespace vantage {
@@ -127,6 +128,90 @@ TEST(StageHalos, AreFewerInTheFusedPictureThanBetweenMeshes) {
                               depth_edge_band(truth.depth_m, 5) & covered_mask(picture));
     }
     EXPECT_LE(error[1], 0.85 * error[0]) << error[1] << " against " << error[0];
+}
+
+/// The mean over pixels and colours of the standard deviation along time.
+double deviation_along_time(const std::vector<ColourImage>& pictures, const cv::Mat1b& mask) {
+    cv::Mat sum = cv::Mat::zeros(mask.size(), CV_64FC4), squares = sum.clone();
+    for (const ColourImage& picture : pictures) {
+        cv::Mat wide;
+        picture.convertTo(wide, CV_64F);
+        sum += wide;
+        squares += wide.mul(wide);
+    }
+    const double count = static_cast<double>(pictures.size());
+    cv::Mat variance = squares / count - (sum / count).mul(sum / count), deviation;
+    cv::max(variance, 0.0, variance);
+    cv::sqrt(variance, deviation);
+    const cv::Scalar mean = cv::mean(deviation, mask);
+    return (mean[0] + mean[1] + mean[2]) / 3;
+}
+
+TEST(StageNoise, IsWeakerInTheFusedPictureThanInACameraOnAStillStage) {
+    constexpr int width_px = 160, height_px = 120, instants = 12, settled_after = 6;
+    constexpr double disparity_noise_px = 0.1;
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    const DepthView truth = film(stage, 0, width_px, height_px);
+    const DepthView clean[] = {film(stage, -8, width_px, height_px),
+                               film(stage, 8, width_px, height_px)};
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    std::vector<ColourImage> fused, camera;
+    cv::Mat1b covered(height_px, width_px, uchar{255});
+    cv::RNG random(7);
+    for (std::uint64_t instant = 0; instant < instants; ++instant) {
+        std::vector<DepthView> views;
+        for (const DepthView& view : clean) {
+            DepthView& noisy = views.emplace_back(view);
+            noisy.colour = view.colour.clone();
+            add_sensor_noise(noisy.colour, {.sigma = 3, .seed = views.size()}, 0, instant);
+            noisy.depth_m = view.depth_m.clone();
+            const double f_baseline = view.K(0, 0) * view.baseline_m;
+            for (float& z : noisy.depth_m)
+                z = static_cast<float>(f_baseline /
+                                       (f_baseline / z + random.gaussian(disparity_noise_px)));
+        }
+        synthesiser->set_views(views);
+        const ColourImage picture =
+            synthesiser->render({width_px, height_px, truth.K, truth.world_from_camera}).download();
+        ColourImage real = truth.colour.clone();
+        add_sensor_noise(real, {.sigma = 3, .seed = 99}, 0, instant);
+        if (instant < settled_after) continue;
+        fused.push_back(picture);
+        camera.push_back(real);
+        covered &= covered_mask(picture);
+    }
+    const double of_fused = deviation_along_time(fused, covered);
+    const double of_camera = deviation_along_time(camera, covered);
+    EXPECT_LE(of_fused, of_camera) << of_fused << " against " << of_camera;
+}
+
+TEST(StageFades, LetARigThatDropsOutGoInSteps) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    DepthView left = film(stage, -6, 160, 120), right = film(stage, 6, 160, 120);
+    // Of another colour, so that its share shows.
+    right.colour.setTo(cv::Scalar(255, 0, 0, 255));
+    const VirtualView target{160, 120, left.K, camera_at(0, 160, 120).world_from_camera};
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    const auto redness = [&](std::initializer_list<DepthView> views) {
+        synthesiser->set_views(views);
+        return cv::mean(synthesiser->render(target).download())[0];
+    };
+    const double both = redness({left, right});
+    double before = both;
+    for (int instant = 1; instant < fade_instants; ++instant) {
+        const double now = redness({left});
+        EXPECT_LT(now, before + 0.5) << instant;
+        before = now;
+    }
+    const double alone = redness({left});
+    EXPECT_LT(alone, both - 10);
+    const double back = redness({left, right});
+    EXPECT_GT(back, alone);
+    EXPECT_LT(back, both);
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "common/gl/fullscreen_pass.h"
+#include "host_app/fusion/gpu_view.h"
+
+namespace vantage {
+
+/// Keeps the depth of what stands still from boiling: a running average along time wherever
+/// neither the picture nor, beyond its uncertainty, the depth of a rig's pixel has changed. What
+/// moves is taken as it comes.
+class DepthSteadier {
+  public:
+    explicit DepthSteadier(const ShaderLibrary& library) : pass_(library, "depth_steady.frag") {}
+
+    /// Fills the view's steady_depth(). Once an upload, before anything is drawn into
+    /// trusted_colour(), which holds the picture before.
+    void steady(GpuView& view);
+
+  private:
+    FullscreenPass pass_;
+};
+
+}  // namespace vantage
