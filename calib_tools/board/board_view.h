@@ -21,10 +21,11 @@ using BoardCorners = std::vector<BoardCorner>;
 struct BoardSighting {
     BoardCorners corners;
     std::string reason;
-    double square_px = 0;   ///< median distance of neighbouring corners
-    double blur_px = 0;     ///< median Gaussian sigma of the edges
-    double contrast = 0;    ///< median half step from black to white, grey levels
-    bool mirrored = false;  ///< markers can be read in the mirrored picture only
+    double square_px = 0;        ///< median distance of neighbouring corners
+    double blur_px = 0;          ///< median Gaussian sigma of the edges
+    double contrast = 0;         ///< median half step from black to white, grey levels
+    double burnt_out_share = 0;  ///< of the board's area: as bright as can be
+    bool mirrored = false;       ///< markers can be read in the mirrored picture only
 
     bool found() const { return !corners.empty(); }
 };

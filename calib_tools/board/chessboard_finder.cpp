@@ -18,6 +18,7 @@ namespace {
 // Of the distance to the next edge: the fit's circle must not reach the next edge's blur.
 constexpr double clear_share = 0.7;
 constexpr double max_radius_px = 15;
+constexpr double fewest_measured = 0.7;  // of the corners
 
 std::optional<CornerGrid> to_grid(const std::vector<cv::Point2f>& corners, cv::Size size,
                                   double scale) {
@@ -29,25 +30,29 @@ std::optional<CornerGrid> to_grid(const std::vector<cv::Point2f>& corners, cv::S
     return grid;
 }
 
+/// Neither equalised nor thresholded by neighbourhood: on an even, noisy wall either makes
+/// thousands of flecks, and OpenCV takes many seconds to find no board among them.
+constexpr int quick_search = 0;
+
 std::optional<CornerGrid> find_grid(const GreyImage& picture, cv::Size size) {
     std::vector<cv::Point2f> corners;
-    const int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE;
-    if (cv::findChessboardCorners(picture, size, corners, flags | cv::CALIB_CB_FAST_CHECK))
+    if (cv::findChessboardCorners(picture, size, corners, quick_search))
         return to_grid(corners, size, 1);
-    // Small squares need an enlarged picture; large pictures are searched smaller first.
-    const double scale = picture.cols <= 800 ? 2 : 1;
-    cv::Mat enlarged = picture;
-    if (scale != 1) cv::resize(picture, enlarged, {}, scale, scale, cv::INTER_CUBIC);
-    if (scale != 1 && cv::findChessboardCorners(enlarged, size, corners, flags))
-        return to_grid(corners, size, scale);
-    corners.clear();
-    if (cv::findChessboardCornersSB(enlarged, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
+    // Small squares need an enlarged picture; large pictures are searched smaller, since corners
+    // are measured in the picture itself anyway.
+    constexpr double small_px = 800, large_px = 1600;
+    const double scale = picture.cols <= small_px ? 2 : std::min(1.0, large_px / picture.cols);
+    cv::Mat scaled = picture;
+    if (scale != 1)
+        cv::resize(picture, scaled, {}, scale, scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
+    if (cv::findChessboardCornersSB(scaled, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
         return to_grid(corners, size, scale);
     return std::nullopt;
 }
 
 struct RefinedGrid {
     CornerGrid grid;
+    std::vector<bool> measured;  ///< false: hidden or burnt out, its place is a guess
     double blur_px = 0, contrast = 0;
 };
 
@@ -76,7 +81,8 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
             ++inside;
             const std::optional<CornerFit> fit =
                 fit_corner(picture, next, neighbour_direction(g, c, 0, 1, 0), step, radius);
-            if (fit && fit->contrast > 0.4 * refined.contrast &&
+            // The outer corner of a black square, blurred, looks like half a crossing.
+            if (fit && fit->contrast > 0.65 * refined.contrast &&
                 fit->residual < 0.35 * fit->contrast && fit->blur_px < 3 * refined.blur_px &&
                 (fit->pixel - next).norm() < 0.2 * step.norm())
                 ++crossings;
@@ -87,34 +93,60 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
 }
 
 std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& rough) {
-    std::vector<cv::Point2f> points;
-    for (const Eigen::Vector2d& p : rough.pixels)
-        points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-    RefinedGrid refined{rough, 0, 0};
-    std::vector<double> blurs, contrasts;
+    RefinedGrid refined{rough, {}, 0, 0};
+    std::vector<std::optional<CornerFit>> fits(rough.pixels.size());
     // Twice: the second time from corners that are already good, so that circles and directions
     // come from true edges.
     for (int pass = 0; pass < 2; ++pass) {
         const CornerGrid start = refined.grid;
-        blurs.clear();
-        contrasts.clear();
+        std::vector<double> contrasts, blurs;
         for (int r = 0; r < start.rows; ++r)
             for (int c = 0; c < start.columns; ++c) {
                 const double radius =
                     std::clamp(clear_radius_px(start, c, r, clear_share), 2.5, max_radius_px);
-                const std::optional<CornerFit> fit =
-                    fit_corner(picture, start.at(c, r), neighbour_direction(start, c, r, 1, 0),
-                               neighbour_direction(start, c, r, 0, 1), radius);
+                std::optional<CornerFit>& fit =
+                    fits[static_cast<std::size_t>(r * start.columns + c)];
+                fit = fit_corner(picture, start.at(c, r), neighbour_direction(start, c, r, 1, 0),
+                                 neighbour_direction(start, c, r, 0, 1), radius);
                 if (!fit) continue;
-                refined.grid.pixels[static_cast<std::size_t>(r * start.columns + c)] = fit->pixel;
-                blurs.push_back(fit->blur_px);
                 contrasts.push_back(fit->contrast);
+                blurs.push_back(fit->blur_px);
             }
-        if (blurs.size() < start.pixels.size()) return std::nullopt;
+        refined.blur_px = median(blurs);
+        refined.contrast = median(contrasts);
+        // A finger or a highlight leaves something that can be fitted, but neither as black and
+        // white as the rest nor as well.
+        refined.measured.assign(fits.size(), false);
+        for (std::size_t i = 0; i < fits.size(); ++i) {
+            if (!fits[i] || fits[i]->contrast < 0.3 * refined.contrast ||
+                fits[i]->residual > 0.4 * fits[i]->contrast)
+                continue;
+            refined.measured[i] = true;
+            refined.grid.pixels[i] = fits[i]->pixel;
+        }
     }
-    refined.blur_px = median(blurs);
-    refined.contrast = median(contrasts);
+    const auto count = std::count(refined.measured.begin(), refined.measured.end(), true);
+    if (static_cast<double>(count) < fewest_measured * static_cast<double>(fits.size()))
+        return std::nullopt;
     return refined;
+}
+
+/// Share of the pixels between the outer corners that are as bright as can be.
+double burnt_out_share(const GreyImage& picture, const CornerGrid& grid) {
+    const int right = grid.columns - 1, bottom = grid.rows - 1;
+    std::vector<cv::Point> outline;
+    for (const Eigen::Vector2d& p :
+         {grid.at(0, 0), grid.at(right, 0), grid.at(right, bottom), grid.at(0, bottom)})
+        outline.emplace_back(static_cast<int>(std::lround(p.x())),
+                             static_cast<int>(std::lround(p.y())));
+    const cv::Rect box = cv::boundingRect(outline) & cv::Rect({0, 0}, picture.size());
+    if (box.empty()) return 0;
+    for (cv::Point& p : outline) p -= box.tl();
+    GreyImage inside(box.size(), uchar{0});
+    cv::fillConvexPoly(inside, outline, cv::Scalar(255));
+    const int pixels = cv::countNonZero(inside);
+    inside &= picture(box) >= 254;
+    return pixels > 0 ? cv::countNonZero(inside) / static_cast<double>(pixels) : 0;
 }
 
 }  // namespace
@@ -142,7 +174,13 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
     }
     const std::optional<RefinedGrid> refined = refine(picture, canonical(picture, *rough));
     if (!refined) {
-        sighting.reason = "has corners of the board that are too blurred or hidden to be measured";
+        const double burnt_out = burnt_out_share(picture, *rough);
+        sighting.reason =
+            "has corners of the board that are too small, blurred or hidden to be "
+            "measured";
+        if (burnt_out > 0.1)
+            sighting.reason +=
+                fmt::format(": {:.0f} % of the board is overexposed (glare)", 100 * burnt_out);
         return sighting;
     }
     if (continues_beyond(picture, *refined)) {
@@ -151,8 +189,10 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
         return sighting;
     }
     for (int id = 0; id < pattern.corner_count(); ++id)
-        sighting.corners.push_back(
-            {id, pattern.corner_m(id), refined->grid.pixels[static_cast<std::size_t>(id)]});
+        if (refined->measured[static_cast<std::size_t>(id)])
+            sighting.corners.push_back(
+                {id, pattern.corner_m(id), refined->grid.pixels[static_cast<std::size_t>(id)]});
+    sighting.burnt_out_share = burnt_out_share(picture, refined->grid);
     sighting.square_px = refined->grid.median_spacing_px();
     sighting.blur_px = refined->blur_px;
     sighting.contrast = refined->contrast;
@@ -187,10 +227,7 @@ std::optional<BoardPattern> find_other_size(const GreyImage& picture, const Boar
     for (const auto& [columns, rows] : common) add(columns, rows);
     for (const cv::Size& size : sizes) {
         std::vector<cv::Point2f> corners;
-        if (!cv::findChessboardCorners(small, size, corners,
-                                       cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE |
-                                           cv::CALIB_CB_FAST_CHECK))
-            continue;
+        if (!cv::findChessboardCorners(small, size, corners, quick_search)) continue;
         const std::optional<RefinedGrid> refined =
             refine(small, canonical(small, *to_grid(corners, size, 1)));
         if (!refined || continues_beyond(small, *refined)) continue;

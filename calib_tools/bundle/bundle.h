@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,17 @@ namespace vantage {
 // and a board stand in the world, and a view is what a camera saw of a board. The world may be a
 // rig's own frame.
 
+/// What an earlier calibration knows of a camera: values and standard deviations. A deviation of 0
+/// says nothing of that value.
+struct CameraPrior {
+    CameraModel model;
+    std::array<double, 4> focal_and_centre_sigma_px{};  ///< fx, fy, cx, cy
+    std::vector<double> distortion_sigma;
+    Pose camera_from_rig = Pose::Identity();
+    Eigen::Vector3d rotation_sigma_rad = Eigen::Vector3d::Zero();
+    Eigen::Vector3d translation_sigma_m = Eigen::Vector3d::Zero();
+};
+
 struct BundleCamera {
     CameraModel model;
     const LensFamily* family = nullptr;  ///< which coefficients may be solved; never null
@@ -24,6 +37,7 @@ struct BundleCamera {
     Pose camera_from_rig = Pose::Identity();
     bool solve_lens = true;
     bool solve_pose = false;
+    std::optional<CameraPrior> prior;
 };
 
 struct BundleRig {
@@ -46,6 +60,8 @@ struct Bundle {
     std::vector<BundleRig> rigs;
     std::vector<BundleBoard> boards;
     std::vector<BundleView> views;
+    /// What a corner is trusted to, against which the deviations of priors are weighed.
+    double corner_sigma_px = 0.1;
 
     /// Pixel that the model predicts for a corner of a view, minus the pixel seen; a large value
     /// where the corner lies behind the camera.

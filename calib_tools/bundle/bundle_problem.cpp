@@ -54,6 +54,53 @@ struct CornerResidual {
     }
 };
 
+/// Misses of a camera's parameters from what an earlier calibration found, as many corners' sigma
+/// as they are sigmas of that calibration.
+struct PriorResidual {
+    std::array<double, lens_parameter_count> lens_mean{}, lens_weight{};
+    std::array<double, 6> pose_offset{}, pose_weight{};  ///< of the present pose from the prior's
+    static constexpr int count = lens_parameter_count + 6;
+
+    template <class T>
+    bool operator()(const T* lens, const T* pose_change, T* residual) const {
+        for (std::size_t i = 0; i < lens_parameter_count; ++i)
+            residual[i] = lens_weight[i] * (lens[i] - lens_mean[i]);
+        for (std::size_t i = 0; i < 6; ++i)
+            residual[lens_parameter_count + i] = pose_weight[i] * (pose_change[i] + pose_offset[i]);
+        return true;
+    }
+};
+
+PriorResidual make_prior(const BundleCamera& camera, double corner_sigma_px) {
+    const CameraPrior& prior = *camera.prior;
+    const auto weight = [&](double sigma) { return sigma > 0 ? corner_sigma_px / sigma : 0; };
+    PriorResidual r;
+    const CameraModel& m = prior.model;
+    const double four[] = {m.fx_px, m.fy_px, m.cx_px, m.cy_px};
+    for (std::size_t i = 0; i < 4; ++i) {
+        r.lens_mean[i] = four[i];
+        r.lens_weight[i] = weight(prior.focal_and_centre_sigma_px[i]);
+    }
+    for (std::size_t i = 0; i < m.distortion.size(); ++i) {
+        r.lens_mean[4 + i] = m.distortion[i];
+        r.lens_weight[4 + i] = weight(prior.distortion_sigma[i]);
+    }
+    // The poses differ by little, so that their rotation vectors add.
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(camera.camera_from_rig.linear() *
+                                                 prior.camera_from_rig.linear().transpose()));
+    const Eigen::Vector3d rotation = turn.angle() * turn.axis();
+    const Eigen::Vector3d translation =
+        camera.camera_from_rig.translation() - prior.camera_from_rig.translation();
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        r.pose_offset[k] = rotation[i];
+        r.pose_offset[3 + k] = translation[i];
+        r.pose_weight[k] = weight(prior.rotation_sigma_rad[i]);
+        r.pose_weight[3 + k] = weight(prior.translation_sigma_m[i]);
+    }
+    return r;
+}
+
 }  // namespace
 
 Pose changed(const Pose& pose, const BundleProblem::Change& change) {
@@ -98,6 +145,16 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
                                        camera_poses_[camera].data(), rig_poses_[rig].data(),
                                        board_poses_[board].data());
         }
+    }
+    for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
+        if (!bundle.cameras[i].prior || !lens(i)) continue;
+        using PriorCost = ceres::AutoDiffCostFunction<PriorResidual, PriorResidual::count,
+                                                      lens_parameter_count, 6>;
+        auto residual =
+            std::make_unique<PriorResidual>(make_prior(bundle.cameras[i], bundle.corner_sigma_px));
+        problem_->AddResidualBlock(new PriorCost(residual.release()), nullptr, lenses_[i].data(),
+                                   camera_poses_[i].data());
+        ++prior_count_;
     }
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
         const BundleCamera& c = bundle.cameras[i];

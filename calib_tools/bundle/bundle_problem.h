@@ -29,6 +29,9 @@ class BundleProblem {
     double* rig_pose(std::size_t rig) { return used(rig_poses_[rig].data()); }
     double* board_pose(std::size_t board) { return used(board_poses_[board].data()); }
 
+    /// Residual rows that follow those of the corners: 18 for every camera with a prior.
+    int prior_rows() const { return prior_count_ * (lens_parameter_count + 6); }
+
     /// Writes the solved values into the bundle.
     void apply_to(Bundle& bundle) const;
 
@@ -37,6 +40,7 @@ class BundleProblem {
 
     const Bundle& bundle_;
     std::vector<std::array<double, lens_parameter_count>> lenses_;
+    int prior_count_ = 0;
     std::vector<Change> camera_poses_, rig_poses_, board_poses_;
     std::unique_ptr<ceres::Problem> problem_;
 };

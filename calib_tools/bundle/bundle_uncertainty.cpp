@@ -51,8 +51,11 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     // stays as small as what the cameras and rigs share.
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(shared, shared);
     std::vector<Eigen::VectorXd> scores(bundle.boards.size(), Eigen::VectorXd::Zero(shared));
+    // Priors are no measurements of the corners' spread.
+    const std::size_t corner_rows =
+        residuals.size() - static_cast<std::size_t>(problem.prior_rows());
     double squares = 0;
-    for (const double r : residuals) squares += r * r;
+    for (std::size_t i = 0; i < corner_rows; ++i) squares += residuals[i] * residuals[i];
     std::vector<std::vector<int>> rows_of_board(bundle.boards.size());
     int row = 0;
     for (const BundleView& view : bundle.views)
@@ -99,10 +102,20 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
         scores[b] = score_shared;
     }
 
+    Eigen::MatrixXd prior_information = Eigen::MatrixXd::Zero(shared, shared);
+    for (std::size_t r = corner_rows; r < residuals.size(); ++r)
+        for (int i = jacobian.rows[r]; i < jacobian.rows[r + 1]; ++i)
+            for (int j = jacobian.rows[r]; j < jacobian.rows[r + 1]; ++j)
+                prior_information(jacobian.cols[static_cast<std::size_t>(i)],
+                                  jacobian.cols[static_cast<std::size_t>(j)]) +=
+                    jacobian.values[static_cast<std::size_t>(i)] *
+                    jacobian.values[static_cast<std::size_t>(j)];
+    information += prior_information;
+
     BundleUncertainty result;
     result.cameras.resize(bundle.cameras.size());
     result.rigs.resize(bundle.rigs.size());
-    const double freedom = static_cast<double>(residuals.size()) - static_cast<double>(size);
+    const double freedom = static_cast<double>(corner_rows) - static_cast<double>(size);
     if (!(freedom > 0))
         fail("the pictures show {} corners, too few for the {} unknowns: take more pictures",
              bundle.corner_count(), size);
@@ -134,7 +147,8 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     // spread is lost, which matters while views are few.
     const double correction =
         static_cast<double>(clusters) / std::max(1.0, static_cast<double>(clusters) - 1.0);
-    const Eigen::VectorXd clustered = correction * (inverse * spread * inverse).diagonal();
+    spread = correction * spread + variance * prior_information;
+    const Eigen::VectorXd clustered = (inverse * spread * inverse).diagonal();
     const Eigen::VectorXd classic = variance * inverse.diagonal();
     const Eigen::VectorXd sigma = classic.cwiseMax(clustered).cwiseSqrt();
 

@@ -8,6 +8,7 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
+#include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/rig/rig_calibration.h"
 #include "common/base/atomic_file.h"
@@ -22,6 +23,7 @@ struct Options {
     BoardOptions board;
     LensOption lens;
     std::string pictures, output;
+    std::string html;
     bool json = false;
 };
 
@@ -56,6 +58,10 @@ void run(const Options& options) {
         save_intrinsics(options.output, result);
         log_info("{} written", options.output);
     }
+    if (!options.html.empty()) {
+        calibration_page(result).save(options.html);
+        log_info("{} written", options.html);
+    }
     if (options.json)
         std::cout << to_json(result).dump(2) << '\n';
     else
@@ -75,6 +81,7 @@ CommandEntry intrinsics_command_entry() {
             ->required();
         command->add_option("-o,--output", options->output,
                             "file to write (YAML, with the names of OpenCV's samples)");
+        command->add_option("--html", options->html, "report to write, a page for a browser");
         command->add_flag("--json", options->json, "write the result as JSON");
         command->callback([options] { run(*options); });
     }};

@@ -1,12 +1,13 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 
 #include "calib_tools/commands/board_options.h"
+#include "calib_tools/commands/rig_folders.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/stage/stage_calibration.h"
+#include "calib_tools/stage/stage_page.h"
 #include "calib_tools/stage/stage_report.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
@@ -21,6 +22,8 @@ struct Options {
     std::vector<std::string> rigs;
     std::string output;
     long long floor = -1;
+    bool hold_lenses = false;
+    std::string html;
     bool json = false;
 };
 
@@ -57,19 +60,14 @@ std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
 void run(const Options& options) {
     const BoardPattern pattern = options.board.pattern();
     std::vector<StageRig> rigs;
-    std::set<std::string> names;
     StageCalibration notes;
-    for (const std::string& argument : options.rigs) {
-        const std::size_t equals = argument.find('=');
-        const std::filesystem::path folder =
-            equals == std::string::npos ? argument : argument.substr(equals + 1);
+    for (const auto& [name, folder] : parse_rig_folders(options.rigs)) {
         StageRig rig;
-        rig.name =
-            equals == std::string::npos ? folder.filename().string() : argument.substr(0, equals);
-        if (rig.name.empty() || rig.name.find('/') != std::string::npos ||
-            !names.insert(rig.name).second)
-            fail("rig '{}' needs a name of its own without '/': --rig NAME=FOLDER", argument);
+        rig.name = name;
         rig.calibration = load_calibration(folder / "calibration.yaml");
+        const CalibrationRecord record = load_calibration_record(folder / "calibration.yaml");
+        rig.alpha = record.alpha;
+        if (!options.hold_lenses) rig.sigma = record.sigma;
         rig.left =
             sightings((folder / "left*").string(), pattern, rig, rig.calibration.left, notes);
         rig.right =
@@ -87,8 +85,18 @@ void run(const Options& options) {
         const std::filesystem::path file =
             std::filesystem::path(options.output) / (rig.name + ".yaml");
         save_calibration(file, rig.calibration,
-                         {date_now(), "vantage-calib stage", rig.rms_px, 0, rig.instants});
+                         {.date = date_now(),
+                          .tool = "vantage-calib stage",
+                          .rms_px = rig.rms_px,
+                          .row_rms_px = 0,
+                          .views_used = rig.instants,
+                          .alpha = rigs[i].alpha,
+                          .sigma = rig.refined ? rig.sigma : rigs[i].sigma});
         log_info("{} written", file.string());
+    }
+    if (!options.html.empty()) {
+        stage_page(stage).save(options.html);
+        log_info("{} written", options.html);
     }
     if (options.json)
         std::cout << to_json(stage).dump(2) << '\n';
@@ -113,8 +121,11 @@ CommandEntry stage_command_entry() {
         command->add_option("--floor", options->floor,
                             "number of the pictures in which the board lies on the floor, at the "
                             "world's origin");
+        command->add_flag("--hold-lenses", options->hold_lenses,
+                          "leave lenses and baselines as each rig's own calibration has them");
         command->add_option("-o,--output", options->output, "folder for one NAME.yaml a rig")
             ->required();
+        command->add_option("--html", options->html, "report to write, a page for a browser");
         command->add_flag("--json", options->json, "write the result as JSON");
         command->callback([options] { run(*options); });
     }};

@@ -5,6 +5,7 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
+#include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/rig/rig_calibration.h"
 #include "common/base/command.h"
@@ -21,6 +22,7 @@ struct Options {
     std::string left, right, output;
     double alpha = 0;
     std::vector<int> rectified_size;
+    std::string html;
     bool json = false;
 };
 
@@ -49,9 +51,18 @@ void run(const Options& options) {
             {file.filename().string(), "has no partner of the same number on the other side"});
     }
     save_calibration(options.output, result.calibration,
-                     {date_now(), "vantage-calib stereo", result.bundle.rms_px(), result.row_rms_px,
-                      static_cast<int>(result.views_used)});
+                     {.date = date_now(),
+                      .tool = "vantage-calib stereo",
+                      .rms_px = result.bundle.rms_px(),
+                      .row_rms_px = result.row_rms_px,
+                      .views_used = static_cast<int>(result.views_used),
+                      .alpha = options.alpha,
+                      .sigma = calibration_sigma(result)});
     log_info("{} written", options.output);
+    if (!options.html.empty()) {
+        calibration_page(result).save(options.html);
+        log_info("{} written", options.html);
+    }
     if (options.json)
         std::cout << to_json(result).dump(2) << '\n';
     else
@@ -83,6 +94,7 @@ CommandEntry stereo_command_entry() {
                          "WIDTH HEIGHT of the rectified pictures (default: as the raw ones)")
             ->expected(2)
             ->check(CLI::Range(16, 16384));
+        command->add_option("--html", options->html, "report to write, a page for a browser");
         command->add_flag("--json", options->json, "write the result as JSON");
         command->callback([options] { run(*options); });
     }};

@@ -59,13 +59,15 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
-    std::vector<double> blurs, sharpnesses, saturations;
+    std::vector<double> blurs, sharpnesses, saturations, burnt_out_shares;
     for (const SeenPicture& p : pictures) {
         if (!p.sighting.found()) continue;
         blurs.push_back(p.sighting.blur_px);
         sharpnesses.push_back(p.sharpness);
         saturations.push_back(p.saturated);
+        burnt_out_shares.push_back(p.sighting.burnt_out_share);
     }
+    const double usual_burnt_out = quantile(burnt_out_shares, 0.5);
     const double usual_blur = quantile(blurs, 0.5), usual_sharpness = quantile(sharpnesses, 0.5);
     const double usual_saturation = quantile(saturations, 0.5);
     for (SeenPicture& p : pictures) {
@@ -77,10 +79,15 @@ void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
                                       "this series and {:.1f} px the limit; hold the board still, "
                                       "in focus",
                                       s.blur_px, usual_blur, limit));
+            else if (s.burnt_out_share > 0.08 + 1.5 * usual_burnt_out)
+                refuse(p, fmt::format("has glare on the board: {:.0f} % of it is overexposed where "
+                                      "{:.0f} % is usual in this series; turn it away from the "
+                                      "lamp or expose shorter",
+                                      100 * s.burnt_out_share, 100 * usual_burnt_out));
         } else if (p.width_px > 0 && !s.mirrored) {
             if (usual_sharpness > 0 && p.sharpness < 0.5 * usual_sharpness)
                 p.sighting.reason += ": the picture is blurred";
-            else if (p.saturated > 0.1 + 2 * usual_saturation)
+            else if (p.saturated > 0.02 + 2 * usual_saturation)
                 p.sighting.reason += fmt::format(": {:.0f} % of the picture is overexposed (glare)",
                                                  100 * p.saturated);
         }

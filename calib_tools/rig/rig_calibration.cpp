@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/guidance.h"
@@ -301,6 +302,15 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
         for (std::string& sentence : missing_pictures(*pair, side, side == 0 ? "left" : "right"))
             result.advice.push_back(std::move(sentence));
     return result;
+}
+
+CalibrationSigma::Camera camera_sigma(const BundleUncertainty::Camera& camera) {
+    return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, camera.distortion};
+}
+
+CalibrationSigma calibration_sigma(const RigCalibration& rig) {
+    const auto& [left, right] = std::tie(rig.uncertainty.cameras[0], rig.uncertainty.cameras[1]);
+    return {camera_sigma(left), camera_sigma(right), right.rotation_rad, right.translation_m};
 }
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include "calib_tools/pictures/seen_picture.h"
 #include "calib_tools/rig/lens_choice.h"
 #include "calib_tools/rig/pair_solver.h"
+#include "common/config/calibration_file.h"
 
 namespace vantage {
 
@@ -55,5 +56,9 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
 /// pictures that are not of the same instant, one camera given twice, two resolutions.
 RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPicture> right,
                              const BoardPattern& pattern, const RigOptions& options);
+
+/// The uncertainties of a rig as its file keeps them.
+CalibrationSigma calibration_sigma(const RigCalibration& rig);
+CalibrationSigma::Camera camera_sigma(const BundleUncertainty::Camera& camera);
 
 }  // namespace vantage

@@ -7,12 +7,13 @@
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/view_rejection.h"
+#include "calib_tools/stage/board_scale.h"
 #include "common/base/error.h"
 
 namespace vantage {
 namespace {
 
-constexpr int few_shared = 5;
+constexpr int few_shared = StageCalibration::few_shared;
 constexpr double weak_sigma_m = 0.002;
 const LensFamily& held_family() { return lens_family("none"); }
 
@@ -84,6 +85,18 @@ struct Instants {
     std::map<long long, int> index;
 };
 
+void require_described_size(const std::vector<StageRig>& rigs, const BoardPattern& pattern) {
+    // Noise at the far end of a stage reaches a percent; boards differ by more.
+    constexpr double most = 0.03;
+    const std::optional<double> scale = board_scale(rigs);
+    if (scale && std::abs(*scale - 1) > most)
+        fail(
+            "the board's squares are {:.4f} m wide by the rigs' own baselines and {:.4f} m by its "
+            "description: this is another board, or the rigs were calibrated with a wrong size; "
+            "measure a row of squares",
+            *scale * pattern.square_m, pattern.square_m);
+}
+
 Instants gather_instants(const BoardPoses& poses) {
     std::set<long long> all;
     for (const auto& of_rig : poses)
@@ -94,6 +107,43 @@ Instants gather_instants(const BoardPoses& poses) {
         result.numbers.push_back(instant);
     }
     return result;
+}
+
+const CalibrationSigma::Camera& sigma_of(const CalibrationSigma& sigma, bool is_left) {
+    return is_left ? sigma.left : sigma.right;
+}
+
+/// The family whose free coefficients are those that the rig's own calibration solved; null if the
+/// rig does not know, and its lenses are held.
+const LensFamily* solved_family(const StageRig& rig, bool is_left) {
+    if (!rig.sigma) return nullptr;
+    const CalibrationSigma::Camera& sigma = sigma_of(*rig.sigma, is_left);
+    const CameraModel& model = is_left ? rig.calibration.left : rig.calibration.right;
+    if (!(sigma.fx_px > 0 && sigma.fy_px > 0 && sigma.cx_px > 0 && sigma.cy_px > 0) ||
+        !(rig.sigma->rotation_rad.minCoeff() > 0 && rig.sigma->translation_m.minCoeff() > 0))
+        return nullptr;
+    for (const LensFamily& family : lens_families()) {
+        bool same = family.lens == model.lens &&
+                    static_cast<std::size_t>(family.stored_coefficients) == model.distortion.size();
+        for (std::size_t k = 0; same && k < model.distortion.size(); ++k)
+            same = family.free[k] == (sigma.distortion[k] > 0);
+        if (same) return &family;
+    }
+    return nullptr;
+}
+
+CameraPrior prior_of(const StageRig& rig, bool is_left) {
+    const CalibrationSigma::Camera& sigma = sigma_of(*rig.sigma, is_left);
+    CameraPrior prior;
+    prior.model = is_left ? rig.calibration.left : rig.calibration.right;
+    prior.focal_and_centre_sigma_px = {sigma.fx_px, sigma.fy_px, sigma.cx_px, sigma.cy_px};
+    prior.distortion_sigma = sigma.distortion;
+    if (!is_left) {
+        prior.camera_from_rig = rig.calibration.right_from_left;
+        prior.rotation_sigma_rad = rig.sigma->rotation_rad;
+        prior.translation_sigma_m = rig.sigma->translation_m;
+    }
+    return prior;
 }
 
 Bundle make_bundle(const std::vector<StageRig>& rigs, const BoardPoses& poses,
@@ -110,6 +160,12 @@ Bundle make_bundle(const std::vector<StageRig>& rigs, const BoardPoses& poses,
             camera.rig = static_cast<int>(i);
             camera.camera_from_rig = is_left ? Pose::Identity() : c.right_from_left;
             camera.solve_lens = false;
+            if (const LensFamily* family = solved_family(rigs[i], is_left)) {
+                camera.family = family;
+                camera.solve_lens = true;
+                camera.solve_pose = !is_left;
+                camera.prior = prior_of(rigs[i], is_left);
+            }
             for (const auto& [instant, corners] : is_left ? rigs[i].left : rigs[i].right)
                 if (poses[i].contains(instant))
                     bundle.views.push_back({static_cast<int>(bundle.cameras.size()),
@@ -129,6 +185,28 @@ Pose world_from_floor_board(const BoardPattern& pattern) {
     pose.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     pose.translation() = -(pose.linear() * (0.5 * pattern.corner_m(pattern.corner_count() - 1)));
     return pose;
+}
+
+/// Lenses and baseline of rig `index` as the stage's pictures moved them, rectified anew.
+void take_refined(const Bundle& bundle, const BundleUncertainty& uncertainty, std::size_t index,
+                  double alpha, StageCalibration::Rig& rig) {
+    StereoCalibration& c = rig.calibration;
+    const StereoCalibration before = c;
+    const BundleCamera& left = bundle.cameras[2 * index];
+    const BundleCamera& right = bundle.cameras[2 * index + 1];
+    c.left = left.model;
+    c.right = right.model;
+    c.right_from_left = right.camera_from_rig;
+    compute_rectification(c, alpha);
+    rig.refined = true;
+    rig.focal_change = std::max(std::abs(c.left.fx_px / before.left.fx_px - 1),
+                                std::abs(c.right.fx_px / before.right.fx_px - 1));
+    rig.baseline_change_m =
+        c.right_from_left.translation().norm() - before.right_from_left.translation().norm();
+    rig.sigma = CalibrationSigma{camera_sigma(uncertainty.cameras[2 * index]),
+                                 camera_sigma(uncertainty.cameras[2 * index + 1]),
+                                 uncertainty.cameras[2 * index + 1].rotation_rad,
+                                 uncertainty.cameras[2 * index + 1].translation_m};
 }
 
 void advise(StageCalibration& stage) {
@@ -163,10 +241,24 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
     const BoardPoses poses = pose_boards(rigs);
     for (std::size_t i = 0; i < rigs.size(); ++i)
         if (poses[i].empty()) fail("rig {} saw the board in none of its pictures", rigs[i].name);
+    require_described_size(rigs, pattern);
     const Instants instants = gather_instants(poses);
     Bundle bundle = make_bundle(rigs, poses, instants, place_rigs(rigs, poses));
     std::vector<RejectedView> bad;
     std::size_t corners_left_out = 0;
+    // Lenses are let go once the rigs stand and the corners' own spread is known.
+    Bundle held = bundle;
+    for (BundleCamera& camera : held.cameras) {
+        camera.solve_lens = camera.solve_pose = false;
+        camera.prior.reset();
+    }
+    if (!solve_robustly(held))
+        fail(
+            "the rigs' pictures contradict each other: check that equal numbers are equal instants "
+            "and that no rig was moved");
+    bundle.rigs = held.rigs;
+    bundle.boards = held.boards;
+    bundle.corner_sigma_px = std::max(0.01, robust_sigma_px(held));
     if (!solve_robustly(bundle) || !reject_bad_views(bundle, bad, corners_left_out))
         fail(
             "the rigs' pictures contradict each other: check that equal numbers are equal instants "
@@ -216,6 +308,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
         rig.name = rigs[i].name;
         rig.calibration = rigs[i].calibration;
         rig.calibration.world_from_left = world_from_start * bundle.rigs[i].world_from_rig;
+        if (solved_family(rigs[i], true)) take_refined(bundle, uncertainty, i, rigs[i].alpha, rig);
         rig.translation_sigma_m = uncertainty.rigs[i].translation_m.norm();
         rig.rotation_sigma_rad = uncertainty.rigs[i].rotation_rad.norm();
         double squares = 0, corners = 0;
@@ -237,6 +330,8 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
         stage.rigs.push_back(rig);
     }
     advise(stage);
+    stage.bundle = std::move(bundle);
+    stage.instant_numbers = instants.numbers;
     return stage;
 }
 

@@ -7,6 +7,7 @@
 
 #include "calib_tools/board/board_pattern.h"
 #include "calib_tools/rig/rig_calibration.h"
+#include "common/config/calibration_file.h"
 
 namespace vantage {
 
@@ -16,6 +17,9 @@ struct StageRig {
     StereoCalibration calibration;
     /// Board sightings by instant; the same number is the same instant at every rig.
     std::map<long long, BoardCorners> left, right;
+    /// What the rig's own calibration knows of itself; without it lenses and baseline are held.
+    std::optional<CalibrationSigma> sigma;
+    double alpha = 0;  ///< of its rectification, which follows the refined lenses
 };
 
 struct StageCalibration {
@@ -25,7 +29,11 @@ struct StageCalibration {
         /// 1 sigma, relative to the first rig (whose own are 0): the length over the three axes.
         double translation_sigma_m = 0, rotation_sigma_rad = 0;
         double rms_px = 0;
-        int instants = 0;  ///< in which it saw the board
+        int instants = 0;         ///< in which it saw the board
+        bool refined = false;     ///< lenses and baseline too, in `calibration`
+        double focal_change = 0;  ///< largest relative change of a focal length by that
+        double baseline_change_m = 0;
+        std::optional<CalibrationSigma> sigma;  ///< after it
     };
     /// Instants that two rigs saw together.
     struct Tie {
@@ -39,12 +47,17 @@ struct StageCalibration {
     double rms_px = 0;
     std::size_t instants_given = 0, instants_used = 0;
     bool has_floor = false;
+    Bundle bundle;  ///< cameras 2i and 2i + 1 are the left and right one of rig i
+    std::vector<long long> instant_numbers;  ///< of the bundle's boards
+    static constexpr int few_shared = 5;     ///< instants; a tie of fewer is weak
 };
 
 /// The extrinsics of all rigs: poses of the boards in each rig give a graph whose edges are
 /// instants that two rigs saw; along its strongest edges the rigs are placed, then rigs and boards
-/// are solved together, lenses and baselines held. With `floor_instant` the board of that instant
-/// lies on the floor: the world's origin is its middle, y up, x along its rows, z along its
+/// are solved together. Lenses and baselines of a rig whose uncertainties are known are solved as
+/// well, held to their own calibration as firmly as that was certain, so that the uncertainties
+/// stated include theirs; those of other rigs are held. With `floor_instant` the board of that
+/// instant lies on the floor: the world's origin is its middle, y up, x along its rows, z along its
 /// columns. Without, the world is the frame of the first rig's left camera. Throws Error naming
 /// rigs that no board ties to the others, boards that look alike when turned, and a floor board
 /// nobody saw.

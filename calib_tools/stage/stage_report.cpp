@@ -23,7 +23,10 @@ nlohmann::json to_json(const StageCalibration& stage) {
                         {"translation_sigma_m", rig.translation_sigma_m},
                         {"rotation_sigma_deg", rig.rotation_sigma_rad * degrees},
                         {"rms_px", rig.rms_px},
-                        {"instants", rig.instants}});
+                        {"instants", rig.instants},
+                        {"refined", rig.refined},
+                        {"focal_change", rig.focal_change},
+                        {"baseline_change_m", rig.baseline_change_m}});
     }
     for (const StageCalibration::Tie& tie : stage.ties)
         ties.push_back({{"rigs", {stage.rigs[tie.a].name, stage.rigs[tie.b].name}},
@@ -52,6 +55,9 @@ std::string describe(const StageCalibration& stage) {
             "instants\n",
             rig.name, at.x(), at.y(), at.z(), 1000 * rig.translation_sigma_m,
             rig.rotation_sigma_rad * degrees, rig.rms_px, rig.instants);
+        if (rig.refined)
+            text += fmt::format("   lenses refined by {:.3f} %, baseline by {:.2f} mm\n",
+                                100 * rig.focal_change, 1000 * rig.baseline_change_m);
     }
     for (const Refusal& refusal : stage.rejected)
         text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);

@@ -31,13 +31,32 @@ const char* lens_name(LensModel lens) { return lens == LensModel::fisheye ? "fis
 cv::Mat to_mat(const Eigen::Matrix3d& m) { return cv::Mat(to_cv(m)).clone(); }
 cv::Mat to_mat(const Eigen::Vector3d& v) { return cv::Mat(to_cv(v)).clone(); }
 
+cv::Mat to_row(const std::vector<double>& values) {
+    return cv::Mat(1, static_cast<int>(values.size()), CV_64F, const_cast<double*>(values.data()));
+}
+
 void write_camera(cv::FileStorage& file, const char* name, const CameraModel& camera) {
     file << name << "{";
     file << "width_px" << camera.width_px << "height_px" << camera.height_px;
     file << "lens" << lens_name(camera.lens) << "K" << to_mat(camera.K());
-    file << "distortion"
-         << cv::Mat(1, static_cast<int>(camera.distortion.size()), CV_64F,
-                    const_cast<double*>(camera.distortion.data()));
+    file << "distortion" << to_row(camera.distortion);
+    file << "}";
+}
+
+void write_sigma(cv::FileStorage& file, const CalibrationSigma& sigma) {
+    file << "sigma"
+         << "{";
+    for (const bool is_left : {true, false}) {
+        const CalibrationSigma::Camera& camera = is_left ? sigma.left : sigma.right;
+        file << (is_left ? "left" : "right") << "{";
+        file << "fx_px" << camera.fx_px << "fy_px" << camera.fy_px << "cx_px" << camera.cx_px
+             << "cy_px" << camera.cy_px << "distortion" << to_row(camera.distortion);
+        file << "}";
+    }
+    file << "right_from_left"
+         << "{"
+         << "rotation_rad" << to_mat(sigma.rotation_rad) << "translation_m"
+         << to_mat(sigma.translation_m) << "}";
     file << "}";
 }
 
@@ -47,6 +66,7 @@ std::string to_yaml(const StereoCalibration& c, const CalibrationRecord& record)
     file << "date" << record.date << "tool" << record.tool;
     file << "rms_px" << record.rms_px << "row_rms_px" << record.row_rms_px << "views_used"
          << record.views_used;
+    file << "alpha" << record.alpha;
     file << "checksum"
          << "fnv1a64:" + c.id;
     write_camera(file, "left", c.left);
@@ -66,6 +86,7 @@ std::string to_yaml(const StereoCalibration& c, const CalibrationRecord& record)
          << "{"
          << "rotation" << to_mat(Eigen::Matrix3d(c.world_from_left.linear())) << "translation_m"
          << to_mat(Eigen::Vector3d(c.world_from_left.translation())) << "}";
+    if (record.sigma) write_sigma(file, *record.sigma);
     return file.releaseAndGetString();
 }
 
@@ -183,12 +204,45 @@ StereoCalibration read_calibration(const Section& top) {
     return c;
 }
 
-CalibrationRecord read_record(const Section& top) {
-    return {.date = top.text("date"),
-            .tool = top.text("tool"),
-            .rms_px = top.number("rms_px"),
-            .row_rms_px = top.number("row_rms_px"),
-            .views_used = top.integer("views_used")};
+double deviation(const Section& s, const char* key) {
+    const double value = s.number(key);
+    if (!(value >= 0 && std::isfinite(value)))
+        fail("'{}{}' is {}, and a deviation is 0 or more", s.name, key, value);
+    return value;
+}
+
+CalibrationSigma read_sigma(const Section& s, const StereoCalibration& calibration) {
+    CalibrationSigma sigma;
+    for (const bool is_left : {true, false}) {
+        CalibrationSigma::Camera& camera = is_left ? sigma.left : sigma.right;
+        const Section part = s.section(is_left ? "left" : "right");
+        camera.fx_px = deviation(part, "fx_px");
+        camera.fy_px = deviation(part, "fy_px");
+        camera.cx_px = deviation(part, "cx_px");
+        camera.cy_px = deviation(part, "cy_px");
+        camera.distortion = part.matrix("distortion");
+        const std::size_t wanted =
+            (is_left ? calibration.left : calibration.right).distortion.size();
+        if (camera.distortion.size() != wanted)
+            fail("'{}distortion' has {} numbers for {} coefficients", part.name,
+                 camera.distortion.size(), wanted);
+    }
+    const Section pose = s.section("right_from_left");
+    sigma.rotation_rad = pose.vector3("rotation_rad");
+    sigma.translation_m = pose.vector3("translation_m");
+    return sigma;
+}
+
+CalibrationRecord read_record(const Section& top, const StereoCalibration& calibration) {
+    CalibrationRecord record = {.date = top.text("date"),
+                                .tool = top.text("tool"),
+                                .rms_px = top.number("rms_px"),
+                                .row_rms_px = top.number("row_rms_px"),
+                                .views_used = top.integer("views_used")};
+    // Files of the first version had neither.
+    if (!top.node["alpha"].empty()) record.alpha = top.number("alpha");
+    if (!top.node["sigma"].empty()) record.sigma = read_sigma(top.section("sigma"), calibration);
+    return record;
 }
 
 /// OpenCV's parser goes round for ever on some control characters.
@@ -293,10 +347,8 @@ StereoCalibration load_calibration(const std::filesystem::path& path) {
 }
 
 CalibrationRecord load_calibration_record(const std::filesystem::path& path) {
-    return read_yaml(path, [](const Section& top) {
-        read_calibration(top);
-        return read_record(top);
-    });
+    return read_yaml(path,
+                     [](const Section& top) { return read_record(top, read_calibration(top)); });
 }
 
 void save_calibration(const std::filesystem::path& path, StereoCalibration calibration,

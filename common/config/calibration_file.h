@@ -1,6 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "common/geometry/stereo_calibration.h"
 
@@ -11,6 +16,17 @@ namespace vantage {
 /// another version or impossible; a checksum that does not fit is an Error too.
 StereoCalibration load_calibration(const std::filesystem::path& path);
 
+/// One standard deviation of everything that was solved; 0 for what was held.
+struct CalibrationSigma {
+    struct Camera {
+        double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
+        std::vector<double> distortion;  ///< as many as the camera has coefficients
+    };
+    Camera left, right;
+    Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< of right_from_left
+    Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+};
+
 /// Facts about how it was made, kept in the file for people and for `check`.
 struct CalibrationRecord {
     std::string date;  ///< ISO 8601
@@ -18,6 +34,8 @@ struct CalibrationRecord {
     double rms_px = 0;      ///< reprojection
     double row_rms_px = 0;  ///< row difference after rectification
     int views_used = 0;
+    double alpha = 0;  ///< of the rectification, as compute_rectification takes it
+    std::optional<CalibrationSigma> sigma = {};
 };
 
 /// The record of a calibration file; throws as load_calibration does.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/calib/synthetic_views.h"
 
 namespace vantage {
@@ -120,6 +121,18 @@ TEST(StageCalibration, says_which_rig_is_weakly_tied) {
     const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, std::nullopt);
     ASSERT_FALSE(stage.advice.empty());
     EXPECT_THAT(stage.advice.back(), HasSubstr("rig D is weakly tied"));
+}
+
+TEST(StageCalibration, names_a_board_of_another_size_than_its_description) {
+    FilmedStage filmed = film(3);
+    BoardPattern described = pattern;
+    described.square_m = 0.09;
+    for (StageRig& rig : filmed.rigs)
+        for (auto* series : {&rig.left, &rig.right})
+            for (auto& [instant, corners] : *series)
+                for (BoardCorner& corner : corners) corner.board_m = described.corner_m(corner.id);
+    EXPECT_THAT(thrown_sentence([&] { calibrate_stage(filmed.rigs, described, std::nullopt); }),
+                HasSubstr("m wide by the rigs' own baselines and 0.0900 m by its description"));
 }
 
 TEST(StageCalibration, refuses_a_board_that_looks_alike_half_turned) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
@@ -111,6 +112,31 @@ TEST_F(CalibrationFileTest, GivesBackItsRecordAndAFisheyeLens) {
     EXPECT_EQ(record.rms_px, record_.rms_px);
     EXPECT_EQ(record.row_rms_px, record_.row_rms_px);
     EXPECT_EQ(record.views_used, record_.views_used);
+}
+
+TEST_F(CalibrationFileTest, GivesBackUncertaintiesAndRefusesImpossibleOnes) {
+    const StereoCalibration c = odd_calibration();
+    CalibrationSigma sigma;
+    sigma.left = {0.25, 0.5, 0.125, 0.75, std::vector<double>(c.left.distortion.size(), 0.01)};
+    sigma.right = {1, 2, 3, 4, std::vector<double>(c.right.distortion.size(), 0.02)};
+    sigma.rotation_rad = {1e-4, 2e-4, 3e-4};
+    sigma.translation_m = {0.001, 0.002, 0.003};
+    record_.alpha = 0.5;
+    save();
+    EXPECT_FALSE(load_calibration_record(file_).sigma);
+    record_.sigma = sigma;
+    save();
+    const CalibrationRecord record = load_calibration_record(file_);
+    EXPECT_EQ(record.alpha, 0.5);
+    ASSERT_TRUE(record.sigma);
+    EXPECT_EQ(record.sigma->left.fy_px, 0.5);
+    EXPECT_EQ(record.sigma->left.distortion, sigma.left.distortion);
+    EXPECT_EQ(record.sigma->right.cy_px, 4);
+    EXPECT_EQ(record.sigma->rotation_rad, sigma.rotation_rad);
+    EXPECT_EQ(record.sigma->translation_m, sigma.translation_m);
+    replace("fx_px: 2.5", "fx_px: -2.5");
+    EXPECT_THAT(thrown_sentence([&] { load_calibration_record(file_); }),
+                testing::HasSubstr("'sigma.left.fx_px' is -0.25"));
 }
 
 TEST_F(CalibrationFileTest, IsReadByOpenCvAlone) {

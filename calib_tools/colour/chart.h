@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calib_tools/colour/colour_match.h"
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// Colours of the 24 patches of the classic chart (ColorChecker), sRGB, D65, as published for it;
+/// row by row from dark skin to black.
+std::vector<Eigen::Vector3d> chart_colours();
+
+/// Finds the chart in a picture (OpenCV's mcc) and measures its patches. Empty if there is none.
+std::optional<std::vector<ColourPatch>> find_chart(const ColourImage& picture);
+
+}  // namespace vantage

@@ -1,0 +1,64 @@
+#include <iostream>
+#include <memory>
+
+#include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/health/health_report.h"
+#include "calib_tools/report/calibration_text.h"
+#include "common/base/command.h"
+#include "common/base/log.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    std::vector<std::string> rigs;
+    std::string html, history;
+    long long instant = -1;
+    bool json = false;
+};
+
+void run(const Options& options) {
+    // Before the long work, so that a damaged history costs no time.
+    const std::vector<PastCheck> past =
+        options.history.empty() ? std::vector<PastCheck>{} : load_history(options.history);
+    std::vector<RigSnapshot> rigs;
+    for (const RigFolder& rig : parse_rig_folders(options.rigs)) {
+        rigs.push_back(load_snapshot(rig.name, rig.folder, options.instant));
+        log_info("rig {}: rectified and matched", rig.name);
+    }
+    const StageHealth health = check_stage(rigs);
+    const std::string date = date_now();
+    if (!options.html.empty()) {
+        health_page(health, rigs, past, date).save(options.html);
+        log_info("{} written", options.html);
+    }
+    if (!options.history.empty()) append_history(options.history, past, past_check(health, date));
+    if (options.json)
+        std::cout << to_json(health, date).dump(2) << '\n';
+    else
+        std::cout << describe(health);
+}
+
+}  // namespace
+
+CommandEntry check_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "check", "Say how well a stage still fits its calibration, without any board");
+        const auto options = std::make_shared<Options>();
+        command
+            ->add_option("--rig", options->rigs,
+                         "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png, "
+                         "raw pictures of whatever stands on the stage")
+            ->required();
+        command->add_option("--instant", options->instant,
+                            "number of the pictures to take (default: each rig's first)");
+        command->add_option("--html", options->html, "report to write, a page for a browser");
+        command->add_option("--history", options->history,
+                            "file that keeps the values of every check (JSON, a line a check)");
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "calib_tools/colour/chart.h"
+#include "calib_tools/colour/overlap.h"
+#include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/health/rig_snapshot.h"
+#include "calib_tools/pictures/picture_list.h"
+#include "calib_tools/report/calibration_text.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/colour/colour_file.h"
+#include "common/image/image_file.h"
+
+namespace vantage {
+namespace {
+
+struct Options {
+    std::vector<std::string> rigs, charts;
+    std::string reference, output;
+    long long instant = -1;
+    bool json = false;
+};
+
+struct Result {
+    std::vector<std::string> names;
+    std::string reference;
+    std::vector<ColourMatch::Camera> cameras;
+};
+
+/// Each rig against the chart's true colours.
+Result from_charts(const Options& options) {
+    Result result;
+    result.reference = "chart";
+    for (const RigFolder& rig : parse_rig_folders(options.charts)) {
+        std::vector<ColourPatch> patches;
+        std::size_t pictures = 0;
+        for (const std::filesystem::path& file : expand_pictures(rig.folder.string())) {
+            ++pictures;
+            const auto found = find_chart(read_colour_image(file));
+            if (found)
+                patches.insert(patches.end(), found->begin(), found->end());
+            else
+                log_warning("rig {}: {} shows no chart of 24 patches", rig.name,
+                            file.filename().string());
+        }
+        if (patches.empty())
+            fail(
+                "rig {}: none of its {} pictures shows a chart of 24 patches: hold it upright, "
+                "evenly lit, as large as a third of the picture",
+                rig.name, pictures);
+        result.names.push_back(rig.name);
+        result.cameras.push_back(match_chart(patches));
+    }
+    return result;
+}
+
+/// All rigs against one of them, by the surfaces that two of them see.
+Result from_overlap(const Options& options) {
+    constexpr int places = 4000;
+    Result result;
+    std::vector<OverlapView> views;
+    for (const RigFolder& rig : parse_rig_folders(options.rigs)) {
+        views.push_back(load_snapshot(rig.name, rig.folder, options.instant).overlap_view());
+        result.names.push_back(rig.name);
+        log_info("rig {}: rectified and matched", rig.name);
+    }
+    if (views.size() < 2) fail("colours are matched between rigs: give at least two with --rig");
+    result.reference = options.reference.empty() ? result.names.front() : options.reference;
+    const auto reference = std::find(result.names.begin(), result.names.end(), result.reference);
+    if (reference == result.names.end())
+        fail("--reference {} is none of the rigs given", result.reference);
+    const ColourMatch match =
+        match_colours(static_cast<int>(views.size()), same_surface(overlap_samples(views, places)),
+                      static_cast<int>(reference - result.names.begin()));
+    result.cameras = match.cameras;
+    for (std::size_t i = 0; i < result.cameras.size(); ++i)
+        if (result.cameras[i].samples == 0)
+            fail(
+                "rig {} sees no surface that another rig sees too: give pictures with something "
+                "large in the middle of the stage, or use a chart (--chart)",
+                result.names[i]);
+    return result;
+}
+
+void run(const Options& options) {
+    if (options.rigs.empty() == options.charts.empty())
+        fail("give either --rig (colours from what rigs see of one another) or --chart");
+    const Result result = options.charts.empty() ? from_overlap(options) : from_charts(options);
+    std::filesystem::create_directories(options.output);
+    nlohmann::json rigs = nlohmann::json::array();
+    std::string text;
+    for (std::size_t i = 0; i < result.names.size(); ++i) {
+        const ColourMatch::Camera& camera = result.cameras[i];
+        const std::filesystem::path file =
+            std::filesystem::path(options.output) / (result.names[i] + ".colour.toml");
+        save_colour(file, camera.correction,
+                    {date_now(), "vantage-calib colour", result.reference, camera.delta_e_before,
+                     camera.delta_e_after, camera.samples});
+        log_info("{} written", file.string());
+        nlohmann::json matrix = nlohmann::json::array();
+        for (int r = 0; r < 3; ++r)
+            matrix.push_back({camera.correction.matrix(r, 0), camera.correction.matrix(r, 1),
+                              camera.correction.matrix(r, 2)});
+        const Eigen::Vector3d& tone = camera.correction.tone;
+        rigs.push_back({{"name", result.names[i]},
+                        {"file", file.string()},
+                        {"matrix", matrix},
+                        {"tone", {tone[0], tone[1], tone[2]}},
+                        {"delta_e_before", camera.delta_e_before},
+                        {"delta_e_after", camera.delta_e_after},
+                        {"samples", camera.samples}});
+        text += fmt::format("{}: CIEDE2000 {:.2f} before, {:.2f} after, from {} places\n",
+                            result.names[i], camera.delta_e_before, camera.delta_e_after,
+                            camera.samples);
+    }
+    if (options.json)
+        std::cout << nlohmann::json{{"reference", result.reference}, {"rigs", rigs}}.dump(2)
+                  << '\n';
+    else
+        std::cout << text;
+}
+
+}  // namespace
+
+CommandEntry colour_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "colour", "Make the colours of all rigs alike, from a chart or from what they share");
+        const auto options = std::make_shared<Options>();
+        command->add_option("--rig", options->rigs,
+                            "NAME=FOLDER, once a rig: calibration.yaml (placed by `stage`), "
+                            "left*N.png and right*N.png, raw pictures of one instant");
+        command->add_option("--chart", options->charts,
+                            "NAME='PATTERN', once a rig: pictures of a chart of 24 patches");
+        command->add_option("--reference", options->reference,
+                            "rig whose colours the others take (default: the first)");
+        command->add_option("--instant", options->instant,
+                            "number of the pictures to take (default: each rig's first)");
+        command->add_option("-o,--output", options->output, "folder for one NAME.colour.toml a rig")
+            ->required();
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calib_tools/health/stage_health.h"
+
+namespace vantage {
+
+/// One earlier check: a line of the history file, {"version": 1, "date": ..., "measures": [{"what",
+/// "rigs", "value", "verdict"}]}.
+struct PastCheck {
+    struct Value {
+        std::string what, rigs, verdict;
+        double value = 0;
+    };
+    std::string date;
+    std::vector<Value> values;
+};
+
+/// Oldest first; none if there is no such file. Throws Error naming file and line for a damaged
+/// one.
+std::vector<PastCheck> load_history(const std::filesystem::path& path);
+
+/// The past checks and this one, at most the last 1000, written whole or not at all.
+void append_history(const std::filesystem::path& path, std::vector<PastCheck> past,
+                    const PastCheck& present);
+
+PastCheck past_check(const StageHealth& health, const std::string& date);
+
+/// Values of one measure through the past, oldest first.
+std::vector<double> values_of(const std::vector<PastCheck>& past, const HealthMeasure& measure);
+
+}  // namespace vantage

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calib_tools/health/rig_snapshot.h"
+#include "calib_tools/health/row_tracking.h"
+
+namespace vantage {
+
+enum class Verdict { good, warn, bad, unknown };
+std::string_view verdict_name(Verdict verdict);
+
+/// One number about a rig, or about two that see one surface, and what it is worth.
+struct HealthMeasure {
+    std::string what;  ///< "rows", "depth", "colour"
+    std::string rigs;  ///< "A", or "A-B"
+    double value = 0;
+    std::string unit;
+    double warn_at = 0, bad_at = 0;  ///< from these values on
+    int samples = 0;
+    Verdict verdict = Verdict::unknown;
+    std::string sentence = {};  ///< what it means and what to do, where it is not good
+};
+
+struct StageHealth {
+    std::vector<HealthMeasure> measures;
+    std::vector<std::string> rig_names;
+    std::vector<std::vector<TrackedRow>> rows;  ///< of every rig
+    std::vector<OverlapSample> overlap;
+    Verdict worst() const;  ///< unknown only if nothing could be measured
+};
+
+/// Without any board: rows (RMS, px, of features tracked from the left to the right picture, the
+/// worst tenth left out), depth (RMS over the fields of the picture of the median difference
+/// between two rigs' depths of one surface, % of the depth) and colour (mean CIEDE2000 of one
+/// surface in two rigs).
+StageHealth check_stage(const std::vector<RigSnapshot>& rigs);
+
+}  // namespace vantage

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "common/colour/colour_correction.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/fullscreen_pass.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// Applies a ColourCorrection on the GPU. The context that was current at construction must be
+/// current at every call; `library` must outlive it.
+class ColourPass {
+  public:
+    explicit ColourPass(const ShaderLibrary& library);
+
+    /// Both rgba8 and of one size; `target` shows the corrected picture.
+    void correct(const Texture& camera, const ColourCorrection& correction,
+                 const Framebuffer& target);
+
+  private:
+    FullscreenPass pass_;
+};
+
+}  // namespace vantage

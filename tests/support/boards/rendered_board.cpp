@@ -1,0 +1,133 @@
+#include "tests/support/boards/rendered_board.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "calib_tools/board/board_drawing.h"
+#include "common/geometry/opencv_bridge.h"
+
+namespace vantage {
+namespace {
+
+constexpr int square_texels = 40, samples_per_side = 4;
+constexpr double black = 32, white = 208, surroundings = 110;
+
+/// Half the difference of the neighbours; at the border the one-sided difference.
+cv::Mat2d slope_of(const cv::Mat2d& values, int dx, int dy) {
+    cv::Mat2d slope(values.size());
+    for (int y = 0; y < values.rows; ++y)
+        for (int x = 0; x < values.cols; ++x) {
+            const cv::Point a(std::max(0, x - dx), std::max(0, y - dy));
+            const cv::Point b(std::min(values.cols - 1, x + dx), std::min(values.rows - 1, y + dy));
+            slope(y, x) = (values(b) - values(a)) / std::max(1, (b - a).x + (b - a).y);
+        }
+    return slope;
+}
+
+}  // namespace
+
+BoardCamera::BoardCamera(const BoardPattern& pattern, const CameraModel& camera)
+    : pattern_(pattern),
+      camera_(camera),
+      board_(draw_board(pattern, square_texels)),
+      rays_(camera.height_px, camera.width_px) {
+    for (int y = 0; y < rays_.rows; ++y)
+        for (int x = 0; x < rays_.cols; ++x) rays_(y, x) = cv::Vec2d(x, y);
+    const cv::Mat2d pixels = rays_.reshape(2, static_cast<int>(rays_.total())).clone();
+    cv::Mat2d slopes;
+    cv::undistortPoints(
+        pixels, slopes, cv::Mat(to_cv(camera.K())), camera.distortion, cv::noArray(), cv::noArray(),
+        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 1e-9));
+    rays_ = slopes.reshape(2, rays_.rows).clone();
+    rays_dx_ = slope_of(rays_, 1, 0);
+    rays_dy_ = slope_of(rays_, 0, 1);
+}
+
+cv::Rect BoardCamera::extent(const Pose& camera_from_board) const {
+    const double margin = board_margin_m(pattern_) + pattern_.square_m;
+    const Eigen::Vector3d last = pattern_.corner_m(pattern_.corner_count() - 1);
+    double x0 = camera_.width_px, x1 = 0, y0 = camera_.height_px, y1 = 0;
+    constexpr int steps = 16;
+    for (int i = 0; i <= steps; ++i)
+        for (int k = 0; k <= steps; ++k) {
+            const Eigen::Vector3d p(-margin + (last.x() + 2 * margin) * i / steps,
+                                    -margin + (last.y() + 2 * margin) * k / steps, 0);
+            const auto pixel = camera_.project(camera_from_board * p);
+            if (!pixel) return {0, 0, camera_.width_px, camera_.height_px};
+            x0 = std::min(x0, pixel->x());
+            x1 = std::max(x1, pixel->x());
+            y0 = std::min(y0, pixel->y());
+            y1 = std::max(y1, pixel->y());
+        }
+    constexpr double border_px = 4;
+    const cv::Rect whole(0, 0, camera_.width_px, camera_.height_px);
+    const cv::Point from(static_cast<int>(std::floor(x0 - border_px)),
+                         static_cast<int>(std::floor(y0 - border_px)));
+    const cv::Point to(static_cast<int>(std::ceil(x1 + border_px)),
+                       static_cast<int>(std::ceil(y1 + border_px)));
+    return cv::Rect(from, to) & whole;
+}
+
+GreyImage BoardCamera::film(const Pose& camera_from_board, const PictureFaults& faults,
+                            std::uint64_t seed) const {
+    cv::Mat1f light(camera_.height_px, camera_.width_px, static_cast<float>(surroundings));
+    // Ray (x, y, 1) to texel: the inverse of [r1 r2 t], then the board's scale.
+    Eigen::Matrix3d plane;
+    plane << camera_from_board.linear().col(0), camera_from_board.linear().col(1),
+        camera_from_board.translation();
+    const double scale = square_texels / pattern_.square_m;
+    const double origin = (board_margin_m(pattern_) + pattern_.square_m) * scale;
+    Eigen::Matrix3d texel_from_plane;
+    texel_from_plane << scale, 0, origin, 0, scale, origin, 0, 0, 1;
+    const Eigen::Matrix3d h = texel_from_plane * plane.inverse();
+    // The sign of z at the board tells rays that meet it before the camera from those behind it.
+    const cv::Rect part = extent(camera_from_board);
+    for (int y = part.y; y < part.br().y; ++y)
+        for (int x = part.x; x < part.br().x; ++x) {
+            const cv::Vec2d middle = rays_(y, x), dx = rays_dx_(y, x), dy = rays_dy_(y, x);
+            double sum = 0;
+            for (int j = 0; j < samples_per_side; ++j)
+                for (int i = 0; i < samples_per_side; ++i) {
+                    const cv::Vec2d ray = middle + ((i + 0.5) / samples_per_side - 0.5) * dx +
+                                          ((j + 0.5) / samples_per_side - 0.5) * dy;
+                    const Eigen::Vector3d t = h * Eigen::Vector3d(ray[0], ray[1], 1);
+                    const double u = t.x() / t.z(), v = t.y() / t.z();
+                    const bool on_board =
+                        t.z() > 0 && u >= 0 && v >= 0 && u < board_.cols && v < board_.rows;
+                    sum += !on_board                                          ? surroundings
+                           : board_(static_cast<int>(v), static_cast<int>(u)) ? white
+                                                                              : black;
+                }
+            light(y, x) = static_cast<float>(sum / (samples_per_side * samples_per_side));
+        }
+    if (faults.blur_px > 0)
+        cv::GaussianBlur(light, light, {}, faults.blur_px, faults.blur_px, cv::BORDER_REPLICATE);
+    if (faults.glare > 0) {
+        cv::Mat1f spot(light.size(), 0.0f);
+        const auto middle = camera_.project(camera_from_board *
+                                            (0.5 * pattern_.corner_m(pattern_.corner_count() - 1)));
+        if (middle)
+            cv::circle(spot,
+                       {static_cast<int>(std::lround(middle->x())),
+                        static_cast<int>(std::lround(middle->y()))},
+                       static_cast<int>(std::lround(0.5 * faults.glare * part.width)),
+                       cv::Scalar(400), cv::FILLED);
+        cv::GaussianBlur(spot, spot, {}, 0.06 * part.width);
+        light += spot;
+    }
+    cv::Mat1f noise(light.size());
+    cv::RNG random(seed);
+    random.fill(noise, cv::RNG::NORMAL, 0, faults.noise_sigma);
+    for (int y = 0; y < light.rows; ++y)
+        for (int x = 0; x < light.cols; ++x)
+            light(y, x) *= static_cast<float>(1 - faults.light_slope * x / light.cols);
+    light += noise;
+    GreyImage picture;
+    light.convertTo(picture, CV_8U);
+    return picture;
+}
+
+}  // namespace vantage

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "common/geometry/stereo_calibration.h"
+#include "tests/support/boards/rendered_board.h"
+
+namespace vantage {
+
+/// Four rigs on an arc of 120 degrees, 4 m from the middle of a stage, each with two lenses of its
+/// own, and where an assistant holds a board before them.
+class RenderedStage {
+  public:
+    static constexpr int rig_count = 4;
+
+    RenderedStage(const BoardPattern& pattern, int width_px, std::uint64_t seed);
+
+    /// Lenses, relative pose and world_from_left as they are.
+    const StereoCalibration& truth(int rig) const { return truths_[static_cast<std::size_t>(rig)]; }
+    static std::string name(int rig) { return std::string(1, static_cast<char>('A' + rig)); }
+
+    /// A board near a rig, in every part of its picture and tilted: left_from_board.
+    Pose board_near_rig(int rig);
+    /// A board before the gap between rig `pair` and the next one, 1.5 to 4 m away from both:
+    /// world_from_board.
+    Pose board_before_pair(int pair);
+    /// Before the middle of the stage, face up: world_from_board. It is what the world is named by.
+    Pose board_on_floor() const;
+
+    /// What a rig's left (0) or right (1) camera sees of a board that stands in the world.
+    GreyImage film(int rig, int side, const Pose& world_from_board, const PictureFaults& faults);
+    Pose world_from_board_near(int rig) { return truth(rig).world_from_left * board_near_rig(rig); }
+
+  private:
+    bool whole_in_picture(const CameraModel& camera, const Pose& camera_from_board) const;
+    Pose turned_board(double tilt_rad, const Eigen::Vector3d& middle_m);
+
+    BoardPattern pattern_;
+    std::mt19937_64 random_;
+    std::vector<StereoCalibration> truths_;
+    std::vector<BoardCamera> cameras_;
+};
+
+}  // namespace vantage
