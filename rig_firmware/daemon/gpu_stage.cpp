@@ -46,6 +46,14 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       rectify_right_(shaders_, calibration, Side::right),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
+    if (rectified_already_ && !matcher_) return;
+    // Drivers finish their programs at the first drawing: seconds, where the processor draws, in
+    // which real frames would be lost.
+    StereoFrame dark;
+    dark.left = ColourImage(left_raw_.size(), cv::Vec4b(0, 0, 0, 255));
+    dark.right = ColourImage(right_raw_.size(), cv::Vec4b(0, 0, 0, 255));
+    RigFrame unused;
+    rectify_and_match(dark, unused);
 }
 
 RigFrame GpuStage::process(StereoFrame frame) {

@@ -27,6 +27,8 @@ class VirtualSource final : public StereoSource {
                 "'doffs_px' in [virtual_rig] is {}, and the virtual source films with parallel "
                 "cameras only: leave it 0",
                 config.virtual_rig.doffs_px);
+        // Drivers finish their programs at the first drawing: seconds, where the processor draws.
+        (void)rig_.render(stage_, {}, 0);
     }
 
     cv::Size size() const override {
