@@ -7,39 +7,57 @@
 #endif
 
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
-layout(std430, binding = 1) buffer Weight { uint weight[]; };
 uniform ivec2 size;
 uniform int stride;
 
-void main() {
-    int line = int(gl_GlobalInvocationID.x);
 #if ALONG == 0
-    if (line >= size.y) return;
-    int first = line * stride, step_px = 1, count = size.x;
-    const uint shift = 0u, scale = 3u;
-#else
-    if (line >= size.x) return;
-    int first = line, step_px = stride, count = size.y;
-    const uint shift = 4u, scale = 0u;
-#endif
-    uint a = 0u;
-    for (int i = 0; i < count; ++i) {
-        int at = first + i * step_px;
-        uint mu = (permeability[at] >> shift) & 15u;
-        uint c = ALONG == 0 ? 16u : weight[at];
-        a = c + ((a * mu) >> 4);
+layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
+
+void main() {
+    int y = int(gl_GlobalInvocationID.x);
+    if (y >= size.y) return;
+    int first = y * stride / 4, last = first + (size.x - 1) / 4;
+    uvec4 a = uvec4(0u);
+    for (int at = first; at <= last; ++at) {
+        uvec4 mu = permeability[at] & 15u;
+        a.x = 16u + ((a.w * mu.x) >> 4);
+        a.y = 16u + ((a.x * mu.y) >> 4);
+        a.z = 16u + ((a.y * mu.z) >> 4);
+        a.w = 16u + ((a.z * mu.w) >> 4);
         weight[at] = a;
     }
-    uint back = 0u, mu_after = 0u;
-    for (int i = count - 1; i >= 0; --i) {
-        int at = first + i * step_px;
-        uint mu = (permeability[at] >> shift) & 15u;
-        uint before = weight[i > 0 ? at - step_px : at];
-        back = (back * mu_after) >> 4;
-        weight[at] = (a + back) >> scale;
-        back += a - ((before * mu) >> 4);
-        mu_after = mu;
-        a = before;
+    uint back = 0u, mu_after = 0u;  // nothing passes from behind the picture
+    for (int at = last; at >= first; --at) {
+        uvec4 mu = permeability[at] & 15u, b;
+        b.w = (back * mu_after) >> 4;
+        b.z = ((b.w + 16u) * mu.w) >> 4;
+        b.y = ((b.z + 16u) * mu.z) >> 4;
+        b.x = ((b.y + 16u) * mu.y) >> 4;
+        weight[at] = (weight[at] + b) >> 3;
+        back = b.x + 16u;
+        mu_after = mu.x;
     }
 }
+#else
+layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
+layout(std430, binding = 1) buffer Weight { uint weight[]; };
+
+void main() {
+    int x = int(gl_GlobalInvocationID.x);
+    if (x >= size.x) return;
+    uint a = 0u;
+    for (int y = 0, at = x; y < size.y; ++y, at += stride) {
+        a = weight[at] + ((a * (permeability[at] >> 4)) >> 4);
+        weight[at] = a;
+    }
+    uint back = 0u;
+    for (int y = size.y - 1; y >= 0; --y) {
+        int at = y * stride + x;
+        uint mu = permeability[at] >> 4, above = weight[max(at - stride, 0)];
+        weight[at] = a + back;
+        back = ((back + a - ((above * mu) >> 4)) * mu) >> 4;
+        a = above;
+    }
+}
+#endif

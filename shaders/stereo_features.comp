@@ -8,12 +8,35 @@
 #define ROWS 8
 #endif
 
+// 1: makes the words anew if votes say that the picture lies lower or higher than it should, as if it did not.
+#ifndef SHIFTED
+#define SHIFTED 0
+#endif
+
 layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Luma { uint luma[]; };
 layout(std430, binding = 1) writeonly buffer Features { uvec4 features[]; };
 uniform ivec2 size;
 uniform int row_words;
 uniform int stride;
+
+#if SHIFTED
+layout(std430, binding = 2) readonly buffer Votes { uint votes[]; };  // see row_shift_votes.comp
+
+// Rows are left as they are unless another shift is better by a sixteenth.
+int row_shift() {
+    uint least = (votes[2] + 1u) / 16u * 15u;
+    int shift = 0;
+    for (int i = 0; i < 5; ++i) {
+        uint sum = votes[i] + 1u;
+        if (sum < least) {
+            least = sum;
+            shift = i - 2;
+        }
+    }
+    return shift;
+}
+#endif
 
 const uint high = 0x80808080u, low_bytes = 0x00ff00ffu;
 
@@ -31,8 +54,9 @@ const uint high = 0x80808080u, low_bytes = 0x00ff00ffu;
         bits = (bits >> 1) | (((n & bright) | ((n | bright) & ((n | high) - low))) & high); \
     }
 
+int shift = 0;
 uvec3 row_at(int y, int column) {
-    int base = clamp(y, 0, size.y - 1) * row_words + column;
+    int base = clamp(y + shift, 0, size.y - 1) * row_words + column;
     return uvec3(luma[base], luma[base + 1], luma[base + 2]);
 }
 
@@ -55,6 +79,10 @@ uint gradients(uvec3 a, uvec3 b, uvec3 c) {
 void main() {
     int column = int(gl_GlobalInvocationID.x), first_row = int(gl_GlobalInvocationID.y) * ROWS;
     if (column * 4 >= stride) return;
+#if SHIFTED
+    shift = row_shift();
+    if (shift == 0) return;
+#endif
     if (column + 2 >= row_words) {
         for (int y = first_row; y < min(first_row + ROWS, size.y); ++y)
             features[y * (stride / 4) + column] = uvec4(0u);

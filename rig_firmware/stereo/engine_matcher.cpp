@@ -3,7 +3,8 @@
 namespace vantage {
 
 EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
-    : luma_(library, layout_of(settings)), result_(library, layout_of(settings)) {}
+    : luma_(library, layout_of(settings)),
+      result_(library, layout_of(settings), settings.confidence) {}
 
 const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {
     profiler_.begin_frame();

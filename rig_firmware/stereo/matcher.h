@@ -21,7 +21,8 @@ struct MatchSettings {
     int width_px = 0, height_px = 0;  ///< of the rectified pair, up to max_side_px each
     int disparities = 64;             ///< search range 0 .. disparities - 1 px, 1..max_disparities
     MatchPreset preset = MatchPreset::balanced;
-    bool fill = true;  ///< dense output; false leaves unknown as 0
+    bool fill = true;         ///< dense output; false leaves unknown as 0
+    bool confidence = false;  ///< also give Matcher::confidence()
 
     /// Throws Error naming the limit that is exceeded.
     void validate() const;
@@ -46,6 +47,10 @@ class Matcher {
     /// same size that holds DisparityImage's values (1/32 px, 0 = unknown; a point at infinity is
     /// known and reads 1), owned by the matcher, valid until the next call.
     virtual const Texture& match(const Texture& left, const Texture& right) = 0;
+
+    /// How sure the last match() is of each pixel: r8ui of the same size, 0..255, 0 where unknown
+    /// or filled. Null unless the settings asked for it, and from matchers that know none.
+    virtual const Texture* confidence() const { return nullptr; }
 
     /// Times and traffic of the last match(); empty unless profiling was switched on before it.
     virtual std::vector<PassReport> passes() const = 0;

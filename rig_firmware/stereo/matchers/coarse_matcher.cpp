@@ -1,5 +1,6 @@
 #include "rig_firmware/stereo/engine_matcher.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
+#include "rig_firmware/stereo/passes/sgm_pass.h"
 #include "rig_firmware/stereo/passes/upsample_pass.h"
 
 namespace vantage {
@@ -14,34 +15,44 @@ class CoarseMatcher : public EngineMatcher {
   public:
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
+          fine_features_(library, layout_of(settings), sigma, settings.disparities),
           luma_(library, halved_layout(settings)),
-          features_(library, halved_layout(settings), sigma),
-          perm_(library, halved_layout(settings), (settings.disparities + 1) / 2),
+          features_(library, halved_layout(settings), sigma, (settings.disparities + 1) / 2),
+          perm_(library, halved_layout(settings), (settings.disparities + 1) / 2,
+                PermOutput::costs),
+          paths_(library, halved_layout(settings), (settings.disparities + 1) / 2,
+                 {.p1 = 4, .p2 = 20, .columns = false}),
           check_(library, halved_layout(settings), settings.fill),
           upsample_(library, halved_layout(settings), layout_of(settings)) {}
 
-    std::size_t cost_volume_bytes() const override { return perm_.volume_bytes(); }
+    std::size_t cost_volume_bytes() const override {
+        return perm_.volume_bytes() + paths_.volume_bytes();
+    }
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 12;
+    static constexpr double sigma = 6;
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& fine_luma) override {
+        fine_features_.run_words(profiler, fine_luma);
         luma_.run_halved(profiler, fine_luma);
         features_.run(profiler, luma_);
         perm_.run(profiler, features_);
-        upsample_.run(profiler, check_.run(profiler, perm_.winners(), &perm_.weight()),
-                      luma_.left(), fine_luma.left());
+        paths_.run(profiler, perm_.costs());
+        upsample_.run(profiler, check_.run(profiler, paths_.winners(), nullptr), luma_.left(),
+                      fine_luma.left(), fine_features_);
         return upsample_.disparity();
     }
     std::size_t search_bytes() const override {
-        return luma_.gpu_bytes() + features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes() +
-               upsample_.gpu_bytes();
+        return fine_features_.gpu_bytes() + luma_.gpu_bytes() + features_.gpu_bytes() +
+               perm_.gpu_bytes() + paths_.gpu_bytes() + check_.gpu_bytes() + upsample_.gpu_bytes();
     }
 
+    FeaturePass fine_features_;
     LumaPass luma_;
     FeaturePass features_;
     PermPass perm_;
+    SgmPass paths_;
     CheckAndFill check_;
     UpsamplePass upsample_;
 };

@@ -9,7 +9,7 @@ class PermMatcher : public EngineMatcher {
   public:
     PermMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), sigma),
+          features_(library, layout_of(settings), sigma, settings.disparities),
           perm_(library, layout_of(settings), settings.disparities),
           check_(library, layout_of(settings), settings.fill) {}
 

@@ -11,7 +11,7 @@ class PermSgmMatcher : public EngineMatcher {
   public:
     PermSgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), sigma),
+          features_(library, layout_of(settings), sigma, settings.disparities),
           perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
           paths_(library, layout_of(settings), settings.disparities,
                  {.p1 = 4, .p2 = 20, .columns = false}),

@@ -9,7 +9,7 @@ class SgmMatcher : public EngineMatcher {
   public:
     SgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), 1),
+          features_(library, layout_of(settings), 1, settings.disparities),
           cost_(library, layout_of(settings), settings.disparities, 1),
           paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
           check_(library, layout_of(settings), settings.fill) {}

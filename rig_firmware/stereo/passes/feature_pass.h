@@ -10,11 +10,14 @@
 
 namespace vantage {
 
-/// What the matching passes look at: feature words of both pictures, permeability of the left
-/// one.
+/// What the matching passes look at: feature words of both pictures, permeability of the left one.
+/// If the right picture lies up to two whole rows too low or too high, its words are those of the
+/// picture put right: a knock to a camera must not cost the depth until it is calibrated again.
 class FeaturePass {
   public:
-    FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma);
+    /// disparities: the search range, in which rows are compared.
+    FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma,
+                int disparities);
 
     void run(PassProfiler& profiler, const LumaPass& luma);
     /// The feature words alone.
@@ -22,16 +25,20 @@ class FeaturePass {
 
     const Buffer& left_features() const { return left_features_; }
     const Buffer& right_features() const { return right_features_; }
+    /// Five sums, of shifts by -2 .. 2 rows, see row_shift_votes.comp.
+    const Buffer& row_shift_votes() const { return votes_; }
     const Buffer& permeability() const { return permeability_; }
     const StereoLayout& layout() const { return layout_; }
     std::size_t gpu_bytes() const;
 
   private:
-    void features(const Buffer& luma, const Buffer& words);
+    void features(Program& program, const Buffer& luma, const Buffer& words);
 
     StereoLayout layout_;
-    Program features_program_, median_program_, permeability_program_;
-    Buffer guide_, left_features_, right_features_, permeability_, table_;
+    int disparities_;
+    Program features_program_, shifted_program_, clear_program_, votes_program_, median_program_,
+        permeability_program_;
+    Buffer guide_, left_features_, right_features_, permeability_, table_, votes_;
 };
 
 }  // namespace vantage

@@ -1,6 +1,8 @@
 #include "rig_firmware/stereo/passes/feature_reference.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -39,6 +41,37 @@ cv::Mat1i feature_words(const GreyImage& luma) {
             words(y, x) = static_cast<int>(census | (level << 27));
         }
     return words;
+}
+
+int row_shift(const cv::Mat1i& left_features, const cv::Mat1i& right_features, int disparities) {
+    int best_shift = 0;
+    std::array<int, 5> sums{};
+    for (int y = 8; y < left_features.rows; y += 16)
+        for (int x = 4; x < left_features.cols; x += 8)
+            for (int shift = -2; shift <= 2; ++shift) {
+                const int row = std::clamp(y + shift, 0, left_features.rows - 1);
+                int least = 32;
+                for (int d = 0; d < std::min(disparities, x + 1); ++d) {
+                    const auto unlike = static_cast<std::uint32_t>(left_features(y, x) ^
+                                                                   right_features(row, x - d));
+                    least = std::min(least, std::popcount(unlike & 0x07ffffffU));
+                }
+                sums[static_cast<std::size_t>(shift + 2)] += least;
+            }
+    int least = sums[2] / 16 * 15;
+    for (int shift = -2; shift <= 2; ++shift)
+        if (const int sum = sums[static_cast<std::size_t>(shift + 2)]; sum < least) {
+            least = sum;
+            best_shift = shift;
+        }
+    return best_shift;
+}
+
+GreyImage rows_shifted(const GreyImage& luma, int shift) {
+    GreyImage shifted(luma.size());
+    for (int y = 0; y < luma.rows; ++y)
+        luma.row(std::clamp(y + shift, 0, luma.rows - 1)).copyTo(shifted.row(y));
+    return shifted;
 }
 
 GreyImage guide_of(const GreyImage& luma) {

@@ -15,6 +15,12 @@ namespace vantage {
 /// gradient.
 cv::Mat1i feature_words(const GreyImage& luma);
 
+/// How many rows lower than it should the right picture lies, -2..2, by FeaturePass's votes.
+int row_shift(const cv::Mat1i& left_features, const cv::Mat1i& right_features, int disparities);
+
+/// The picture moved up by so many rows, the last one repeated.
+GreyImage rows_shifted(const GreyImage& luma, int shift);
+
 /// 3x3 median, edges repeated.
 GreyImage guide_of(const GreyImage& luma);
 

@@ -2,11 +2,15 @@
 
 namespace vantage {
 
-ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout)
+ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
+                       bool with_confidence)
     : layout_(layout),
-      pass_(library, "stereo_result.frag"),
+      pass_(library, "stereo_result.frag", {{"CONFIDENCE", with_confidence ? "1" : "0"}}),
       result_(TextureFormat::r16ui, layout.width_px, layout.height_px),
-      target_({&result_}) {}
+      confidence_(with_confidence ? std::optional<Texture>(std::in_place, TextureFormat::r8ui,
+                                                           layout.width_px, layout.height_px)
+                                  : std::nullopt),
+      target_(confidence_ ? Framebuffer({&result_, &*confidence_}) : Framebuffer({&result_})) {}
 
 const Texture& ResultPass::run(PassProfiler& profiler, const Buffer& disparity) {
     const std::size_t pixels = layout_.pixels();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/gl/buffer.h"
 #include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
@@ -9,19 +11,26 @@
 
 namespace vantage {
 
-/// 3x3 median into the r16ui texture that a matcher gives back.
+/// 3x3 median of the known, from LeftRightPass's form into the textures that a matcher gives back.
 class ResultPass {
   public:
-    ResultPass(const ShaderLibrary& library, const StereoLayout& layout);
+    ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
+               bool with_confidence = false);
 
+    /// r16ui, see Matcher::match.
     const Texture& run(PassProfiler& profiler, const Buffer& disparity);
+    /// r8ui of the last run, null unless asked for.
+    const Texture* confidence() const { return confidence_ ? &*confidence_ : nullptr; }
 
-    std::size_t gpu_bytes() const { return result_.bytes(); }
+    std::size_t gpu_bytes() const {
+        return result_.bytes() + (confidence_ ? confidence_->bytes() : 0U);
+    }
 
   private:
     StereoLayout layout_;
     FullscreenPass pass_;
     Texture result_;
+    std::optional<Texture> confidence_;
     Framebuffer target_;
 };
 

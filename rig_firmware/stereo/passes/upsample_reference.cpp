@@ -3,36 +3,40 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "rig_firmware/stereo/passes/perm_reference.h"
+
 namespace vantage {
 
 DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_luma,
-                         const GreyImage& fine_luma) {
-    DisparityImage fine(fine_luma.size());
-    for (int y = 0; y < fine.rows; ++y)
-        for (int x = 0; x < fine.cols; ++x) {
+                         const FinePictures& fine) {
+    DisparityImage result(fine.left_luma.size());
+    for (int y = 0; y < result.rows; ++y)
+        for (int x = 0; x < result.cols; ++x) {
             // In quarters of a coarse pixel: a fine pixel lies a quarter beside its coarse one's
             // middle.
             const auto far = [](int step, int odd) { return std::abs(4 * step - (odd ? 1 : -1)); };
             const auto unlike = [&](int dx, int dy, int cx, int cy) {
-                return std::abs(fine_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
-                       far(dy, y % 2);
+                // Two coarse steps of 1/32 px are one of 1/16 px at full size.
+                const int x_right = x - ((coarse(cy, cx) + 8) >> 4);
+                const int right = x_right >= 0 ? fine.right_features(y, x_right) : outside_feature;
+                return std::abs(fine.left_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
+                       far(dy, y % 2) + 3 * feature_cost(fine.left_features(y, x), right);
             };
             int least = unlike(0, 0, x / 2, y / 2);
             int best = coarse(y / 2, x / 2);
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    if (dx == 0 && dy == 0) continue;
-                    const int cx = std::clamp(x / 2 + dx, 0, coarse.cols - 1),
-                              cy = std::clamp(y / 2 + dy, 0, coarse.rows - 1);
-                    const int here = unlike(dx, dy, cx, cy);
-                    if (here < least) {
-                        least = here;
-                        best = coarse(cy, cx);
-                    }
+            constexpr int beside[4][2] = {{0, -1}, {0, 1}, {-1, 0}, {1, 0}};
+            for (const auto& [dx, dy] : beside) {
+                const int cx = std::clamp(x / 2 + dx, 0, coarse.cols - 1),
+                          cy = std::clamp(y / 2 + dy, 0, coarse.rows - 1);
+                const int here = unlike(dx, dy, cx, cy);
+                if (here < least) {
+                    least = here;
+                    best = coarse(cy, cx);
                 }
-            fine(y, x) = static_cast<unsigned short>(2 * best);
+            }
+            result(y, x) = static_cast<unsigned short>(2 * best);
         }
-    return fine;
+    return result;
 }
 
 }  // namespace vantage

@@ -26,12 +26,14 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     left.upload(pair_.left);
     right.upload(pair_.right);
     constexpr double sigma = 20;
-    FeaturePass features(library_, layout_, sigma);
+    FeaturePass features(library_, layout_, sigma, GetParam().disparities);
     LumaPass luma(library_, layout_);
     luma.run(profiler_, left, right);
     features.run(profiler_, luma);
-    const cv::Mat1i left_words = feature_words(left_luma_),
-                    right_words = feature_words(right_luma_);
+    const cv::Mat1i left_words = feature_words(left_luma_);
+    const GreyImage right_rows = rows_shifted(
+        right_luma_, row_shift(left_words, feature_words(right_luma_), GetParam().disparities));
+    const cv::Mat1i right_words = feature_words(right_rows);
     expect_equal(channel_of(features.left_features(), layout_, 1, 0), left_words, "left feature");
     expect_equal(channel_of(features.right_features(), layout_, 1, 0), right_words,
                  "right feature");
@@ -68,17 +70,50 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
                  as_int(median_of_known(filled)), "dense result");
     expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
                  as_int(median_of_known(checked.disparity)), "result with unknowns");
+    ResultPass with_confidence(library_, layout_, true);
+    with_confidence.run(profiler_, check.disparity());
+    expect_equal(as_int(with_confidence.confidence()->download()), as_int(checked.confidence),
+                 "confidence of the result");
+}
+
+TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
+    for (const int shift : {-2, -1, 0, 1}) {
+        const GreyImage lower = rows_shifted(right_luma_, -shift);
+        const cv::Mat1i left_words = feature_words(left_luma_), words = feature_words(lower);
+        if (layout_.width_px > 100) {
+            EXPECT_EQ(row_shift(left_words, words, GetParam().disparities), shift);
+        }
+        const int found = row_shift(left_words, words, GetParam().disparities);
+        Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+        Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+        left.upload(pair_.left);
+        ColourImage right_picture(pair_.right.size());
+        for (int y = 0; y < right_picture.rows; ++y)
+            pair_.right.row(std::clamp(y - shift, 0, right_picture.rows - 1))
+                .copyTo(right_picture.row(y));
+        right.upload(right_picture);
+        LumaPass luma(library_, layout_);
+        luma.run(profiler_, left, right);
+        FeaturePass features(library_, layout_, 20, GetParam().disparities);
+        features.run_words(profiler_, luma);
+        expect_equal(channel_of(features.right_features(), layout_, 1, 0),
+                     feature_words(rows_shifted(lower, found)), "right feature");
+    }
 }
 
 TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
-    Texture picture(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
-    picture.upload(pair_.left);
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
     LumaPass fine(library_, layout_);
-    fine.run(profiler_, picture, picture);
+    fine.run(profiler_, left, right);
+    FeaturePass fine_features(library_, layout_, 20, GetParam().disparities);
+    fine_features.run_words(profiler_, fine);
     const StereoLayout half{(layout_.width_px + 1) / 2, (layout_.height_px + 1) / 2};
     LumaPass coarse(library_, half);
     coarse.run_halved(profiler_, fine);
-    FeaturePass features(library_, half, 20);
+    FeaturePass features(library_, half, 20, GetParam().disparities);
     features.run(profiler_, coarse);
     expect_equal(channel_of(features.left_features(), half, 1, 0),
                  feature_words(halved(left_luma_)), "half-size feature");
@@ -88,14 +123,16 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     cv::RNG random(11);
     for (int y = 0; y < half.height_px; ++y)
         for (int x = 0; x < half.width_px; ++x) {
-            disparity(y, x) = static_cast<unsigned short>(random.uniform(0, 4096));
+            disparity(y, x) = static_cast<unsigned short>(random.uniform(0, 1000));
             words[static_cast<std::size_t>(y * half.stride_px() + x)] = disparity(y, x) | 77U << 16;
         }
     UpsamplePass upsample(library_, half, layout_);
-    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), coarse.left(), fine.left());
+    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), coarse.left(), fine.left(),
+                 fine_features);
     const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
-    expect_equal(lower_half(fine_words),
-                 as_int(upsampled(disparity, halved(left_luma_), left_luma_)), "upsampled");
+    const FinePictures pictures{left_luma_, feature_words(left_luma_), feature_words(right_luma_)};
+    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, halved(left_luma_), pictures)),
+                 "upsampled");
     expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
 }
 

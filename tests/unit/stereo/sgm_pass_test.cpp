@@ -30,7 +30,7 @@ class SgmPassTest : public EnginePassTest {
     }
 
     LumaPass luma_{library_, layout_};
-    FeaturePass features_{library_, layout_, 9};
+    FeaturePass features_{library_, layout_, 9, GetParam().disparities};
     const cv::Mat1i left_words_ = feature_words(left_luma_),
                     right_words_ = feature_words(right_luma_);
 };
