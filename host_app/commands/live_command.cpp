@@ -20,7 +20,7 @@ namespace {
 struct LiveOptions {
     std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
     std::uint64_t frames = 0;
-    double rate_hz = 0, seconds = 0, wait_s = 10;
+    double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
     bool headless = false, json = false;
     std::optional<bool> jog;  ///< default: with a window
 };
@@ -52,6 +52,8 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         .width_px = stage.view.width_px,
         .height_px = stage.view.height_px,
         .rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz,
+        .pulse_rate_hz = stage.rate_hz,
+        .past_bytes = static_cast<std::size_t>(options.past_mb * 1e6),
         .synthesiser = options.synthesiser.empty() ? stage.view.synthesiser : options.synthesiser,
         .film = options.film,
         .contact_sheet = options.contact_sheet};
@@ -181,6 +183,11 @@ CommandEntry live_command_entry() {
             ->add_option("--wait", options->wait_s,
                          "With --headless: seconds that the rigs may take to come")
             ->check(CLI::Range(0.1, 3600.0))
+            ->capture_default_str();
+        command
+            ->add_option("--past-mb", options->past_mb,
+                         "Memory for the newest frames, to go back to them; 0: no way back")
+            ->check(CLI::Range(0.0, 1e6))
             ->capture_default_str();
         command->add_flag_callback(
             "--jog", [options] { options->jog = true; },

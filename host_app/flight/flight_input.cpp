@@ -16,6 +16,8 @@ void FlightInput::add(const FlightInput& other) {
     toggle_move ^= other.toggle_move;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
+    to_live |= other.to_live;
+    past_steps += other.past_steps;
     next_wheel_mode |= other.next_wheel_mode;
     if (other.recall_shot != 0) recall_shot = other.recall_shot;
     if (other.store_shot != 0) store_shot = other.store_shot;

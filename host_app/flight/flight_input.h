@@ -9,7 +9,7 @@ struct FlightInput {
     double pan_right_widths = 0, pan_up_widths = 0;
     double dolly = 0, zoom = 0;
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
-    bool next_wheel_mode = false;
+    bool next_wheel_mode = false, to_live = false;
     int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
 
     /// Detents of a jog wheel, clockwise positive.
@@ -17,6 +17,9 @@ struct FlightInput {
     /// What a shuttle ring asks for: seconds of normal speed in this look's time, so at 2x speed
     /// twice its length.
     double shuttle_s = 0;
+
+    /// Frames back (negative) or on, through the past.
+    double past_steps = 0;
 
     /// True if the operator has the camera itself in hand.
     bool steers() const {

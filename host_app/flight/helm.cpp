@@ -29,10 +29,20 @@ OrbitView mixed(const OrbitView& a, OrbitView b, double share_of_b) {
 
 }  // namespace
 
-const char* name_of(WheelMode mode) { return mode == WheelMode::orbit ? "orbit" : "move"; }
+const char* name_of(WheelMode mode) {
+    switch (mode) {
+        case WheelMode::orbit:
+            return "orbit";
+        case WheelMode::move:
+            return "move";
+        case WheelMode::past:
+            break;
+    }
+    return "past";
+}
 
-Helm::Helm(const OrbitView& start, std::optional<Move> move)
-    : camera_(start), start_(start), move_(std::move(move)) {
+Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past)
+    : camera_(start), start_(start), has_past_(has_past), move_(std::move(move)) {
     if (!move_) return;
     on_move_ = playing_ = true;
     mode_ = WheelMode::move;
@@ -72,7 +82,25 @@ void Helm::travel(double seconds) {
     if (!move_->loops()) move_s_ = std::clamp(move_s_, 0.0, move_->duration_s());
 }
 
+void Helm::next_mode() {
+    switch (mode_) {
+        case WheelMode::orbit:
+            if (move_)
+                mode_ = WheelMode::move;
+            else if (has_past_)
+                mode_ = WheelMode::past;
+            break;
+        case WheelMode::move:
+            mode_ = has_past_ ? WheelMode::past : WheelMode::orbit;
+            break;
+        case WheelMode::past:
+            mode_ = WheelMode::orbit;
+            break;
+    }
+}
+
 void Helm::take_wheel(const FlightInput& input) {
+    if (mode_ == WheelMode::past) return;
     if (mode_ == WheelMode::orbit) {
         leave_move();
         camera_.orbit(input.wheel_steps * rad_per_step + input.shuttle_s * rad_per_shuttle_s, 0);
@@ -89,8 +117,7 @@ void Helm::take(const FlightInput& input,
         assert(number >= 1 && number <= static_cast<int>(shots_.size()));
         return shots_[static_cast<std::size_t>(number - 1)];
     };
-    if (input.next_wheel_mode && move_)
-        mode_ = mode_ == WheelMode::orbit ? WheelMode::move : WheelMode::orbit;
+    if (input.next_wheel_mode) next_mode();
     if (input.toggle_move && move_) {
         if (playing_) {
             leave_move();

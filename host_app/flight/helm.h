@@ -15,6 +15,7 @@ namespace vantage {
 enum class WheelMode {
     orbit,  ///< the camera around its pivot
     move,   ///< the camera along the planned move
+    past,   ///< not the camera but what it shows, frame by frame
 };
 const char* name_of(WheelMode mode);
 
@@ -23,8 +24,9 @@ const char* name_of(WheelMode mode);
 /// input it holds its pose, or the move goes on if it plays.
 class Helm {
   public:
-    /// A move plays from the start.
-    Helm(const OrbitView& start, std::optional<Move> move);
+    /// A move plays from the start. `has_past`: whether there is a past for the wheel to go
+    /// through.
+    Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false);
 
     /// `rig_view` gives what rig 1, 2, ... sees, for shots that nobody has stored; empty: no such
     /// rig.
@@ -40,6 +42,7 @@ class Helm {
 
   private:
     void take_wheel(const FlightInput& input);
+    void next_mode();
     void join_move();
     void leave_move();
     /// Along the move by so many seconds, either way.
@@ -47,6 +50,7 @@ class Helm {
 
     OrbitCamera camera_;
     OrbitView start_;
+    bool has_past_;
     WheelMode mode_ = WheelMode::orbit;
     std::array<std::optional<OrbitView>, 9> shots_;
 

@@ -125,6 +125,9 @@ void JogMapper::take_button(const DeckEvent& event) {
         case ButtonAction::synthesiser:
             input_.next_synthesiser = true;
             break;
+        case ButtonAction::live:
+            input_.to_live = true;
+            break;
         case ButtonAction::nothing:
             break;
     }

@@ -37,7 +37,8 @@ constexpr Named<ButtonAction> button_actions[] = {{"nothing", ButtonAction::noth
                                                   {"mode", ButtonAction::mode},
                                                   {"play", ButtonAction::play},
                                                   {"reset", ButtonAction::reset},
-                                                  {"synthesiser", ButtonAction::synthesiser}};
+                                                  {"synthesiser", ButtonAction::synthesiser},
+                                                  {"live", ButtonAction::live}};
 constexpr int last_shot = 9;
 constexpr Named<ReportField::Kind> field_kinds[] = {{"delta", ReportField::Kind::delta},
                                                     {"counter", ReportField::Kind::counter},

@@ -14,7 +14,7 @@ namespace vantage {
 /// What a turned or pushed control moves.
 enum class AxisAction {
     nothing,
-    wheel,      ///< steps: along the move or around the orbit, as the mode says
+    wheel,      ///< steps: along the move, around the orbit or through the past, as the mode says
     shuttle,    ///< speed of the same, spring-centred
     orbit,      ///< around the pivot, positive to the camera's right
     elevate,    ///< positive up
@@ -40,6 +40,7 @@ enum class ButtonAction {
     play,         ///< plays or leaves the planned move
     reset,        ///< back to the start
     synthesiser,  ///< the next one
+    live,         ///< out of the past, or of a frozen instant
 };
 
 struct ButtonMap {

@@ -16,6 +16,11 @@ OrbitView FlightControls::step(FlightInput hands, LiveSession& session, double t
     }
     if (hands.toggle_freeze) session.set_frozen(!session.frozen());
     if (hands.next_synthesiser) session.next_synthesiser();
+    if (hands.to_live) session.to_live();
+    double pulses = hands.past_steps;
+    if (helm_.wheel_mode() == WheelMode::past)
+        pulses += hands.wheel_steps + hands.shuttle_s * session.pulse_rate_hz();
+    if (pulses != 0) session.travel(pulses);
     helm_.take(hands, [&](int number) { return rig_view(session, number); });
     helm_.advance(dt_s);
     return helm_.view();

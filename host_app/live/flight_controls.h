@@ -17,8 +17,10 @@ namespace vantage {
 class FlightControls {
   public:
     /// Without a deck there are no wheels; else it must outlive this.
-    FlightControls(const FlightPlan& plan, JogDeck* deck)
-        : helm_(plan.start, plan.move), pivot_m_(plan.start.pivot_m), deck_(deck) {}
+    FlightControls(const FlightPlan& plan, const LiveSession& session, JogDeck* deck)
+        : helm_(plan.start, plan.move, session.keeps_past()),
+          pivot_m_(plan.start.pivot_m),
+          deck_(deck) {}
 
     /// Takes everything in, up to `time_s` after the start of the output (times must grow), and
     /// gives the view for the next picture. Throws what the deck throws.

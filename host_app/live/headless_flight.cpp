@@ -31,7 +31,7 @@ std::uint64_t fly_headless(LiveSession& session, const FlightPlan& plan, JogDeck
     const MonotonicTime start = MonotonicClock::now();
     MonotonicTime next_progress = start + progress_period;
     OutputClock clock(rate_hz, start);
-    FlightControls controls(plan, deck);
+    FlightControls controls(plan, session, deck);
     const bool ends_with_move =
         plan.move && !plan.move->loops() && !plan.frames && !plan.seconds && !deck;
     for (std::uint64_t pictures = 0;; ++pictures) {

@@ -65,7 +65,8 @@ SheetMoment row_of(const Moment& moment, std::size_t row) {
 LiveSession::LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed)
     : settings_(settings),
       shaders_(&shaders),
-      newest_(std::move(feed)),
+      past_(settings.past_bytes),
+      newest_(settings.past_bytes > 0 ? kept_feed(std::move(feed), past_) : std::move(feed)),
       synthesiser_(make_synthesiser(settings.synthesiser, shaders)),
       moments_(sheet_moments) {
     if (!settings.film.empty())
@@ -108,18 +109,43 @@ void LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop
                 states_of_missing(status_, shown()));
 }
 
-void LiveSession::show(FrameSet set) {
+void LiveSession::give_to_synthesiser(const FrameSet& set) {
     std::vector<DepthView> views;
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame) views.push_back(depth_view_of(*slot.frame));
+    synthesiser_->set_views(views);
+}
+
+void LiveSession::travel(double pulses) {
+    const std::optional<PastRing::Span> span = past_.span();
+    if (!span || !shown_) return;
+    const double from = past_pulse_.value_or(static_cast<double>(shown_->trigger_index));
+    past_pulse_ = std::clamp(from + pulses, static_cast<double>(span->oldest),
+                             static_cast<double>(span->newest));
+}
+
+void LiveSession::to_live() {
+    past_pulse_.reset();
+    frozen_ = false;
+}
+
+std::optional<double> LiveSession::behind_s() const {
+    const std::optional<PastRing::Span> span = past_.span();
+    if (!past_pulse_ || !span) return std::nullopt;
+    return std::max(0.0,
+                    (static_cast<double>(span->newest) - *past_pulse_) / settings_.pulse_rate_hz);
+}
+
+void LiveSession::show(FrameSet set) {
     const MonotonicTime start = MonotonicClock::now();
     for (const FrameSet::Slot& slot : set.slots) {
         if (!slot.frame) continue;
-        views.push_back(depth_view_of(*slot.frame));
         times_.add(Stage::capture, slot.frame->times.capture_ms);
         times_.add(Stage::rectify, slot.frame->times.rectify_ms);
         times_.add(Stage::match, slot.frame->times.match_ms);
         times_.add(Stage::pack, slot.frame->times.pack_ms);
     }
-    synthesiser_->set_views(views);
+    give_to_synthesiser(set);
     times_.add(Stage::upload, ms_since(start));
     count_frames(set, fused_);
     ++sets_fused_;
@@ -128,8 +154,15 @@ void LiveSession::show(FrameSet set) {
 }
 
 const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nanoseconds time) {
-    if (!frozen_)
+    if (past_pulse_) {
+        std::optional<FrameSet> set = past_.at(*past_pulse_);
+        if (set && set->trigger_index != shown_->trigger_index) {
+            give_to_synthesiser(*set);
+            shown_ = std::move(set);
+        }
+    } else if (!frozen_) {
         if (std::optional<FrameSet> set = newest_.take()) show(std::move(*set));
+    }
     const MonotonicTime start = MonotonicClock::now();
     if (!first_picture_) first_picture_ = start;
     const Texture& texture = synthesiser_->render({settings_.width_px, settings_.height_px,
@@ -187,11 +220,7 @@ void LiveSession::next_synthesiser() {
     if (next.name == settings_.synthesiser) return;
     synthesiser_ = next.make(*shaders_);
     settings_.synthesiser = next.name;
-    if (!shown_) return;
-    std::vector<DepthView> views;
-    for (const FrameSet::Slot& slot : shown_->slots)
-        if (slot.frame) views.push_back(depth_view_of(*slot.frame));
-    synthesiser_->set_views(views);
+    if (shown_) give_to_synthesiser(*shown_);
 }
 
 std::vector<StageTime> LiveSession::stage_summary() const {

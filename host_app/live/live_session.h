@@ -12,6 +12,7 @@
 #include "host_app/live/live_report.h"
 #include "host_app/live/moment_collector.h"
 #include "host_app/live/newest_set.h"
+#include "host_app/live/past_ring.h"
 #include "host_app/live/stage_times.h"
 #include "host_app/output/video_recorder.h"
 
@@ -20,6 +21,8 @@ namespace vantage {
 struct LiveSettings {
     int width_px = 1280, height_px = 720;  ///< of the virtual view
     double rate_hz = 30;                   ///< of the output
+    double pulse_rate_hz = 30;             ///< of the stage
+    std::size_t past_bytes = 0;            ///< of frames kept to go back to; 0: none
     std::string synthesiser = "fused";
     std::filesystem::path film, contact_sheet;  ///< empty: none
 };
@@ -44,6 +47,18 @@ class LiveSession {
     /// Frozen, the set that is shown stays; the camera may still fly.
     void set_frozen(bool frozen) { frozen_ = frozen; }
     bool frozen() const { return frozen_; }
+
+    /// Goes by so many pulses, either way, through what is kept of the past; from the live set, or
+    /// from where it is already. There it stands, whatever comes meanwhile, until to_live().
+    void travel(double pulses);
+    /// To the newest set, neither in the past nor frozen.
+    void to_live();
+    /// Whether there is a past to go to.
+    bool keeps_past() const { return settings_.past_bytes > 0; }
+    /// How long before the newest set the one that is shown was, while in the past.
+    std::optional<double> behind_s() const;
+    double pulse_rate_hz() const { return settings_.pulse_rate_hz; }
+
     bool recording() const { return recorder_.has_value(); }
 
     /// The picture that was made last, read back. Precondition: there is one.
@@ -75,11 +90,13 @@ class LiveSession {
 
   private:
     void show(FrameSet set);
+    void give_to_synthesiser(const FrameSet& set);
     void keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
                      const ColourImage& picture);
 
     LiveSettings settings_;
     const ShaderLibrary* shaders_;
+    PastRing past_;
     NewestSet newest_;
     ReceiverStatus status_;
     std::unique_ptr<Synthesiser> synthesiser_;
@@ -91,6 +108,7 @@ class LiveSession {
     std::optional<FrameSet> shown_;
     bool is_new_ = false;  ///< shown_ was in no picture yet
     bool frozen_ = false;
+    std::optional<double> past_pulse_;  ///< where in the past
 
     StageTimes times_;
     PercentileRecorder latency_ms_;

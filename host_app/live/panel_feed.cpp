@@ -94,6 +94,7 @@ PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const 
             if (slot.frame) state_.timecode = slot.frame->timecode;
     }
     state_.frozen = session.frozen();
+    state_.behind_s = session.behind_s();
     state_.recording = session.recording();
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.synthesiser = session.synthesiser();

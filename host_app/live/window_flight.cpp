@@ -7,7 +7,7 @@ namespace vantage {
 
 std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window, const FlightPlan& plan,
                             JogDeck* deck, double rate_hz, StopSignal& stop) {
-    FlightControls controls(plan, deck);
+    FlightControls controls(plan, session, deck);
     PanelFeed panel;
     OutputClock clock(rate_hz, MonotonicClock::now());
     double last_s = 0;

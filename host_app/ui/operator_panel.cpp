@@ -103,6 +103,8 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
     ImGui::SetCursorPosY(0.8f * em());
     if (state.waiting)
         badge(fonts, "WAITING FOR RIGS", palette::warn);
+    else if (state.behind_s)
+        badge(fonts, fmt::format("{:.1f} s BACK", *state.behind_s).c_str(), palette::accent);
     else if (state.frozen)
         badge(fonts, "FROZEN", palette::accent);
     else
@@ -318,6 +320,8 @@ void draw_help(const UiFonts& fonts) {
         {"Ctrl + 1 .. 9", "keep this view as a shot"},
         {"R", "back to the start"},
         {"Space", "freeze the instant and fly on"},
+        {", .", "a frame back, a frame on, through what is kept of the past"},
+        {"L", "back to live"},
         {"P", "play or leave the planned move"},
         {"F2", "next synthesiser"},
         {"Tab", "show or hide the panels"},

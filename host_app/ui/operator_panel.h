@@ -35,6 +35,7 @@ struct PanelState {
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
     bool frozen = false, recording = false;
+    std::optional<double> behind_s;  ///< while in the past: how far
     double picture_rate_hz = 0, latency_ms = 0;
     std::vector<float> latency_history_ms;  ///< oldest first
     std::string synthesiser, renderer;

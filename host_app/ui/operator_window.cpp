@@ -84,9 +84,12 @@ bool OperatorWindow::closed() const { return glfwWindowShouldClose(window_.get()
 bool OperatorWindow::held(int key) const { return glfwGetKey(window_.get(), key) == GLFW_PRESS; }
 
 void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
+    OperatorWindow& self = *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
+    // Held, these go on from frame to frame.
+    if (action != GLFW_RELEASE && (key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD))
+        self.input_.past_steps += key == GLFW_KEY_COMMA ? -1 : 1;
     if (action != GLFW_PRESS) return;
-    static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window))
-        ->take_key(key, (modifiers & GLFW_MOD_CONTROL) != 0);
+    self.take_key(key, (modifiers & GLFW_MOD_CONTROL) != 0);
 }
 
 void OperatorWindow::take_key(int key, bool control) {
@@ -99,6 +102,9 @@ void OperatorWindow::take_key(int key, bool control) {
             break;
         case GLFW_KEY_P:
             input_.toggle_move = !input_.toggle_move;
+            break;
+        case GLFW_KEY_L:
+            input_.to_live = true;
             break;
         case GLFW_KEY_F1:
             show_help_ = !show_help_;

@@ -147,6 +147,24 @@ TEST_F(HelmTest, ModeChangesWhatTheWheelDrivesIfThereIsAMove) {
     EXPECT_EQ(without.wheel_mode(), WheelMode::orbit);
 }
 
+TEST_F(HelmTest, LeavesTheCameraAloneWhileTheWheelGoesThroughThePast) {
+    FlightInput mode;
+    mode.next_wheel_mode = true;
+    Helm helm(looking(0), {}, true);
+    helm.take(mode, no_rig);
+    EXPECT_EQ(helm.wheel_mode(), WheelMode::past);
+    helm.take(steps(5), no_rig);
+    pass(helm, 1);
+    EXPECT_EQ(helm.view().azimuth_rad, 0);
+    helm.take(mode, no_rig);
+    EXPECT_EQ(helm.wheel_mode(), WheelMode::orbit);
+    Helm with_move(looking(0), straight_move(), true);
+    for (const WheelMode next : {WheelMode::past, WheelMode::orbit, WheelMode::move}) {
+        with_move.take(mode, no_rig);
+        EXPECT_EQ(with_move.wheel_mode(), next);
+    }
+}
+
 TEST_F(HelmTest, FliesToShotsStoredElseToWhatARigSees) {
     Helm helm(looking(0), {});
     FlightInput input;

@@ -23,7 +23,8 @@ class JogMapperTest : public testing::Test {
             {"b1", {ButtonAction::shot, 3}},        {"b2", {ButtonAction::store, 0}},
             {"b3", {ButtonAction::freeze, 0}},      {"b4", {ButtonAction::mode, 0}},
             {"b5", {ButtonAction::play, 0}},        {"b6", {ButtonAction::reset, 0}},
-            {"b7", {ButtonAction::synthesiser, 0}}, {"b8", {ButtonAction::nothing, 0}}};
+            {"b7", {ButtonAction::synthesiser, 0}}, {"b8", {ButtonAction::nothing, 0}},
+            {"b10", {ButtonAction::live, 0}}};
     }
     void take(const JogEvent& event, const char* path = "/dev/hidraw0") {
         mapper_.take({DeckEvent::Kind::control, path, profile_, event, {}, {}});
@@ -75,6 +76,7 @@ TEST_F(JogMapperTest, TurnsButtonsIntoRequests) {
     EXPECT_TRUE(push("b4").next_wheel_mode);
     EXPECT_TRUE(push("b5").toggle_move);
     EXPECT_TRUE(push("b6").reset);
+    EXPECT_TRUE(push("b10").to_live);
     EXPECT_TRUE(push("b7").next_synthesiser);
     const FlightInput nothing = push("b8");
     EXPECT_FALSE(nothing.steers() || nothing.toggle_freeze || nothing.turns_wheel());

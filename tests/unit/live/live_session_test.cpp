@@ -70,6 +70,61 @@ TEST_F(LiveSessionTest, FreezesTheInstantAndNotTheFlight) {
     EXPECT_EQ(session.shown()->trigger_index, 2u);
 }
 
+TEST_F(LiveSessionTest, GoesBackThroughThePastAndToLiveAgain) {
+    settings_.past_bytes = 100'000'000;
+    settings_.pulse_rate_hz = 10;
+    LiveSession session = this->session();
+    const auto red_at = [&](std::uint64_t k) { return static_cast<std::uint8_t>(20 * k); };
+    const auto push = [&](std::uint64_t k) {
+        feed_.push(feed_.set(k, {"north", "south"}, {red_at(k), 100, 50, 255}));
+        while (!feed_.drained()) std::this_thread::sleep_for(1ms);
+        std::this_thread::sleep_for(20ms);
+    };
+    for (std::uint64_t k = 1; k <= 5; ++k) push(k);
+    session.wait_for_rigs(10s, stop_);
+    std::chrono::nanoseconds time = 0ns;
+    const auto expect_shown = [&](std::uint64_t k) {
+        session.make_picture(view_, time += 1ms);
+        EXPECT_EQ(session.shown()->trigger_index, k);
+        EXPECT_NEAR(middle(session.last_picture())[0], red_at(k), 2) << k;
+    };
+    expect_shown(5);
+    EXPECT_FALSE(session.behind_s());
+    session.travel(-2);
+    expect_shown(3);
+    EXPECT_NEAR(*session.behind_s(), 0.2, 1e-9);
+    push(6);
+    expect_shown(3);
+    EXPECT_NEAR(*session.behind_s(), 0.3, 1e-9) << "it stands while the stage goes on";
+    session.travel(0.4);
+    expect_shown(3);
+    session.travel(0.7);
+    expect_shown(4);
+    session.travel(-100);
+    expect_shown(1);
+    session.travel(+100);
+    expect_shown(6);
+    session.travel(-1);
+    expect_shown(5);
+    session.to_live();
+    push(7);
+    expect_shown(7);
+    EXPECT_FALSE(session.behind_s());
+    session.finish();
+    const LiveReport report = session.report();
+    EXPECT_EQ(report.sets_closed, report.sets_fused + report.sets_superseded + report.sets_dropped)
+        << "what is looked at again is not counted again";
+}
+
+TEST_F(LiveSessionTest, StaysLiveWhereNoPastIsKept) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}));
+    session.wait_for_rigs(10s, stop_);
+    session.travel(-3);
+    EXPECT_FALSE(session.keeps_past());
+    EXPECT_FALSE(session.behind_s());
+}
+
 TEST_F(LiveSessionTest, GoesOnWithTheRigsThatCame) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"south"}));

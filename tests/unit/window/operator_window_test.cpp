@@ -103,6 +103,9 @@ TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
     EXPECT_TRUE(after({"key", "space"}).toggle_freeze);
     EXPECT_TRUE(after({"key", "r"}).reset);
     EXPECT_TRUE(after({"key", "p"}).toggle_move);
+    EXPECT_TRUE(after({"key", "l"}).to_live);
+    EXPECT_EQ(after({"key", "comma", "key", "comma"}).past_steps, -2);
+    EXPECT_EQ(after({"key", "period"}).past_steps, 1);
     EXPECT_TRUE(after({"key", "F2"}).next_synthesiser);
     EXPECT_EQ(after({"key", "4"}).recall_shot, 4);
     const FlightInput stored = after({"key", "ctrl+3"});
