@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstring>
-#include <fstream>
 
 #include <linux/videodev2.h>
 #include <poll.h>
@@ -55,11 +54,6 @@ v4l2_buffer output_buffer(std::uint32_t index = 0) {
     buffer.index = index;
     buffer.field = V4L2_FIELD_NONE;
     return buffer;
-}
-
-void write_to(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream out(file);
-    if (!(out << text << std::flush)) fail("{} does not take '{}'", file.string(), text);
 }
 
 }  // namespace
@@ -124,14 +118,6 @@ void VividLoop::feed(const std::stop_token& stop) const {
             return;
         }
     }
-}
-
-void unplug_vivid(int number) {
-    write_to("/sys/bus/platform/drivers/vivid/unbind", "vivid." + std::to_string(number));
-}
-
-void plug_in_vivid(int number) {
-    write_to("/sys/bus/platform/drivers/vivid/bind", "vivid." + std::to_string(number));
 }
 
 }  // namespace vantage

@@ -31,8 +31,4 @@ class VividLoop {
     std::jthread feeder_;
 };
 
-/// Takes vivid's devices from their driver, or gives them back: what unplugging a camera is.
-void unplug_vivid(int number);
-void plug_in_vivid(int number);
-
 }  // namespace vantage

@@ -211,5 +211,30 @@ TEST_F(RunCommandTest, SaysWhatWasTriedWhereThereIsNoOpenGl) {
     EXPECT_NE(sentence.find("surfaceless"), std::string::npos) << sentence;
 }
 
+TEST_F(RunCommandTest, SendsPulsesAtOnceOrWaitsForTheHostsWord) {
+    const std::string lead =
+        small_stage + "[trigger]\nrole = \"lead\"\npretended = true\nlate_limit_us = 1000000\n";
+    const ProgramResult waiting = run(lead, {"--frames", "3", "--json"});
+    ASSERT_EQ(waiting.status, 0) << waiting.err;
+    const auto armed = nlohmann::json::parse(waiting.out)["sync"];
+    EXPECT_TRUE(armed["ready"]) << armed;
+    EXPECT_EQ(armed["first_pulse"], 0) << armed;
+    EXPECT_EQ(armed["pulses"], 0) << armed;
+    EXPECT_NE(waiting.err.find("armed: pulses begin when the host announces"), std::string::npos)
+        << waiting.err;
+    const ProgramResult sending = run(lead + "start = \"at_once\"\n", {"--frames", "9", "--json"});
+    ASSERT_EQ(sending.status, 0) << sending.err;
+    const auto sync = nlohmann::json::parse(sending.out)["sync"];
+    EXPECT_GT(sync["first_pulse"], 0) << sync;
+    EXPECT_GT(sync["pulses"], 0) << sync;
+    EXPECT_GT(sync["lateness_us"]["max"], 0) << sync;
+}
+
+TEST_F(RunCommandTest, RefusesARateThatTheSensorCannotFollow) {
+    expect_refusal(replaced(small_stage, "rate_hz = 10", "rate_hz = 60") +
+                       "[trigger]\nrole = \"lead\"\npretended = true\nsensor = \"imx296\"\n",
+                   "21560.00 us, and a period at 60 Hz is 16666.67 us");
+}
+
 }  // namespace
 }  // namespace vantage
