@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <gpiod.hpp>
 #include <system_error>
@@ -6,18 +5,10 @@
 #include <fmt/format.h>
 
 #include "rig_firmware/probe/probe.h"
+#include "rig_firmware/trigger/gpio_line.h"
 
 namespace vantage {
 namespace {
-
-std::vector<std::filesystem::path> list_chips() {
-    std::vector<std::filesystem::path> chips;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored))
-        if (entry.path().filename().string().starts_with("gpiochip")) chips.push_back(entry.path());
-    std::sort(chips.begin(), chips.end());
-    return chips;
-}
 
 void add_chip(ProbePart& part, const std::filesystem::path& path) {
     gpiod::chip chip(path);
@@ -51,7 +42,7 @@ void add_chip(ProbePart& part, const std::filesystem::path& path) {
 ProbePart probe_gpio() {
     ProbePart part{
         .title = "GPIO chips", .facts = nlohmann::json::array(), .lines = {}, .unfit = {}};
-    const std::vector<std::filesystem::path> chips = list_chips();
+    const std::vector<std::filesystem::path> chips = gpio_chips();
     for (const std::filesystem::path& path : chips) {
         try {
             add_chip(part, path);

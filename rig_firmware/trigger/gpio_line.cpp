@@ -12,15 +12,6 @@
 namespace vantage {
 namespace {
 
-std::vector<std::filesystem::path> chip_paths() {
-    std::vector<std::filesystem::path> paths;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored))
-        if (entry.path().filename().string().starts_with("gpiochip")) paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
-    return paths;
-}
-
 std::optional<unsigned> offset_of(const gpiod::chip& chip, const RigConfig::Trigger& trigger,
                                   std::size_t lines) {
     if (trigger.line_offset >= 0) {
@@ -43,6 +34,15 @@ std::vector<std::string> line_names(const gpiod::chip& chip, std::size_t lines) 
 
 }  // namespace
 
+std::vector<std::filesystem::path> gpio_chips() {
+    std::vector<std::filesystem::path> paths;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored))
+        if (entry.path().filename().string().starts_with("gpiochip")) paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
 std::string GpioLine::text() const {
     return name.empty() ? fmt::format("line {} of '{}'", offset, label)
                         : fmt::format("line {} '{}' of '{}'", offset, name, label);
@@ -51,7 +51,7 @@ std::string GpioLine::text() const {
 GpioLine find_gpio_line(const RigConfig::Trigger& trigger) {
     std::vector<std::string> labels;
     std::string forbidden;
-    for (const std::filesystem::path& path : chip_paths()) {
+    for (const std::filesystem::path& path : gpio_chips()) {
         try {
             const gpiod::chip chip(path);
             const gpiod::chip_info info = chip.get_info();

@@ -2,10 +2,14 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common/config/rig_config.h"
 
 namespace vantage {
+
+/// /dev/gpiochip*, sorted.
+std::vector<std::filesystem::path> gpio_chips();
 
 /// A line of a GPIO chip, as the kernel knows it now.
 struct GpioLine {
