@@ -23,6 +23,7 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
     table.read("endpoint", rig.endpoint);
     if (table.has("endpoint")) check_endpoint(table, "endpoint", rig.endpoint);
     table.read("public_key", rig.public_key);
+    table.read("colour", rig.colour);
     rigs.push_back(std::move(rig));
 }
 

@@ -7,6 +7,7 @@
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/colour/colour_file.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
@@ -62,6 +63,8 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         settings.width_px = size.width;
         settings.height_px = size.height;
     }
+    for (const StageConfig::Rig& rig : stage.rigs)
+        if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     return settings;
 }
 

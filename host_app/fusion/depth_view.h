@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/colour/colour_correction.h"
 #include "common/geometry/pose.h"
 #include "common/image/image.h"
 
@@ -22,6 +23,8 @@ struct DepthView {
     /// not come of stereo.
     double baseline_m = 0;
     double doffs_px = 0;
+    /// Brings the picture's colours to the stage's; done on the GPU on its way to the synthesisers.
+    ColourCorrection colour_correction = {};
 };
 
 }  // namespace vantage

@@ -31,7 +31,12 @@ void GpuView::upload(const DepthView& view) {
                                sizeof(std::uint32_t),
                            GL_DYNAMIC_DRAW);
     }
-    colour_->upload(view.colour);
+    if (view.colour_correction.is_identity()) {
+        colour_->upload(view.colour);
+    } else {
+        if (!corrector_) corrector_ = std::make_unique<ColourCorrector>();
+        corrector_->upload(view.colour, view.colour_correction, *colour_);
+    }
     colour_->generate_mipmaps();
     depth_->upload(view.depth_m);
     take_samples(view.depth_m);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/colour/colour_corrector.h"
 #include "common/gl/buffer.h"
 #include "common/gl/texture.h"
 #include "host_app/fusion/depth_view.h"
@@ -61,6 +62,7 @@ class GpuView {
 
     DepthView camera_;
     std::optional<Texture> colour_, depth_;
+    std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
     DrawnTexture surface_{TextureFormat::r32f};
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
     std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::r32f),

@@ -111,8 +111,12 @@ void LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop
 
 void LiveSession::give_to_synthesiser(const FrameSet& set) {
     std::vector<DepthView> views;
-    for (const FrameSet::Slot& slot : set.slots)
-        if (slot.frame) views.push_back(depth_view_of(*slot.frame));
+    for (const FrameSet::Slot& slot : set.slots) {
+        if (!slot.frame) continue;
+        views.push_back(depth_view_of(*slot.frame));
+        const auto colour = settings_.colours.find(slot.rig);
+        if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
+    }
     synthesiser_->set_views(views);
 }
 

@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "common/base/stop_signal.h"
+#include "common/colour/colour_correction.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/live/live_report.h"
@@ -24,7 +26,8 @@ struct LiveSettings {
     double pulse_rate_hz = 30;             ///< of the stage
     std::size_t past_bytes = 0;            ///< of frames kept to go back to; 0: none
     std::string synthesiser = "fused";
-    std::filesystem::path film, contact_sheet;  ///< empty: none
+    std::filesystem::path film, contact_sheet;             ///< empty: none
+    std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
 
 /// From frame sets to pictures of the virtual camera: takes the newest set, renders, hands the

@@ -117,6 +117,21 @@ queue_frames = 4
 key_file = "k"
 authorized_hosts = "h"
 )");
+    seeds.write("colour_file", "good", R"(version = 1
+date = "2026-01-01"
+tool = "t"
+reference = "A"
+delta_e_before = 5.5
+delta_e_after = 0.5
+samples = 24
+matrix = [1.1, 0.05, -0.02, 0.03, 0.95, 0.01, 0, -0.04, 0.8]
+tone = [1.05, 0.97, 1.2]
+)");
+    seeds.write(
+        "health_history", "two",
+        R"({"version":1,"date":"d","measures":[{"what":"rows","rigs":"A","value":0.1,"verdict":"good"}]}
+{"version":1,"date":"e","measures":[]}
+)");
     seeds.write("stage_config", "all",
                 "version = 1\nkey_file = \"k\"\nrate_hz = 30\n"
                 "latency_budget_ms = 200\n[[rigs]]\nname = \"rig-a\"\n"

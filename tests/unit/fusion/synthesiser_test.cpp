@@ -66,6 +66,16 @@ TEST_P(SynthesiserTest, GivesBackTheOnlyViewFromWhereItWasTaken) {
     EXPECT_GT(coverage(picture), 0.8);
 }
 
+TEST_P(SynthesiserTest, CorrectsTheColoursOfAView) {
+    DepthView view = wall_and_square(0, 61, 47);
+    view.colour_correction.matrix << 0, 1, 0, 1, 0, 0, 0, 0, 0.5;
+    view.colour_correction.tone = {1.1, 1, 0.9};
+    const ColourImage picture = render({&view, 1}, target_of(view));
+    EXPECT_GT(psnr_db(picture, view.colour_correction.apply(view.colour), covered_mask(picture)),
+              32);
+    EXPECT_GT(coverage(picture), 0.8);
+}
+
 TEST_P(SynthesiserTest, MeetsTheTruthBetweenTwoViews) {
     const DepthView views[] = {wall_and_square(-0.2, 121, 91), wall_and_square(0.2, 121, 91)};
     const DepthView truth = wall_and_square(0.03, 121, 91);

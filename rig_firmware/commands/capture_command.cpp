@@ -1,0 +1,106 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/print_result.h"
+#include "common/base/stop_signal.h"
+#include "common/config/rig_config.h"
+#include "common/image/image_file.h"
+#include "rig_firmware/capture/stereo_source.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds look_every(50);
+
+struct Options {
+    std::string config, folder;
+    int count = 20;
+    std::uint64_t every = 30;
+    double patience_s = 10;
+    bool json = false;
+};
+
+std::filesystem::path picture(const Options& options, const char* side, std::uint64_t index) {
+    return std::filesystem::path(options.folder) / fmt::format("{}_{}.png", side, index);
+}
+
+/// Waits for the next pulse that is to be kept; empty at the end of the material or when the
+/// program is asked to stop. Throws Error if none comes for too long.
+std::optional<StereoFrame> next_kept(StereoSource& source, const Options& options,
+                                     StopSignal& stop) {
+    auto heard = MonotonicClock::now();
+    while (!stop.requested() && !source.ended()) {
+        std::optional<StereoFrame> frame = source.next(look_every);
+        const MonotonicTime now = MonotonicClock::now();
+        if (frame) heard = now;
+        if (frame && frame->trigger_index % options.every == 0) return frame;
+        if (std::chrono::duration<double>(now - heard).count() > options.patience_s)
+            fail("no frame came for {:g} s; are the cameras plugged in and triggered?",
+                 options.patience_s);
+    }
+    return std::nullopt;
+}
+
+void run(const Options& options) {
+    const RigConfig config = load_rig_config(options.config);
+    std::filesystem::create_directories(options.folder);
+    StopSignal stop;
+    const std::unique_ptr<StereoSource> source = make_source(config);
+    for (const std::string& line : source->report()) log_info("{}", line);
+    nlohmann::ordered_json indices = nlohmann::ordered_json::array();
+    bool synchronized = true;
+    for (int i = 0; i < options.count; ++i) {
+        const std::optional<StereoFrame> frame = next_kept(*source, options, stop);
+        if (!frame) break;
+        // The right one last: a pair is whole where both stand.
+        write_colour_image(picture(options, "left", frame->trigger_index), frame->left);
+        write_colour_image(picture(options, "right", frame->trigger_index), frame->right);
+        indices.push_back(frame->trigger_index);
+        synchronized = synchronized && frame->synchronized;
+        log_info("pair {} of {}: pulse {}", i + 1, options.count, frame->trigger_index);
+    }
+    if (indices.empty()) fail("there was no pair to keep");
+    if (!synchronized)
+        log_warning(
+            "the frames name no pulses of the stage: equal numbers of two rigs are not equal "
+            "instants");
+    print_result({{"rig", config.name},
+                  {"folder", options.folder},
+                  {"pairs", indices.size()},
+                  {"width", source->size().width},
+                  {"height", source->size().height},
+                  {"synchronized", synchronized},
+                  {"indices", indices}},
+                 options.json);
+}
+
+}  // namespace
+
+CommandEntry capture_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "capture", "Keep raw pairs as pictures numbered by pulse, for vantage-calib");
+        const auto options = std::make_shared<Options>();
+        command->add_option("--config", options->config, "the rig's rig.toml")->required();
+        command
+            ->add_option("--every", options->every,
+                         "keep pulses whose number this divides: the same ones at every rig")
+            ->check(CLI::Range(1, 1000000))
+            ->capture_default_str();
+        command->add_option("--count", options->count, "pairs to keep")
+            ->check(CLI::Range(1, 10000))
+            ->capture_default_str();
+        command->add_option("-o,--output", options->folder, "folder for left_N.png and right_N.png")
+            ->required();
+        command->add_flag("--json", options->json, "write the result as one JSON object");
+        command->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage
