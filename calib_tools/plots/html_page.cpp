@@ -25,6 +25,10 @@ std::string class_of(std::string_view mark) {
 
 }  // namespace
 
+std::string_view mark_of(double value, double warn_at, double bad_at) {
+    return value < warn_at ? "good" : value < bad_at ? "warn" : "bad";
+}
+
 std::string escape_markup(std::string_view text) {
     std::string escaped;
     for (const char c : text) {

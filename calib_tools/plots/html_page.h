@@ -32,6 +32,9 @@ class HtmlPage {
     std::string title_, body_;
 };
 
+/// The mark of a value that is better the smaller it is.
+std::string_view mark_of(double value, double warn_at, double bad_at);
+
 /// With &, <, > and quotes written as HTML and XML want them.
 std::string escape_markup(std::string_view text);
 

@@ -14,10 +14,6 @@ namespace {
 // As the documentation gives them: a good fit is a fraction of a pixel, a rig's rows a tenth.
 constexpr double good_rms_px = 0.3, warn_rms_px = 0.8;
 
-std::string_view mark_of(double value, double warn_at, double bad_at) {
-    return value < warn_at ? "good" : value < bad_at ? "warn" : "bad";
-}
-
 using Row = std::vector<HtmlPage::Cell>;
 
 Row parameter(const std::string& camera, const char* name, double value, double sigma,

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-std::string_view mark_of(double value, double warn_at, double bad_at) {
-    return value < warn_at ? "good" : value < bad_at ? "warn" : "bad";
-}
-
 std::string drawing(const StageCalibration& stage) {
     std::vector<PlacedRig> rigs;
     for (const StageCalibration::Rig& rig : stage.rigs) {
