@@ -2,17 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
-
 #include "host_app/fusion/projection.h"
 
 namespace vantage {
-namespace {
-
-constexpr int samples_a_side = 12;
-
-}  // namespace
-
 void GpuView::upload(const DepthView& view) {
     const bool is_same_camera =
         colour_ && depth_ && colour_->size() == view.colour.size() &&
@@ -39,7 +31,7 @@ void GpuView::upload(const DepthView& view) {
     }
     colour_->generate_mipmaps();
     depth_->upload(view.depth_m);
-    take_samples(view.depth_m);
+    samples_ = surface_samples(view);
 }
 
 const Framebuffer& GpuView::surface_target() {
@@ -71,27 +63,6 @@ Eigen::Matrix3d GpuView::K_depth() const {
 
 int GpuView::triangle_indices() const {
     return 6 * (depth_->width_px() - 1) * (depth_->height_px() - 1);
-}
-
-void GpuView::take_samples(const DepthImage& depth_m) {
-    const Eigen::Matrix3d ray_from_pixel = K_depth().inverse();
-    std::vector<double> depths_m;
-    sample_points_m_.clear();
-    for (int j = 0; j < samples_a_side; ++j)
-        for (int i = 0; i < samples_a_side; ++i) {
-            const int x = (2 * i + 1) * depth_m.cols / (2 * samples_a_side);
-            const int y = (2 * j + 1) * depth_m.rows / (2 * samples_a_side);
-            const double z = depth_m(y, x);
-            if (!(z > 0)) continue;
-            depths_m.push_back(z);
-            const Eigen::Vector3d point = z * (ray_from_pixel * Eigen::Vector3d(x, y, 1));
-            sample_points_m_.push_back(camera_.world_from_camera * point);
-        }
-    median_depth_m_ = 0;
-    if (depths_m.empty()) return;
-    const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
-    std::nth_element(depths_m.begin(), middle, depths_m.end());
-    median_depth_m_ = *middle;
 }
 
 void upload_views(std::span<const DepthView> views, std::vector<std::unique_ptr<GpuView>>& on_gpu) {

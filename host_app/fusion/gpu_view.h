@@ -11,6 +11,7 @@
 #include "common/gl/texture.h"
 #include "host_app/fusion/depth_view.h"
 #include "host_app/fusion/drawn_texture.h"
+#include "host_app/fusion/surface_samples.h"
 
 namespace vantage {
 
@@ -54,12 +55,10 @@ class GpuView {
     int triangle_indices() const;
 
     /// A few known surface points in world coordinates, evenly over the picture.
-    std::span<const Eigen::Vector3d> sample_points_m() const { return sample_points_m_; }
-    double median_depth_m() const { return median_depth_m_; }
+    std::span<const Eigen::Vector3d> sample_points_m() const { return samples_.points_m; }
+    double median_depth_m() const { return samples_.median_depth_m; }
 
   private:
-    void take_samples(const DepthImage& depth_m);
-
     DepthView camera_;
     std::optional<Texture> colour_, depth_;
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
@@ -71,8 +70,7 @@ class GpuView {
     bool has_steady_ = false;
     float presence_ = 1;
     std::optional<Buffer> triangles_;
-    std::vector<Eigen::Vector3d> sample_points_m_;
-    double median_depth_m_ = 0;
+    SurfaceSamples samples_;
 };
 
 /// Uploads those views that have depth, in order, reusing what is there.

@@ -10,12 +10,12 @@ constexpr double small_angle_rad = 0.02;
 
 }  // namespace
 
-double usefulness(const GpuView& source, const VirtualView& target) {
+double usefulness(std::span<const Eigen::Vector3d> sample_points_m,
+                  const Eigen::Vector3d& source_centre_m, const VirtualView& target) {
     const Pose target_from_world = target.world_from_camera.inverse();
-    const Eigen::Vector3d source_centre =
-        target_from_world * source.camera().world_from_camera.translation();
+    const Eigen::Vector3d source_centre = target_from_world * source_centre_m;
     double sum = 0;
-    for (const Eigen::Vector3d& point_world : source.sample_points_m()) {
+    for (const Eigen::Vector3d& point_world : sample_points_m) {
         const Eigen::Vector3d point = target_from_world * point_world;
         if (point.z() <= 0) continue;
         const Eigen::Vector3d pixel = target.K * point / point.z();
@@ -34,7 +34,9 @@ std::vector<const GpuView*> most_useful(std::span<const std::unique_ptr<GpuView>
                                         const VirtualView& target, std::size_t at_most) {
     std::vector<std::pair<double, const GpuView*>> ranked;
     for (const auto& view : views)
-        if (const double use = usefulness(*view, target); use > 0)
+        if (const double use = usefulness(view->sample_points_m(),
+                                          view->camera().world_from_camera.translation(), target);
+            use > 0)
             ranked.emplace_back(use, view.get());
     std::stable_sort(ranked.begin(), ranked.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -12,7 +12,8 @@ namespace vantage {
 /// How much one view can give to a virtual view: over the view's sample points that fall into the
 /// picture, the sum of 1 / (angle between the two cameras' rays at the point + a small angle). 0:
 /// it sees nothing of what is wanted.
-double usefulness(const GpuView& source, const VirtualView& target);
+double usefulness(std::span<const Eigen::Vector3d> sample_points_m,
+                  const Eigen::Vector3d& source_centre_m, const VirtualView& target);
 
 /// The `at_most` most useful views, best first, so that the cost of a picture does not grow with
 /// the stage; those of no use are left out. The pointers point into `views`.

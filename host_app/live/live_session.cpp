@@ -118,6 +118,7 @@ void LiveSession::give_to_synthesiser(const FrameSet& set) {
         if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
     }
     synthesiser_->set_views(views);
+    demand_.see(views);
 }
 
 void LiveSession::travel(double pulses) {
@@ -157,6 +158,13 @@ void LiveSession::show(FrameSet set) {
     is_new_ = true;
 }
 
+void LiveSession::ask_for_rigs(const VirtualView& view) {
+    for (const RigDemand::Change& change : demand_.update(view, MonotonicClock::now())) {
+        log_info("asking rig {} to {} sending", change.rig, change.streaming ? "start" : "stop");
+        newest_.ask(change.rig, change.streaming);
+    }
+}
+
 const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nanoseconds time) {
     if (past_pulse_) {
         std::optional<FrameSet> set = past_.at(*past_pulse_);
@@ -169,9 +177,11 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
     }
     const MonotonicTime start = MonotonicClock::now();
     if (!first_picture_) first_picture_ = start;
-    const Texture& texture = synthesiser_->render({settings_.width_px, settings_.height_px,
-                                                   view.K(settings_.width_px, settings_.height_px),
-                                                   view.world_from_camera()});
+    const VirtualView target{settings_.width_px, settings_.height_px,
+                             view.K(settings_.width_px, settings_.height_px),
+                             view.world_from_camera()};
+    ask_for_rigs(target);
+    const Texture& texture = synthesiser_->render(target);
     glFinish();
     times_.add(Stage::render, ms_since(start));
     check_gl("rendering the virtual view");

@@ -10,6 +10,7 @@
 #include "common/base/stop_signal.h"
 #include "common/colour/colour_correction.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/rig_demand.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/moment_collector.h"
@@ -94,6 +95,8 @@ class LiveSession {
   private:
     void show(FrameSet set);
     void give_to_synthesiser(const FrameSet& set);
+    /// Asks the rigs that the view needs to send, and the others to stop.
+    void ask_for_rigs(const VirtualView& view);
     void keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
                      const ColourImage& picture);
 
@@ -103,6 +106,7 @@ class LiveSession {
     NewestSet newest_;
     ReceiverStatus status_;
     std::unique_ptr<Synthesiser> synthesiser_;
+    RigDemand demand_;
     std::optional<VideoRecorder> recorder_;
     MomentCollector moments_;
 

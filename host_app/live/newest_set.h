@@ -37,6 +37,9 @@ class NewestSet {
     };
     Superseded superseded() const;
     ReceiverStatus status() const { return feed_.status(); }
+    void ask(const std::string& rig, bool streaming) const {
+        if (feed_.ask) feed_.ask(rig, streaming);
+    }
 
     /// Ends the thread and balances the books: whatever the feed closed and nobody took counts as
     /// superseded. Returns the feed's status of that moment; take() gives nothing any more.

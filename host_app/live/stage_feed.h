@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "host_app/receive/stage_receiver.h"
 
@@ -12,6 +13,8 @@ namespace vantage {
 struct StageFeed {
     std::function<std::optional<FrameSet>(std::chrono::nanoseconds)> next;
     std::function<ReceiverStatus()> status;
+    /// Asks a rig to send frames or to stop sending them; none: nobody can be asked.
+    std::function<void(const std::string& rig, bool streaming)> ask = {};
 };
 /// The receiver must outlive the feed.
 StageFeed feed_of(StageReceiver& receiver);
