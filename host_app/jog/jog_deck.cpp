@@ -184,6 +184,7 @@ void JogDeck::look(std::map<std::string, Seen>& seen) {
         devices.push_back(one.device);
         if (!one.reader) continue;
         devices.back().usable = one.reader->usable();
+        if (devices.back().usable) devices.back().fault.clear();
         devices.back().reports = one.reader->reports();
         devices.back().unread = one.reader->unread();
     }

@@ -2,6 +2,7 @@
 
 #include "host_app/live/output_clock.h"
 #include "host_app/live/panel_feed.h"
+#include "host_app/live/progress_log.h"
 
 namespace vantage {
 
@@ -9,6 +10,7 @@ std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window, const 
                             JogDeck* deck, double rate_hz, StopSignal& stop) {
     FlightControls controls(plan, session, deck);
     PanelFeed panel;
+    ProgressLog progress(plan);
     OutputClock clock(rate_hz, MonotonicClock::now());
     double last_s = 0;
     for (std::uint64_t pictures = 0;; ++pictures) {
@@ -22,6 +24,7 @@ std::uint64_t fly_in_window(LiveSession& session, OperatorWindow& window, const 
         const OrbitView view = controls.step(hands, session, time_s);
         const Texture& picture = session.make_picture(view, time);
         window.show(panel.state(session, picture, view, controls, pictures));
+        progress.tell(session, pictures + 1);
     }
     return clock.skipped();
 }

@@ -70,9 +70,12 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     glfwSwapInterval(0);
     GlInfo::query().require_vantage_minimum();
     glfwSetWindowUserPointer(window_.get(), this);
+    // Every event by itself: between two pictures a whole drag may begin and end.
     glfwSetKeyCallback(window_.get(), on_key);
+    glfwSetMouseButtonCallback(window_.get(), on_button);
+    glfwSetCursorPosCallback(window_.get(), on_cursor);
     ui_.emplace(body_font_px(height_px));
-    // Keeps our key callback and calls it in turn.
+    // Keeps our callbacks and calls them in turn.
     ImGui_ImplGlfw_InitForOther(window_.get(), true);
     renderer_.emplace(shaders_);
 }
@@ -124,20 +127,37 @@ void OperatorWindow::take_key(int key, bool control) {
     }
 }
 
-void OperatorWindow::take_mouse() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantCaptureMouse) return;
-    const double width = std::max(io.DisplaySize.x, 1.0f);
-    const double right = io.MouseDelta.x / width, down = io.MouseDelta.y / width;
-    if (io.MouseDown[ImGuiMouseButton_Left]) {
+void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) {
+    OperatorWindow& self = *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
+    if (button < 0 || button >= static_cast<int>(self.drags_.size())) return;
+    // What begins on a panel is the panel's until the button is up.
+    self.drags_[static_cast<std::size_t>(button)] =
+        action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
+}
+
+void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
+    static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window))->take_cursor(x, y);
+}
+
+void OperatorWindow::take_cursor(double x, double y) {
+    const double width = std::max(ImGui::GetIO().DisplaySize.x, 1.0f);
+    const double right = (x - cursor_x_) / width, down = (y - cursor_y_) / width;
+    cursor_x_ = x;
+    cursor_y_ = y;
+    if (drags_[GLFW_MOUSE_BUTTON_LEFT]) {
         // Across the whole window: half a turn. The stage follows the hand.
         input_.orbit_azimuth_rad -= right * std::numbers::pi;
         input_.orbit_elevation_rad += down * std::numbers::pi;
     }
-    if (io.MouseDown[ImGuiMouseButton_Right] || io.MouseDown[ImGuiMouseButton_Middle]) {
+    if (drags_[GLFW_MOUSE_BUTTON_RIGHT] || drags_[GLFW_MOUSE_BUTTON_MIDDLE]) {
         input_.pan_right_widths -= right;
         input_.pan_up_widths += down;
     }
+}
+
+void OperatorWindow::take_wheel() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantCaptureMouse) return;
     constexpr double per_notch = 0.12;
     (io.KeyCtrl ? input_.zoom : input_.dolly) += per_notch * io.MouseWheel;
 }
@@ -160,7 +180,7 @@ FlightInput OperatorWindow::poll(double dt_s) {
     glfwPollEvents();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    take_mouse();
+    take_wheel();
     take_held_keys(dt_s);
     return input_;
 }

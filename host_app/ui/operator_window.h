@@ -59,7 +59,10 @@ class OperatorWindow {
     };
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     void take_key(int key, bool control);
-    void take_mouse();
+    static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+    static void on_cursor(GLFWwindow* window, double x, double y);
+    void take_cursor(double x, double y);
+    void take_wheel();
     void take_held_keys(double dt_s);
     bool held(int key) const;
 
@@ -70,6 +73,8 @@ class OperatorWindow {
     std::optional<UiRenderer> renderer_;
     std::unique_ptr<Screen> screen_;
     FlightInput input_;
+    std::bitset<3> drags_;  ///< by button: it went down on the picture
+    double cursor_x_ = 0, cursor_y_ = 0;
     bool show_panels_ = true, show_help_ = false;
 };
 

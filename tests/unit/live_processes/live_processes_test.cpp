@@ -189,16 +189,23 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
+    const auto wait_for = [&](const char* words) {
+        for (int i = 0; i < 6000; ++i) {
+            if (host.err().find(words) != std::string::npos) break;
+            usleep(10'000);
+        }
+    };
+    wait_for(" pictures, ");
     screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // A fifth of the window's width to the right, slowly: the stage turns with the hand by 36
-    // degrees. The follower that smooths it needs a second.
-    screen.hands({"mousemove", "320", "120", "sleep", "1", "mousedown", "1", "sleep", "1",
-                  "mousemove", "448", "120", "sleep", "1", "mouseup", "1", "sleep", "3"});
+    // A fifth of the window's width to the right: the stage turns with the hand by 36 degrees.
+    screen.hands(
+        {"mousemove", "320", "120", "mousedown", "1", "mousemove", "448", "120", "mouseup", "1"});
+    wait_for("azimuth -36.0");
     screen.hands({"key", "Escape"});
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
-    EXPECT_NEAR(summary["camera"]["azimuth_deg"].get<double>(), -36, 1);
+    EXPECT_NEAR(summary["camera"]["azimuth_deg"].get<double>(), -36, 0.1) << result.err;
     EXPECT_NEAR(summary["camera"]["elevation_deg"].get<double>(), 10, 0.1);
     EXPECT_EQ(read_colour_image(file("screen.png")).size(), cv::Size(640, 360));
 }
