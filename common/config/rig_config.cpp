@@ -78,6 +78,7 @@ void read_match(TomlTable& table, RigConfig::Match& match) {
     table.read_choice("preset", match.preset, {"fast", "balanced", "quality"});
     table.read("disparities", match.disparities, {1, 256});
     table.read("fill", match.fill);
+    table.read("steady", match.steady);
 }
 
 void read_stream(TomlTable& table, RigConfig::Stream& stream) {

@@ -69,6 +69,7 @@ struct RigConfig {
         std::string preset = "balanced";
         int disparities = 64;
         bool fill = true;
+        bool steady = true;  ///< over frames, where nothing moves
     } match;
 
     struct Stream {

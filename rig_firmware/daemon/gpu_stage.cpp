@@ -46,6 +46,8 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       rectify_right_(shaders_, calibration, Side::right),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
+    if (matcher_ && config.match.steady)
+        steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
     if (rectified_already_ && !matcher_) return;
     // Drivers finish their programs at the first drawing: seconds, where the processor draws, in
     // which real frames would be lost.
@@ -93,6 +95,7 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     }
     rectify_timer_.end();
     const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
+    if (disparity && steady_) disparity = &steady_->run(*disparity, left);
     // Everything is under way before the first read waits for the GPU.
     result.colour = rectified_already_ ? frame.left : ColourImage(left.download());
     if (disparity) result.disparity = disparity->download();

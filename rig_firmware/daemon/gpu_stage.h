@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "common/wire/frame_message.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "rig_firmware/stereo/matcher.h"
+#include "rig_firmware/stereo/passes/temporal_pass.h"
 
 namespace vantage {
 
@@ -43,6 +45,7 @@ class GpuStage {
     Texture left_raw_, right_raw_;
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_;
+    std::optional<TemporalPass> steady_;
     std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")
 };
 

@@ -24,7 +24,7 @@ class LeftRightPass {
 
   private:
     StereoLayout layout_;
-    Program clear_, splat_weighted_, splat_, resolve_;
+    Program weighted_, unweighted_;
     Buffer claims_, disparity_;
 };
 

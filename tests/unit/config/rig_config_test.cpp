@@ -104,6 +104,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.match.preset, "fast");
     EXPECT_EQ(config.match.disparities, 32);
     EXPECT_FALSE(config.match.fill);
+    EXPECT_TRUE(config.match.steady);
     EXPECT_EQ(config.stream.bind, "tcp://0.0.0.0:5601");
     EXPECT_EQ(config.stream.jpeg_quality, 0);
     EXPECT_EQ(config.stream.queue_frames, 2);
