@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "common/base/error.h"
@@ -19,6 +18,7 @@
 #include "common/image/colour_map.h"
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/matcher.h"
+#include "tests/bench/cpu_time.h"
 #include "tests/bench/opencv_matchers.h"
 #include "tests/bench/stereo_scenes.h"
 #include "tests/support/data_folder.h"
@@ -33,16 +33,6 @@ struct Preset {
 constexpr Preset presets[] = {{"quality", MatchPreset::quality},
                               {"balanced", MatchPreset::balanced},
                               {"fast", MatchPreset::fast}};
-
-/// User and system time of all threads, llvmpipe's among them.
-double cpu_ms() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto ms = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
-    };
-    return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
 
 double resident_mb() {
     long pages = 0, resident = 0;

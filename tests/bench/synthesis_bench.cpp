@@ -1,0 +1,252 @@
+// Quality and time of the synthesisers: writes the tables of docs/synthesis.md between its markers,
+// and a comparison picture beside it.
+#include <iostream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/gpu_timer.h"
+#include "common/gl/limits.h"
+#include "common/image/image_file.h"
+#include "common/virtual_stage/virtual_rig.h"
+#include "common/virtual_stage/virtual_stage.h"
+#include "host_app/fusion/image_metrics.h"
+#include "host_app/fusion/synthesiser.h"
+#include "host_app/fusion/view_set.h"
+#include "tests/bench/cpu_time.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto stage_time = 2s;
+constexpr int repeats = 3;
+const std::string begin_marker = "<!-- measured: begin -->\n",
+                  end_marker = "<!-- measured: end -->";
+
+StageCamera camera_at(double azimuth_deg, cv::Size size) {
+    const StereoCalibration rig =
+        ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
+                           .width_px = size.width,
+                           .height_px = size.height});
+    return {size.width, size.height, rig.left.K(), rig.world_from_left};
+}
+
+/// What an ideal rig knows: the picture of its left camera with exact depth.
+DepthView film(VirtualStage& stage, double azimuth_deg, cv::Size size) {
+    const StageCamera camera = camera_at(azimuth_deg, size);
+    StageRendering seen = stage.render(camera, stage_time);
+    return {.name = fmt::format("{:g}", azimuth_deg),
+            .colour = seen.colour,
+            .K = camera.K,
+            .world_from_camera = camera.world_from_camera,
+            .depth_m = seen.depth_m,
+            .baseline_m = VirtualRigPlacement{}.baseline_m};
+}
+
+std::vector<DepthView> film(VirtualStage& stage, const std::vector<double>& azimuths_deg,
+                            cv::Size size) {
+    std::vector<DepthView> views;
+    for (const double azimuth_deg : azimuths_deg) views.push_back(film(stage, azimuth_deg, size));
+    return views;
+}
+
+VirtualView target_of(const DepthView& view) {
+    return {view.colour.cols, view.colour.rows, view.K, view.world_from_camera};
+}
+
+class Bench {
+  public:
+    void held_out_views(const std::filesystem::path& data) {
+        text_ << "### Real pictures, one view held out\n\n"
+                 "From the two views with ground-truth disparity; `vantage render --hold-out`.\n\n"
+                 "| scene, view | synthesiser | PSNR dB | covered only | SSIM | coverage |\n"
+                 "| --- | --- | --- | --- | --- | --- |\n";
+        for (const auto& [scene, name] :
+             {std::pair("aloe_half", "view3"), std::pair("aloe_half", "view0"),
+              std::pair("aloe_half", "view6"), std::pair("teddy", "im4"), std::pair("teddy", "im3"),
+              std::pair("teddy", "im5")}) {
+            ViewSet set = load_view_set(data / "viewsets" / scene);
+            const auto index = static_cast<std::ptrdiff_t>(set.index_of(name));
+            const DepthView truth = set.views[static_cast<std::size_t>(index)];
+            set.views.erase(set.views.begin() + index);
+            for (const SynthesiserEntry& entry : synthesiser_entries())
+                score(entry, fmt::format("{}, {}", scene, name), set.views, truth);
+        }
+    }
+
+    void stage_views() {
+        text_ << "\n### The virtual stage, exact depth, 320x240\n\n"
+                 "Halo: mean error in a 5 px band around depth edges, against `mesh`.\n\n"
+                 "| rigs at, view at (degrees) | synthesiser | PSNR dB | covered only | SSIM | "
+                 "coverage | halo |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+        struct Case {
+            const char* rigs;
+            std::vector<double> azimuths_deg;
+            double view_deg;
+        };
+        for (const Case& one :
+             {Case{"±15, ±45", {-45, -15, 15, 45}, 0}, Case{"±15, ±45", {-45, -15, 15, 45}, -30},
+              Case{"±15, ±45", {-45, -15, 15, 45}, 30}, Case{"±20, ±60", {-60, -20, 20, 60}, 0},
+              Case{"±4", {-4, 4}, 0}}) {
+            const auto views = film(stage_, one.azimuths_deg, {320, 240});
+            const DepthView truth = film(stage_, one.view_deg, {320, 240});
+            const cv::Mat1b band = depth_edge_band(truth.depth_m, 5);
+            std::map<std::string, ColourImage> pictures;
+            for (const SynthesiserEntry& entry : synthesiser_entries())
+                pictures[entry.name] = picture(entry, views, truth);
+            for (const auto& [name, picture] : pictures) {
+                const cv::Mat1b seen =
+                    band & covered_mask(picture) & covered_mask(pictures["mesh"]);
+                row(fmt::format("{}; {:g}", one.rigs, one.view_deg), name, picture, truth);
+                text_ << fmt::format(" {:.2f} |\n",
+                                     mean_error(picture, truth.colour, seen) /
+                                         mean_error(pictures["mesh"], truth.colour, seen));
+            }
+            if (comparison_.empty()) compare(pictures, truth);
+        }
+    }
+
+    void times() {
+        text_ << "\n### Time against the number of rigs\n\n"
+                 "Rigs of 640x480 around the stage. `render` is a picture of what is there; `+ "
+                 "depth` "
+                 "takes a new instant of all rigs in as well. Wall time of the GPU's work, and, "
+                 "since "
+                 "a software rasteriser shares its processor, CPU time; ms, medians of "
+              << repeats
+              << ".\n\n"
+                 "| output | synthesiser | rigs | render | CPU | + depth | CPU |\n"
+                 "| --- | --- | --- | --- | --- | --- | --- |\n";
+        const std::vector<double> order_deg = {-15, 15, -45, 45, -30, 30, -60, 60};
+        for (const cv::Size size : {cv::Size(1280, 720), cv::Size(1920, 1080)})
+            for (const char* name : {"mesh", "fused"})
+                for (const std::size_t rigs : {1u, 2u, 4u, 8u}) {
+                    const auto views = film(
+                        stage_, {order_deg.begin(), order_deg.begin() + static_cast<long>(rigs)},
+                        {640, 480});
+                    const StageCamera camera = camera_at(0, size);
+                    const VirtualView target{size.width, size.height, camera.K,
+                                             camera.world_from_camera};
+                    const auto synthesiser = make_synthesiser(name, shaders_);
+                    synthesiser->set_views(views);
+                    synthesiser->render(target);
+                    text_ << fmt::format("| {}x{} | {} | {} |", size.width, size.height, name,
+                                         rigs);
+                    time([&] { synthesiser->render(target); });
+                    time([&] {
+                        synthesiser->set_views(views);
+                        synthesiser->render(target);
+                    });
+                    text_ << "\n";
+                }
+    }
+
+    std::string tables() const {
+        return fmt::format("Measured on {}.\n\n", GlInfo::query().renderer) + text_.str();
+    }
+    const ColourImage& comparison() const { return comparison_; }
+
+  private:
+    ColourImage picture(const SynthesiserEntry& entry, const std::vector<DepthView>& views,
+                        const DepthView& truth) {
+        const auto synthesiser = entry.make(shaders_);
+        synthesiser->set_views(views);
+        return synthesiser->render(target_of(truth)).download();
+    }
+
+    void row(const std::string& what, const std::string& name, const ColourImage& picture,
+             const DepthView& truth) {
+        text_ << fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} |", what, name,
+                             psnr_db(picture, truth.colour),
+                             psnr_db(picture, truth.colour, covered_mask(picture)),
+                             ssim(picture, truth.colour), coverage(picture));
+    }
+
+    void score(const SynthesiserEntry& entry, const std::string& what,
+               const std::vector<DepthView>& views, const DepthView& truth) {
+        row(what, entry.name, picture(entry, views, truth), truth);
+        text_ << "\n";
+    }
+
+    /// The synthesisers' pictures in a row, the truth last; their differences from it below.
+    void compare(const std::map<std::string, ColourImage>& pictures, const DepthView& truth) {
+        std::vector<cv::Mat> above, below;
+        for (const auto& [name, picture] : pictures) {
+            above.push_back(picture);
+            below.push_back(difference_picture(picture, truth.colour));
+        }
+        above.push_back(truth.colour);
+        below.push_back(ColourImage(truth.colour.size(), cv::Vec4b(0, 0, 0, 255)));
+        cv::Mat rows[2], both;
+        cv::hconcat(above, rows[0]);
+        cv::hconcat(below, rows[1]);
+        cv::vconcat(rows[0], rows[1], both);
+        comparison_ = both;
+    }
+
+    template <typename Work>
+    void time(const Work& work) {
+        const double before_ms = cpu_ms();
+        const double wall_ms = median_gpu_ms(repeats, work);
+        text_ << fmt::format(" {:.1f} | {:.0f} |", wall_ms, (cpu_ms() - before_ms) / repeats);
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    VirtualStage stage_{shaders_};
+    std::ostringstream text_;
+    ColourImage comparison_;
+};
+
+void put_between_markers(const std::filesystem::path& file, const std::string& tables) {
+    constexpr std::size_t max_bytes = std::size_t{1} << 20;
+    const std::vector<std::byte> bytes = read_file(file, max_bytes);
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t begin = text.find(begin_marker), end = text.find(end_marker);
+    if (begin == std::string::npos || end == std::string::npos || end < begin)
+        fail("{} lacks the lines '{}' and '{}'; put them where the tables go", file.string(),
+             begin_marker.substr(0, begin_marker.size() - 1), end_marker);
+    text.replace(begin + begin_marker.size(), end - begin - begin_marker.size(), tables + "\n");
+    write_file_atomically(file, std::as_bytes(std::span(text)));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Quality and time of the synthesisers");
+    std::string document, picture;
+    bool without_times = false;
+    app.add_option("--write", document, "Markdown file whose tables are written anew");
+    app.add_option("--picture", picture, "Comparison picture to write (.jpg or .png)");
+    app.add_flag("--without-times", without_times, "Quality only");
+    CLI11_PARSE(app, argc, argv);
+    Bench bench;
+    if (const auto data = data_folder()) bench.held_out_views(*data);
+    bench.stage_views();
+    if (!without_times) bench.times();
+    std::cout << bench.tables();
+    if (!picture.empty()) write_colour_image(picture, bench.comparison());
+    if (!document.empty()) put_between_markers(document, bench.tables());
+    return 0;
+}
+
+}  // namespace
+}  // namespace vantage
+
+int main(int argc, char** argv) {
+    try {
+        return vantage::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::cerr << "synthesis_bench: " << error.what() << '\n';
+        return 1;
+    }
+}
