@@ -12,7 +12,7 @@ struct StageConfig {
         std::string name;
         std::string endpoint;          ///< tcp://host:port of the rig's publisher
         std::string public_key;        ///< the rig's CURVE public key, Z85; needed beyond loopback
-        std::filesystem::path colour;  ///< its colour correction; empty: none
+        std::filesystem::path colour{};  ///< its colour correction; empty: none
     };
     std::vector<Rig> rigs;
     std::filesystem::path key_file;  ///< this host's CURVE key pair
