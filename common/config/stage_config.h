@@ -10,8 +10,8 @@ namespace vantage {
 struct StageConfig {
     struct Rig {
         std::string name;
-        std::string endpoint;          ///< tcp://host:port of the rig's publisher
-        std::string public_key;        ///< the rig's CURVE public key, Z85; needed beyond loopback
+        std::string endpoint;    ///< tcp://host:port of the rig's publisher
+        std::string public_key;  ///< the rig's CURVE public key, Z85; needed beyond loopback
         std::filesystem::path colour{};  ///< its colour correction; empty: none
     };
     std::vector<Rig> rigs;
