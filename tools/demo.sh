@@ -92,7 +92,7 @@ port=5600
 if [ -z "$left" ]; then
   move=hw_config/moves/demo.toml
   i=0
-  for azimuth in -45 -15 15 45; do
+  for azimuth in -30 -10 10 30; do
     i=$((i + 1))
     port=$(free_port $((port + 1)))
     rig_config "rig$i" "$port" <<END

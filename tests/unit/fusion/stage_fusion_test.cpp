@@ -46,8 +46,8 @@ struct Score {
 /// Renders the view at an azimuth and compares it with the stage's own picture; both go to
 /// $VANTAGE_TEST_PICTURES where that is set, for a person to look at.
 Score score(Synthesiser& synthesiser, VirtualStage& stage, double azimuth_deg,
-            const std::string& name) {
-    const StageCamera camera = camera_at(azimuth_deg, 320, 240);
+            const std::string& name, int width_px = 320, int height_px = 240) {
+    const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
     const ColourImage truth =
         stage.render(camera, stage_time, {.pictures = StagePictures::colour}).colour;
     const ColourImage picture =
@@ -108,6 +108,24 @@ INSTANTIATE_TEST_SUITE_P(All, StageFusionTest,
                                          Reached{"layered", 25, 0.84, 28, 0.88},
                                          Reached{"fused", 27.3, 0.9, 30, 0.93}),
                          [](const auto& test) { return std::string(test.param.synthesiser); });
+
+/// How a stage is meant to be filmed: rigs 20 degrees apart, pictures of television's old size.
+TEST(FusedStage, IsWithinThirtyDecibelsBetweenRigsTwentyDegreesApart) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    const DepthView views[] = {film(stage, -30, 640, 480), film(stage, -10, 640, 480),
+                               film(stage, 10, 640, 480), film(stage, 30, 640, 480)};
+    synthesiser->set_views(views);
+    for (const double azimuth_deg : {0.0, -20.0, 20.0}) {
+        const Score s = score(*synthesiser, stage, azimuth_deg,
+                              "fused-close-arc-" + std::to_string(azimuth_deg), 640, 480);
+        EXPECT_GE(s.psnr_covered_db, 30) << "at " << azimuth_deg;
+        EXPECT_GE(s.ssim, 0.93) << "at " << azimuth_deg;
+        EXPECT_GE(s.coverage, 0.92) << "at " << azimuth_deg;
+    }
+}
 
 /// Halos are errors beside depth edges.
 TEST(StageHalos, AreFewerInTheFusedPictureThanBetweenMeshes) {
