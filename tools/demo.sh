@@ -35,7 +35,7 @@ trap 'exit 130' INT TERM
 if "$bin/vantage-rig" probe --json 2>/dev/null | grep -q '"is_software": *false'; then
   rate_hz=30 fps=30 size=1280x720 latency_budget_ms=200
 else
-  rate_hz=2 fps=6 size=640x360 latency_budget_ms=1500
+  rate_hz=2 fps=4 size=480x270 latency_budget_ms=1500
   # Four rigs share the processor: one drawing thread each does the same work with less waiting.
   export LP_NUM_THREADS=1
 fi
@@ -149,10 +149,11 @@ echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs a
 
 # A processor that draws everything also compiles the programs first; a slow one takes its time.
 live=(live --stage "$demo/stage.toml" --wait 60)
+host=(env -u LP_NUM_THREADS "$bin/vantage")
 if $headless; then
-  "$bin/vantage" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
+  "${host[@]}" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 else
-  "$bin/vantage" "${live[@]}" --path "$move"
+  "${host[@]}" "${live[@]}" --path "$move"
 fi
