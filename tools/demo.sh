@@ -151,7 +151,8 @@ echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs a
 live=(live --stage "$demo/stage.toml" --wait 60)
 host=(env -u LP_NUM_THREADS "$bin/vantage")
 if $headless; then
-  "${host[@]}" "${live[@]}" --headless --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
+  # Nobody goes back in time here.
+  "${host[@]}" "${live[@]}" --headless --past-mb 64 --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 else
