@@ -1,12 +1,8 @@
 #include "host_app/fusion/edge_trust.h"
 
+#include "host_app/fusion/depth_edges.h"
+
 namespace vantage {
-namespace {
-
-/// Depths that differ by more than this ratio lie on two surfaces.
-constexpr float edge_ratio = 1.04f;
-
-}  // namespace
 
 void EdgeTrust::judge(GpuView& view) {
     // Asked for before anything is bound: making a texture binds it.
@@ -14,7 +10,7 @@ void EdgeTrust::judge(GpuView& view) {
     Program& program = pass_.use();
     program.set("picture", 0);
     program.set("depth_map", 1);
-    program.set("edge_ratio", edge_ratio);
+    program.set("edge_ratio", depth_edge_ratio);
     view.colour().bind(0);
     view.surface().bind(1);
     pass_.draw(target);

@@ -1,10 +1,9 @@
 #include "host_app/fusion/layer_splitter.h"
 
+#include "host_app/fusion/depth_edges.h"
+
 namespace vantage {
 namespace {
-
-/// Depths that differ by more than this ratio lie on two surfaces.
-constexpr float edge_ratio = 1.04f;
 
 FullscreenPass pass(const ShaderLibrary& library, const char* boundary, const char* depth) {
     return {library, "layer_split.frag", {{"BOUNDARY", boundary}, {"DEPTH", depth}}};
@@ -14,7 +13,7 @@ void draw(FullscreenPass& pass, const GpuView& source, const Framebuffer& target
     Program& program = pass.use();
     program.set("picture", 0);
     program.set("depth_map", 1);
-    program.set("edge_ratio", edge_ratio);
+    program.set("edge_ratio", depth_edge_ratio);
     source.colour().bind(0);
     source.depth().bind(1);
     pass.draw(target);
