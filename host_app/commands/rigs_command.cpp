@@ -22,8 +22,7 @@ struct Options {
 
 /// Looks until every rig has answered, or the time is up. Frames are not asked for.
 ReceiverStatus look(const StageConfig& stage, double wait_s) {
-    StageReceiver receiver(stage);
-    for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, false, 1);
+    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
     StopSignal stop;
     constexpr std::chrono::milliseconds look_every(50);
     const MonotonicTime end =

@@ -83,14 +83,16 @@ struct StageReceiver::Impl {
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
 
-    explicit Impl(const StageConfig& stage)
-        : assembler(names_of(stage), assembler_options(stage)),
+    Impl(const StageConfig& stage, Purpose why)
+        : purpose(why),
+          assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
           closed_sets(max_closed_sets) {
         std::optional<CurveKeys> keys;
         if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
         for (const StageConfig::Rig& rig : stage.rigs)
             rigs.push_back(std::make_unique<Rig>(context, rig, keys));
+        for (const auto& rig : rigs) rig->wish.streaming = purpose == Purpose::film;
         for (std::size_t i = 0; i < rigs.size(); ++i)
             rigs[i]->decoder = std::thread([this, i] { decode_all(i); });
         io_thread = std::thread([this] { run(); });
@@ -146,11 +148,9 @@ struct StageReceiver::Impl {
         start_take(now);
     }
 
-    /// One that asks no rig for frames only looks on. Precondition: mutex is held.
+    /// Precondition: mutex is held.
     void start_take(MonotonicTime now) {
-        if (std::none_of(rigs.begin(), rigs.end(),
-                         [](const auto& rig) { return rig->wish.streaming; }))
-            return;
+        if (purpose == Purpose::look_on) return;
         std::vector<TakeStarter::Rig> all;
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);
@@ -262,6 +262,7 @@ struct StageReceiver::Impl {
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
     }
 
+    const Purpose purpose;
     zmq::context_t context;
     std::vector<std::unique_ptr<Rig>> rigs;
 
@@ -291,7 +292,8 @@ std::string clock_text(const RigStatus& rig) {
                              rig.sync.ptp_state);
 }
 
-StageReceiver::StageReceiver(const StageConfig& stage) : impl_(std::make_unique<Impl>(stage)) {}
+StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose)
+    : impl_(std::make_unique<Impl>(stage, purpose)) {}
 
 StageReceiver::~StageReceiver() = default;
 

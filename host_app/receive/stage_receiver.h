@@ -61,8 +61,13 @@ std::string clock_text(const RigStatus& rig);
 /// makes them drop, oldest first, before anything crosses the network. Thread-safe.
 class StageReceiver {
   public:
+    enum class Purpose {
+        film,    ///< asks every rig for its frames and starts the stage's take
+        look_on  ///< asks for none until ask() does, and leaves the take to the host that films
+    };
+
     /// Throws Error if a key or an endpoint is unusable.
-    explicit StageReceiver(const StageConfig& stage);
+    explicit StageReceiver(const StageConfig& stage, Purpose purpose = Purpose::film);
     ~StageReceiver();
 
     /// The next closed set, oldest first, within bounded memory; empty when the time is up.

@@ -366,14 +366,13 @@ TEST_F(LinkTest, ARigThatIsStartedAgainJoinsTheRunningTake) {
     EXPECT_TRUE(eventually([&] { return again.announced_pulse() == 4711; }));
 }
 
-TEST_F(LinkTest, AHostThatAsksForNoFramesStartsNoTake) {
+TEST_F(LinkTest, AHostThatOnlyLooksOnStartsNoTake) {
     Publisher rig(open_stream(), "rig-a");
     RigSync armed;
     armed.role = RigSync::Role::lead;
     armed.ready = true;
     rig.report(armed);
-    StageReceiver onlooker(stage_of(rig));
-    onlooker.ask("rig-a", false, 1);
+    StageReceiver onlooker(stage_of(rig), StageReceiver::Purpose::look_on);
     ASSERT_TRUE(eventually([&] { return onlooker.status().rigs[0].sync == armed; }));
     std::this_thread::sleep_for(2 * heartbeat_period);
     EXPECT_EQ(rig.announced_pulse(), 0u);
