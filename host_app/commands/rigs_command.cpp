@@ -8,8 +8,8 @@
 #include "common/base/error.h"
 #include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
+#include "common/receive/stage_receiver.h"
 #include "host_app/live/live_report.h"
-#include "host_app/receive/stage_receiver.h"
 
 namespace vantage {
 namespace {

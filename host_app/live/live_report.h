@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/percentiles.h"
+#include "common/receive/stage_receiver.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/jog/jog_deck.h"
-#include "host_app/receive/stage_receiver.h"
 
 namespace vantage {
 

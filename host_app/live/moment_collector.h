@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/image/image.h"
-#include "host_app/receive/frame_set.h"
+#include "common/receive/frame_set.h"
 
 namespace vantage {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host_app/receive/stage_receiver.h"
+#include "common/receive/stage_receiver.h"
 
 namespace vantage {
 

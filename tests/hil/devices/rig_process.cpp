@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/config/stage_config.h"
-#include "host_app/receive/stage_receiver.h"
+#include "common/receive/stage_receiver.h"
 
 namespace vantage {
 namespace {

@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
-#include "host_app/receive/stage_receiver.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"

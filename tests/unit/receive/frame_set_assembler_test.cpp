@@ -1,4 +1,4 @@
-#include "host_app/receive/frame_set_assembler.h"
+#include "common/receive/frame_set_assembler.h"
 
 #include <algorithm>
 #include <chrono>

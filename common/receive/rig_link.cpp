@@ -1,4 +1,4 @@
-#include "host_app/receive/rig_link.h"
+#include "common/receive/rig_link.h"
 
 #include <cstring>
 #include <iterator>

@@ -8,9 +8,9 @@
 
 #include "common/base/time.h"
 #include "common/config/stage_config.h"
+#include "common/receive/link_account.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
-#include "host_app/receive/link_account.h"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "host_app/receive/stage_receiver.h"
+#include "common/receive/stage_receiver.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,14 +14,14 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/endpoint.h"
+#include "common/receive/frame_set_assembler.h"
+#include "common/receive/rig_link.h"
+#include "common/receive/take_starter.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/limits.h"
 #include "common/wire/wake_event.h"
 #include "common/wire/zmq_helpers.h"
-#include "host_app/receive/frame_set_assembler.h"
-#include "host_app/receive/rig_link.h"
-#include "host_app/receive/take_starter.h"
 
 namespace vantage {
 namespace {

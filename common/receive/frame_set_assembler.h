@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/base/time.h"
-#include "host_app/receive/frame_set.h"
-#include "host_app/receive/stage_step.h"
+#include "common/receive/frame_set.h"
+#include "common/receive/stage_step.h"
 
 namespace vantage {
 

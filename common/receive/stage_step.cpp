@@ -1,4 +1,4 @@
-#include "host_app/receive/stage_step.h"
+#include "common/receive/stage_step.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "host_app/receive/take_starter.h"
+#include "common/receive/take_starter.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "host_app/receive/link_account.h"
+#include "common/receive/link_account.h"
 
 #include "common/base/error.h"
 

@@ -9,7 +9,7 @@
 
 #include "common/base/percentiles.h"
 #include "common/config/stage_config.h"
-#include "host_app/receive/frame_set.h"
+#include "common/receive/frame_set.h"
 
 namespace vantage {
 
