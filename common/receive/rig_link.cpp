@@ -128,6 +128,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.link = message.counters;
     view_.rig_counters = message.rig_counters;
     view_.sync = message.sync;
+    view_.health = message.health;
     if (!with_frame) return false;
     delivery.message = std::move(message);
     std::move(parts.begin() + 1, parts.end(), delivery.parts.begin());

@@ -45,6 +45,7 @@ class RigLink {
         LinkCounters link;
         RigCounters rig_counters;
         RigSync sync;
+        RigHealth health;
     };
 
     /// Frames under way or waiting to be decoded.

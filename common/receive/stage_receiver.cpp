@@ -259,6 +259,7 @@ struct StageReceiver::Impl {
         status.link = view.link;
         status.rig_counters = view.rig_counters;
         status.sync = std::move(view.sync);
+        status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
     }
 

@@ -10,6 +10,7 @@
 #include "common/base/percentiles.h"
 #include "common/config/stage_config.h"
 #include "common/receive/frame_set.h"
+#include "common/wire/link_message.h"
 
 namespace vantage {
 
@@ -36,6 +37,7 @@ struct RigStatus {
     LinkCounters link;         ///< of the frames on their way to this host, as the rig counts
     RigCounters rig_counters;  ///< as the rig last reported
     RigSync sync;              ///< as the rig last reported
+    RigHealth health;          ///< as the rig last reported
     bool same_clock = false;   ///< the rig is a program on this computer
     RigStageTimes rig_times;
     Percentiles latency_ms;  ///< exposure to decoded

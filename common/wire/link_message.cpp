@@ -1,5 +1,8 @@
 #include "common/wire/link_message.h"
 
+#include <cmath>
+#include <string_view>
+
 #include "common/base/error.h"
 #include "common/wire/header_fields.h"
 #include "common/wire/limits.h"
@@ -8,7 +11,44 @@
 namespace vantage {
 namespace {
 
+void check_printable(std::string_view what, std::string_view text) {
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) < ' ') fail("a {} with control characters came", what);
+}
+
 constexpr std::size_t max_refusal_chars = 512;
+constexpr std::size_t max_date_chars = 40;
+
+void to_wire(const RigHealth& health, wire::Health& out) {
+    if (health.temperature_c) out.set_temperature_c(*health.temperature_c);
+    out.set_under_voltage(health.under_voltage);
+    out.set_captured_hz(health.captured_hz);
+    out.set_published_hz(health.published_hz);
+    out.set_calibration_id(health.calibration_id);
+    out.set_calibration_date(health.calibration_date.substr(0, max_date_chars));
+    out.set_calibration_row_rms_px(health.calibration_row_rms_px);
+}
+
+RigHealth from_wire(const wire::Health& in) {
+    for (const float value : {in.temperature_c(), in.captured_hz(), in.published_hz(),
+                              in.calibration_row_rms_px()})
+        if (!std::isfinite(value)) fail("a rig's health holds {}, which is no number", value);
+    if (!in.calibration_id().empty()) check_name("calibration", in.calibration_id());
+    const std::string& date = in.calibration_date();
+    if (date.size() > max_date_chars)
+        fail("a calibration date of {} characters is beyond the limit of {}", date.size(),
+             max_date_chars);
+    check_printable("calibration date", date);
+    RigHealth health;
+    if (in.has_temperature_c()) health.temperature_c = in.temperature_c();
+    health.under_voltage = in.under_voltage();
+    health.captured_hz = in.captured_hz();
+    health.published_hz = in.published_hz();
+    health.calibration_id = in.calibration_id();
+    health.calibration_date = date;
+    health.calibration_row_rms_px = in.calibration_row_rms_px();
+    return health;
+}
 
 }  // namespace
 
@@ -53,6 +93,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
     out.set_thinned(message.counters.thinned);
     to_wire(message.rig_counters, *out.mutable_counters());
     to_wire(message.sync, *out.mutable_sync());
+    to_wire(message.health, *out.mutable_health());
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
     return serialise(out);
 }
@@ -65,8 +106,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     if (in.refusal().size() > max_refusal_chars)
         fail("a refusal of {} characters is beyond the limit of {}", in.refusal().size(),
              max_refusal_chars);
-    for (const char c : in.refusal())
-        if (static_cast<unsigned char>(c) < ' ') fail("a refusal with control characters came");
+    check_printable("refusal", in.refusal());
     if (in.refusal().empty() && in.link() == 0) fail("a rig message without link came");
     RigMessage message;
     message.rig = in.rig();
@@ -75,6 +115,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.counters = {in.offered(), in.sent(), in.send_dropped(), in.thinned()};
     message.rig_counters = from_wire(in.counters());
     message.sync = from_wire(in.sync());
+    message.health = from_wire(in.health());
     message.refusal = in.refusal();
     return message;
 }

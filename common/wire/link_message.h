@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,18 @@ struct HostMessage {
     bool operator==(const HostMessage&) const = default;
 };
 
+/// How the rig's computer and its calibration are.
+struct RigHealth {
+    std::optional<float> temperature_c;  ///< the hottest of its sensors; empty: it has none
+    bool under_voltage = false;          ///< the computer says that its supply sags
+    float captured_hz = 0, published_hz = 0;  ///< over the last seconds
+    std::string calibration_id;
+    std::string calibration_date;      ///< ISO 8601; empty: not from a file
+    float calibration_row_rms_px = 0;  ///< row error after rectification, when it was made
+
+    bool operator==(const RigHealth&) const = default;
+};
+
 /// What a rig tells a host: alone as heartbeat or refusal, and before each frame.
 struct RigMessage {
     std::string rig;
@@ -32,6 +45,7 @@ struct RigMessage {
     LinkCounters counters;   ///< of this link; `sent` numbers the frame that follows
     RigCounters rig_counters;
     RigSync sync;
+    RigHealth health;
     std::string refusal;  ///< a sentence, when the rig does not serve this host; else empty
 };
 

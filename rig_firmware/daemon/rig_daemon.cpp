@@ -13,9 +13,11 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
+#include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/ptp4l_client.h"
 #include "rig_firmware/daemon/gpu_stage.h"
+#include "rig_firmware/daemon/health_monitor.h"
 #include "rig_firmware/daemon/timecode.h"
 #include "rig_firmware/trigger/rig_trigger.h"
 
@@ -29,6 +31,17 @@ struct CapturedFrame {
     StereoFrame frame;
     float capture_ms = 0;
 };
+
+/// What of a rig's health stays as it is.
+RigHealth facts_of(const RigConfig& config, const StereoCalibration& calibration) {
+    RigHealth facts;
+    facts.calibration_id = calibration.id;
+    if (config.calibration.empty()) return facts;
+    const CalibrationRecord record = load_calibration_record(config.calibration);
+    facts.calibration_date = record.date;
+    facts.calibration_row_rms_px = static_cast<float>(record.row_rms_px);
+    return facts;
+}
 
 }  // namespace
 
@@ -44,7 +57,7 @@ struct RigDaemon::Impl {
     void capture_one(StereoSource& source);
     void run_gpu(const StereoCalibration& calibration, std::promise<void> ready);
     void publish();
-    void keep_in_step();
+    void keep_in_step(const RigHealth& facts);
     RigSync sync_now(const std::optional<PtpState>& ptp) const;
     void stop();
 
@@ -117,7 +130,9 @@ void RigDaemon::Impl::start() {
         finished = true;
     });
     all_stand.set_value();
-    sync_thread = std::thread([this] { guarded("sync", [&] { keep_in_step(); }); });
+    sync_thread = std::thread([this, facts = facts_of(config, calibration)] {
+        guarded("sync", [&] { keep_in_step(facts); });
+    });
 }
 
 void RigDaemon::Impl::capture(std::promise<cv::Size> ready, const std::future<void>& go) {
@@ -159,13 +174,18 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
     });
 }
 
-/// Hands the host's first pulse to the trigger, and the state of pulses and clocks to the host.
-void RigDaemon::Impl::keep_in_step() {
+/// Hands the host's first pulse to the trigger, and the state of pulses, clocks and computer to
+/// the host.
+void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     constexpr std::chrono::milliseconds look_every(50);
-    constexpr int looks_between_ptp = 20;
+    constexpr int looks_per_second = 20;
     std::optional<PtpState> ptp;
+    HealthMonitor monitor(facts);
     for (int look = 0; !stopping && !finished; ++look) {
-        if (look % looks_between_ptp == 0) ptp = read_ptp4l();
+        if (look % looks_per_second == 0) {
+            ptp = read_ptp4l();
+            publisher.report(monitor.look(publisher.status().counters, MonotonicClock::now()));
+        }
         if (trigger) {
             trigger->rethrow_failure();
             if (const std::uint64_t first = publisher.announced_pulse()) trigger->announce(first);

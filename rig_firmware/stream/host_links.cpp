@@ -172,6 +172,7 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.counters = link.counters;
     message.rig_counters = rig_counters_;
     message.sync = sync_;
+    message.health = health_;
     return message;
 }
 

@@ -74,6 +74,8 @@ class HostLinks {
     /// As heartbeats and messages report it.
     void set_sync(RigSync sync) { sync_ = std::move(sync); }
     const RigSync& sync() const { return sync_; }
+    void set_health(RigHealth health) { health_ = std::move(health); }
+    const RigHealth& health() const { return health_; }
 
     std::vector<HostStatus> hosts() const;
 
@@ -104,6 +106,7 @@ class HostLinks {
     std::size_t queue_frames_;
     RigCounters rig_counters_;
     RigSync sync_;
+    RigHealth health_;
     std::vector<Link> links_;
     std::vector<Outgoing> refusals_;
 };

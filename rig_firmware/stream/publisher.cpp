@@ -242,6 +242,11 @@ void Publisher::report(const RigSync& sync) {
     impl_->links.set_sync(sync);
 }
 
+void Publisher::report(const RigHealth& health) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->links.set_health(health);
+}
+
 std::uint64_t Publisher::announced_pulse() const { return impl_->announced_pulse; }
 
 PublisherStatus Publisher::status() const {

@@ -39,6 +39,8 @@ class Publisher {
     /// Tells hosts, in every message and frame, how this rig stands to clock and pulses. Any
     /// thread.
     void report(const RigSync& sync);
+    /// And how its computer and its calibration are. Any thread.
+    void report(const RigHealth& health);
 
     /// The first pulse of the take as a host last announced it; 0: none did. Any thread.
     std::uint64_t announced_pulse() const;

@@ -24,6 +24,8 @@ TEST_P(StopSignalTest, SaysThatTheProgramIsAskedToStop) {
 TEST_P(StopSignalTest, ASecondSignalEndsTheProgram) {
     EXPECT_EXIT(
         {
+            // A shell starts what runs in the background with SIGINT ignored.
+            std::signal(GetParam(), SIG_DFL);
             StopSignal stop;
             kill(getpid(), GetParam());
             stop.wait_for(10s);

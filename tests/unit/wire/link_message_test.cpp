@@ -1,5 +1,6 @@
 #include "common/wire/link_message.h"
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -43,6 +44,7 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     sent.sync.first_pulse = 4711;
     sent.sync.ptp_state = "SLAVE";
     sent.sync.ptp_offset_ns = -12.5;
+    sent.health = {61.5f, true, 30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z", 0.125f};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
@@ -50,6 +52,7 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     EXPECT_EQ(got.counters, sent.counters);
     EXPECT_EQ(got.rig_counters, sent.rig_counters);
     EXPECT_EQ(got.sync, sent.sync);
+    EXPECT_EQ(got.health, sent.health);
     EXPECT_EQ(got.refusal, "");
 }
 
@@ -100,6 +103,15 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.set_refusal(std::string(513, 'x')); }),
                 HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal([](auto& m) { m.set_refusal("red\x1b[31m"); }),
+                HasSubstr("control characters"));
+    EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_captured_hz(NAN); }),
+                HasSubstr("no number"));
+    EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_id("a b"); }),
+                HasSubstr("calibration name"));
+    EXPECT_THAT(
+        refusal([](auto& m) { m.mutable_health()->set_calibration_date(std::string(41, '2')); }),
+        HasSubstr("beyond the limit"));
+    EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_date("\x1b[2J"); }),
                 HasSubstr("control characters"));
     EXPECT_THAT(refusal_of(decode_rig_message, {std::byte{0x12}, std::byte{0x7f}}),
                 HasSubstr("truncated"));
