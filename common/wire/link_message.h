@@ -27,8 +27,8 @@ struct HostMessage {
 
 /// How the rig's computer and its calibration are.
 struct RigHealth {
-    std::optional<float> temperature_c;  ///< the hottest of its sensors; empty: it has none
-    bool under_voltage = false;          ///< the computer says that its supply sags
+    std::optional<float> temperature_c;       ///< the hottest of its sensors; empty: it has none
+    bool under_voltage = false;               ///< the computer says that its supply sags
     float captured_hz = 0, published_hz = 0;  ///< over the last seconds
     std::string calibration_id;
     std::string calibration_date;      ///< ISO 8601; empty: not from a file

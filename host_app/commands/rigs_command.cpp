@@ -9,6 +9,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
+#include "common/wire/status_report.h"
 #include "host_app/live/live_report.h"
 
 namespace vantage {
@@ -39,28 +40,13 @@ ReceiverStatus look(const StageConfig& stage, double wait_s) {
 }
 
 nlohmann::ordered_json to_json(const RigStatus& rig) {
-    const RigCounters& counters = rig.rig_counters;
     return {{"name", rig.rig},
             {"state", state_of(rig)},
             {"clock", clock_text(rig)},
-            {"disciplined", rig.sync.disciplined || rig.same_clock},
-            {"ptp_state", rig.sync.ptp_state},
-            {"ptp_offset_ns", rig.sync.ptp_offset_ns},
-            {"ptp_path_delay_ns", rig.sync.ptp_path_delay_ns},
-            {"clock_ppm", rig.sync.clock_ppm},
-            {"ready", rig.sync.ready},
-            {"first_pulse", rig.sync.first_pulse},
-            {"pulses", rig.sync.pulses},
-            {"pulses_skipped", rig.sync.skipped},
-            {"lateness_us",
-             {{"p50", rig.sync.lateness_p50_us},
-              {"p99", rig.sync.lateness_p99_us},
-              {"max", rig.sync.lateness_max_us}}},
-            {"unsynchronized", rig.sync.unsynchronized},
-            {"captured", counters.captured},
-            {"missed", counters.missed},
-            {"late", counters.late},
-            {"published", counters.published}};
+            {"same_clock", rig.same_clock},
+            {"sync", to_json(rig.sync)},
+            {"health", to_json(rig.health)},
+            {"frames", to_json(rig.rig_counters)}};
 }
 
 void run(const Options& options) {
@@ -76,15 +62,12 @@ void run(const Options& options) {
         std::cout << fmt::format("{}: {}\n", rig.rig, state_of(rig));
         if (!rig.connected) continue;
         const RigCounters& counters = rig.rig_counters;
-        std::cout << fmt::format("    {}\n    captured {}, missed {}, late {}, published {}\n",
-                                 clock_text(rig), counters.captured, counters.missed, counters.late,
-                                 counters.published);
-        if (rig.sync.role != RigSync::Role::free)
-            std::cout << fmt::format(
-                "    {} pulses, {} skipped; late us p50 {:.1f}, p99 {:.1f}, max {:.1f}; {} frames "
-                "without a pulse\n",
-                rig.sync.pulses, rig.sync.skipped, rig.sync.lateness_p50_us,
-                rig.sync.lateness_p99_us, rig.sync.lateness_max_us, rig.sync.unsynchronized);
+        std::cout << fmt::format(
+            "    {}\n    {}\n    captured {}, missed {}, late {}, published {}\n", clock_text(rig),
+            health_text(rig.health), counters.captured, counters.missed, counters.late,
+            counters.published);
+        if (const std::string pulses = pulse_text(rig.sync); !pulses.empty())
+            std::cout << "    " << pulses << '\n';
     }
 }
 
@@ -95,8 +78,9 @@ CommandEntry rigs_command_entry() {
         CLI::App* rigs = program.add_subcommand("rigs", "The rigs of a stage");
         rigs->require_subcommand(1);
         auto options = std::make_shared<Options>();
-        CLI::App* status = rigs->add_subcommand(
-            "status", "Every rig: its clock by the stage's, pulses, and what became of its frames");
+        CLI::App* status = rigs->add_subcommand("status",
+                                                "Every rig: clock, pulses, rates, temperature, "
+                                                "calibration, and what became of its frames");
         status->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
             ->required();
         status->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")

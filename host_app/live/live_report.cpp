@@ -5,31 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/status_report.h"
+
 namespace vantage {
 namespace {
-
-nlohmann::ordered_json to_json(const Percentiles& p) {
-    return {{"count", p.count}, {"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}};
-}
-
-nlohmann::ordered_json to_json(const RigStatus& rig) {
-    const RigSync& sync = rig.sync;
-    return {{"clock", clock_text(rig)},
-            {"ready", sync.ready},
-            {"first_pulse", sync.first_pulse},
-            {"pulses", sync.pulses},
-            {"skipped", sync.skipped},
-            {"unsynchronized", sync.unsynchronized},
-            {"lateness_us",
-             {{"p50", sync.lateness_p50_us},
-              {"p99", sync.lateness_p99_us},
-              {"max", sync.lateness_max_us}}},
-            {"clock_ppm", sync.clock_ppm},
-            {"clock_steps", sync.clock_steps},
-            {"disciplined", sync.disciplined || rig.same_clock},
-            {"ptp_offset_ns", sync.ptp_offset_ns},
-            {"ptp_path_delay_ns", sync.ptp_path_delay_ns}};
-}
 
 /// One counter of a rig: its key for machines and its heading for people.
 struct Counter {
@@ -108,13 +87,10 @@ std::string rig_remarks(const LiveReport& report) {
             text += fmt::format("{} is {}\n", rig.status.rig, state_of(rig.status));
         else if (!rig.status.same_clock)
             text += fmt::format("{}: {}\n", rig.status.rig, clock_text(rig.status));
-        if (rig.status.sync.role != RigSync::Role::free)
-            text += fmt::format(
-                "{}: {} pulses, {} skipped; late us p50 {:.1f}, p99 {:.1f}, max {:.1f}; {} frames "
-                "without a pulse\n",
-                rig.status.rig, rig.status.sync.pulses, rig.status.sync.skipped,
-                rig.status.sync.lateness_p50_us, rig.status.sync.lateness_p99_us,
-                rig.status.sync.lateness_max_us, rig.status.sync.unsynchronized);
+        if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
+            text += fmt::format("{}: {}\n", rig.status.rig, pulses);
+        if (rig.status.health.under_voltage)
+            text += fmt::format("{}: {}\n", rig.status.rig, health_text(rig.status.health));
         if (!rig.status.last_error.empty())
             text +=
                 fmt::format("{}: the last fault was: {}\n", rig.status.rig, rig.status.last_error);
@@ -155,7 +131,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
             for (const Counter& counter : group.counters)
                 entry[group.key][counter.key] = counter.value;
         entry["latency_ms"] = to_json(rig.status.latency_ms);
-        entry["sync"] = to_json(rig.status);
+        entry["clock"] = clock_text(rig.status);
+        entry["same_clock"] = rig.status.same_clock;
+        entry["sync"] = to_json(rig.status.sync);
+        entry["health"] = to_json(rig.status.health);
         if (!rig.status.last_error.empty()) entry["last_error"] = rig.status.last_error;
         json["rigs"].push_back(std::move(entry));
     }

@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
 #include "common/config/rig_config.h"
+#include "common/wire/status_report.h"
 #include "rig_firmware/daemon/rig_daemon.h"
 #include "rig_firmware/daemon/service_notifier.h"
 
@@ -23,30 +24,9 @@ struct Options {
     bool json = false;
 };
 
-nlohmann::json to_json(const Percentiles& p) {
-    return {{"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}};
-}
-
-nlohmann::json to_json(const RigSync& sync) {
-    return {{"ready", sync.ready},
-            {"first_pulse", sync.first_pulse},
-            {"pulses", sync.pulses},
-            {"skipped", sync.skipped},
-            {"unsynchronized", sync.unsynchronized},
-            {"lateness_us",
-             {{"p50", sync.lateness_p50_us},
-              {"p99", sync.lateness_p99_us},
-              {"max", sync.lateness_max_us}}},
-            {"clock_ppm", sync.clock_ppm},
-            {"clock_steps", sync.clock_steps},
-            {"ptp_state", sync.ptp_state},
-            {"ptp_offset_ns", sync.ptp_offset_ns},
-            {"ptp_path_delay_ns", sync.ptp_path_delay_ns}};
-}
-
-nlohmann::json to_json(const std::string& rig, const DaemonStatus& status) {
+nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& status) {
     const RigCounters& c = status.publisher.counters;
-    nlohmann::json hosts = nlohmann::json::array();
+    nlohmann::ordered_json hosts = nlohmann::ordered_json::array();
     for (const HostLinks::HostStatus& host : status.publisher.hosts)
         hosts.push_back({{"key", host.host_key},
                          {"attached", host.attached},
@@ -54,7 +34,7 @@ nlohmann::json to_json(const std::string& rig, const DaemonStatus& status) {
                          {"sent", host.counters.sent},
                          {"send_dropped", host.counters.send_dropped},
                          {"thinned", host.counters.thinned}});
-    nlohmann::json source = nlohmann::json::object();
+    nlohmann::ordered_json source = nlohmann::ordered_json::object();
     for (const SourceCounter& counter : status.source_counters)
         source[counter.name] = counter.count;
     return {{"rig", rig},
@@ -83,6 +63,7 @@ class StatusLines {
                                std::chrono::duration<double>(now - time_).count();
         time_ = now;
         published_ = c.published;
+        const std::string pulses = pulse_text(status.sync);
         return fmt::format(
                    "{:.1f} frames/s; captured {}, published {}, missed {}, late {}, dropped for "
                    "slow "
@@ -93,20 +74,10 @@ class StatusLines {
                    rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
                    status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50,
                    status.pack_ms.p50, status.latency_ms.p50) +
-               pulses(status.sync);
+               (pulses.empty() ? "" : "; " + pulses);
     }
 
   private:
-    static std::string pulses(const RigSync& sync) {
-        if (sync.role == RigSync::Role::free) return "";
-        if (sync.first_pulse == 0) return "; armed, no pulse announced yet";
-        return fmt::format(
-            "; {} pulses, {} skipped, late us p50 {:.1f}, p99 {:.1f}, max {:.1f}; {} frames "
-            "without a pulse",
-            sync.pulses, sync.skipped, sync.lateness_p50_us, sync.lateness_p99_us,
-            sync.lateness_max_us, sync.unsynchronized);
-    }
-
     MonotonicTime time_ = MonotonicClock::now();
     std::uint64_t published_ = 0;
 };

@@ -9,6 +9,7 @@
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
 #include "common/config/rig_config.h"
+#include "common/wire/status_report.h"
 #include "rig_firmware/trigger/pulse_sender.h"
 
 namespace vantage {
@@ -20,10 +21,6 @@ struct Options {
     bool pretended = false;
     bool json = false;
 };
-
-nlohmann::json to_json(const Percentiles& p) {
-    return {{"p50", p.p50}, {"p99", p.p99}, {"max", p.max}};
-}
 
 void run(const Options& options) {
     RigConfig config = load_rig_config(options.config);
@@ -50,15 +47,15 @@ void run(const Options& options) {
     sender.rethrow_failure();
     status = sender.status();
     if (options.json) {
-        std::cout << nlohmann::json{{"rig", config.name},
-                                    {"rate_hz", config.source.rate_hz},
-                                    {"sent", status.sent},
-                                    {"skipped", status.skipped},
-                                    {"clock_steps", status.clock_steps},
-                                    {"last_index", status.last_index},
-                                    {"lateness_us", to_json(status.lateness_us)},
-                                    {"width_error_us", to_json(status.width_error_us)},
-                                    {"report", sender.report()}}
+        std::cout << nlohmann::ordered_json{{"rig", config.name},
+                                            {"rate_hz", config.source.rate_hz},
+                                            {"sent", status.sent},
+                                            {"skipped", status.skipped},
+                                            {"clock_steps", status.clock_steps},
+                                            {"last_index", status.last_index},
+                                            {"lateness_us", to_json(status.lateness_us)},
+                                            {"width_error_us", to_json(status.width_error_us)},
+                                            {"report", sender.report()}}
                          .dump()
                   << '\n';
         return;

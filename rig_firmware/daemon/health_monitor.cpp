@@ -34,8 +34,8 @@ std::optional<float> hottest_zone_c(const std::filesystem::path& sys) {
     std::optional<float> hottest;
     for (const auto& zone : entries_of(sys / "class/thermal"))
         if (const std::optional<long> reading = number_in(zone / "temp"))
-            hottest = std::max(hottest.value_or(-1e9f),
-                               static_cast<float>(*reading) * per_millidegree);
+            hottest =
+                std::max(hottest.value_or(-1e9f), static_cast<float>(*reading) * per_millidegree);
     return hottest;
 }
 

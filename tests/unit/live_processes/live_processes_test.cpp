@@ -17,7 +17,6 @@
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/virtual_screen.h"
-#include "tests/unit/live_processes/child_process.h"
 
 namespace vantage {
 namespace {
@@ -40,6 +39,8 @@ std::pair<int, int> two_free_ports() {
     close(second);
     return ports;
 }
+
+constexpr const char* first_progress = " pictures, ";
 
 /// Two tiny rigs on the virtual stage and a host, each a process of its own.
 class LiveProcesses : public testing::Test {
@@ -65,22 +66,26 @@ class LiveProcesses : public testing::Test {
             << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
             << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
             << "[stream]\nbind = \"" << endpoint(name) << "\"\n";
-        rigs_.push_back(std::make_unique<ChildProcess>(
-            folder_.path(), name,
-            std::vector<std::string>{VANTAGE_RIG_PROGRAM, "run", "--config",
-                                     file(name + ".toml")}));
+        rigs_.push_back(std::make_unique<ChildProgram>(
+            VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
+            folder_.path()));
     }
 
-    std::unique_ptr<ChildProcess> start_host(std::vector<std::string> options) {
-        std::vector<std::string> command{VANTAGE_PROGRAM, "live", "--stage", file("stage.toml"),
-                                         "--headless"};
-        command.insert(command.end(), options.begin(), options.end());
-        return std::make_unique<ChildProcess>(folder_.path(), "host", command);
+    std::unique_ptr<ChildProgram> start_host(const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"live", "--stage", file("stage.toml"), "--headless"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
+    }
+
+    /// Until the program has written these words, a minute at most.
+    static void wait_for(const ChildProgram& program, const char* words) {
+        for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
+            usleep(10'000);
     }
 
     TemporaryFolder folder_;
     std::pair<int, int> ports_ = two_free_ports();
-    std::vector<std::unique_ptr<ChildProcess>> rigs_;
+    std::vector<std::unique_ptr<ChildProgram>> rigs_;
 };
 
 TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
@@ -88,8 +93,8 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     start_rig("right", 12);
     const auto host = start_host({"--frames", "10", "--snapshot", file("last.png"), "--record",
                                   file("flight.mkv"), "--json", "--wait", "60"});
-    ASSERT_EQ(host->wait(), 0) << host->standard_error() << rigs_[0]->standard_error();
-    const nlohmann::json summary = nlohmann::json::parse(host->standard_output());
+    ASSERT_EQ(host->wait().status, 0) << host->err() << rigs_[0]->err();
+    const nlohmann::json summary = nlohmann::json::parse(host->out());
     EXPECT_EQ(summary["pictures"], 10);
     EXPECT_EQ(summary["film"]["pictures"].get<int>() + summary["film"]["dropped"].get<int>(), 10);
     EXPECT_EQ(summary["sets"]["closed"], summary["sets"]["fused"].get<int>() +
@@ -129,10 +134,9 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
 TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
     start_rig("left", 0);
     const auto host = start_host({"--frames", "2", "--json", "--wait", "8"});
-    ASSERT_EQ(host->wait(), 0) << host->standard_error();
-    EXPECT_NE(host->standard_error().find("missing: right disconnected"), std::string::npos)
-        << host->standard_error();
-    const nlohmann::json summary = nlohmann::json::parse(host->standard_output());
+    ASSERT_EQ(host->wait().status, 0) << host->err();
+    EXPECT_NE(host->err().find("missing: right disconnected"), std::string::npos) << host->err();
+    const nlohmann::json summary = nlohmann::json::parse(host->out());
     EXPECT_EQ(summary["sets"]["complete"], 0);
     EXPECT_EQ(summary["rigs"][1]["state"], "disconnected");
     EXPECT_EQ(summary["rigs"][1]["host"]["received"], 0);
@@ -140,24 +144,21 @@ TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
 
 TEST_F(LiveProcesses, EndWithASentenceWhenNoRigComes) {
     const auto host = start_host({"--wait", "1", "--snapshot", file("last.png")});
-    EXPECT_EQ(host->wait(), 1);
-    EXPECT_NE(host->standard_error().find("no frame of any rig came within 1 s"), std::string::npos)
-        << host->standard_error();
-    EXPECT_EQ(host->standard_output(), "");
+    EXPECT_EQ(host->wait().status, 1);
+    EXPECT_NE(host->err().find("no frame of any rig came within 1 s"), std::string::npos)
+        << host->err();
+    EXPECT_EQ(host->out(), "");
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
 }
 
 TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigComes) {
     const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
-    for (int i = 0; i < 6000; ++i) {
-        if (host->standard_error().find("waiting for 2 rigs") != std::string::npos) break;
-        usleep(10'000);
-    }
-    host->send(SIGINT);
-    EXPECT_EQ(host->wait(), 1);
+    wait_for(*host, "waiting for 2 rigs");
+    host->send_signal(SIGINT);
+    EXPECT_EQ(host->wait().status, 1);
     for (const char* rig : {"left disconnected", "right disconnected"})
-        EXPECT_NE(host->standard_error().find(rig), std::string::npos) << host->standard_error();
-    EXPECT_EQ(host->standard_output(), "");
+        EXPECT_NE(host->err().find(rig), std::string::npos) << host->err();
+    EXPECT_EQ(host->out(), "");
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
 }
 
@@ -173,9 +174,8 @@ TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
                  {{"--path", file("none.toml")}, "none.toml"}};
     for (const auto& c : cases) {
         const auto host = start_host(c.options);
-        EXPECT_EQ(host->wait(), 1) << c.options[0];
-        EXPECT_NE(host->standard_error().find(c.reason), std::string::npos)
-            << host->standard_error();
+        EXPECT_EQ(host->wait().status, 1) << c.options[0];
+        EXPECT_NE(host->err().find(c.reason), std::string::npos) << host->err();
     }
 }
 
@@ -189,18 +189,12 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    const auto wait_for = [&](const char* words) {
-        for (int i = 0; i < 6000; ++i) {
-            if (host.err().find(words) != std::string::npos) break;
-            usleep(10'000);
-        }
-    };
-    wait_for(" pictures, ");
+    wait_for(host, first_progress);
     screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
     // A fifth of the window's width to the right: the stage turns with the hand by 36 degrees.
     screen.hands(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "448", "120", "mouseup", "1"});
-    wait_for("azimuth -36.0");
+    wait_for(host, "azimuth -36.0");
     screen.hands({"key", "Escape"});
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
@@ -214,14 +208,10 @@ TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});
-    // Its first word of progress.
-    for (int i = 0; i < 6000; ++i) {
-        if (host->standard_error().find(" pictures, ") != std::string::npos) break;
-        usleep(10'000);
-    }
-    host->send(SIGINT);
-    EXPECT_EQ(host->wait(), 0) << host->standard_error();
-    EXPECT_GE(nlohmann::json::parse(host->standard_output())["pictures"], 1);
+    wait_for(*host, first_progress);
+    host->send_signal(SIGINT);
+    EXPECT_EQ(host->wait().status, 0) << host->err();
+    EXPECT_GE(nlohmann::json::parse(host->out())["pictures"], 1);
     EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
 }
 
