@@ -26,6 +26,18 @@ class JogDeckTest : public testing::Test {
     static DeckEvent next(JogDeck& deck) {
         return deck.next(10s).value_or(DeckEvent{Kind::report, "nothing came", {}, {}, {}, {}});
     }
+    /// The only device once the deck's looks show it so: events run ahead of them.
+    template <class Condition>
+    static DeckDevice device_once(JogDeck& deck, Condition condition) {
+        std::vector<DeckDevice> devices;
+        for (int i = 0; i < 2000; ++i) {
+            devices = deck.devices();
+            if (devices.size() == 1 && condition(devices[0])) return devices[0];
+            std::this_thread::sleep_for(5ms);
+        }
+        ADD_FAILURE() << "of " << devices.size() << " devices none became as it should";
+        return {};
+    }
 
     ScriptedSockets sockets_;
 };
@@ -79,17 +91,13 @@ TEST_F(JogDeckTest, KeepsTryingADeviceThatMayNotBeOpenedAndTellsWhy) {
     device->refusal = "it may not be opened";
     sockets_.plug(device);
     const auto deck = this->deck();
-    for (int i = 0; i < 2000 && (deck->devices().empty() || deck->devices()[0].fault.empty()); ++i)
-        std::this_thread::sleep_for(5ms);
-    ASSERT_EQ(deck->devices().size(), 1u);
-    EXPECT_EQ(deck->devices()[0].fault, "it may not be opened");
-    EXPECT_FALSE(deck->devices()[0].usable);
-    EXPECT_EQ(deck->devices()[0].model, "Contour ShuttleXpress");
+    const DeckDevice refused = device_once(*deck, [](const auto& d) { return !d.fault.empty(); });
+    EXPECT_EQ(refused.fault, "it may not be opened");
+    EXPECT_FALSE(refused.usable);
+    EXPECT_EQ(refused.model, "Contour ShuttleXpress");
     sockets_.allow(device);
     EXPECT_EQ(next(*deck).kind, Kind::plugged);
-    for (int i = 0; i < 2000 && !deck->devices()[0].usable; ++i) std::this_thread::sleep_for(5ms);
-    EXPECT_TRUE(deck->devices()[0].usable);
-    EXPECT_EQ(deck->devices()[0].fault, "");
+    EXPECT_EQ(device_once(*deck, [](const auto& d) { return d.usable; }).fault, "");
 }
 
 TEST_F(JogDeckTest, CountsReportsThatAreNone) {
@@ -101,9 +109,7 @@ TEST_F(JogDeckTest, CountsReportsThatAreNone) {
     const DeckEvent event = next(*deck);
     EXPECT_EQ(event.kind, Kind::unread);
     EXPECT_EQ(event.report, (Bytes{1, 2, 3}));
-    for (int i = 0; i < 2000 && deck->devices()[0].unread == 0; ++i)
-        std::this_thread::sleep_for(5ms);
-    EXPECT_EQ(deck->devices()[0].unread, 1u);
+    EXPECT_EQ(device_once(*deck, [](const auto& d) { return d.unread > 0; }).unread, 1u);
 }
 
 TEST_F(JogDeckTest, ShowsRawReportsWhereTheyAreAskedFor) {
