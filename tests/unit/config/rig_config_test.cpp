@@ -1,33 +1,14 @@
 #include "common/config/rig_config.h"
 
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/data_folder.h"
-#include "tests/support/thrown_sentence.h"
+#include "tests/unit/config/config_text.h"
 
 namespace vantage {
 namespace {
 
-class RigConfigTest : public testing::Test {
-  protected:
-    RigConfig load(const std::string& text) {
-        std::ofstream(file_) << text;
-        return load_rig_config(file_);
-    }
-    /// What is wrong with `text`, without the folder of the file.
-    std::string fault(const std::string& text) {
-        std::string sentence = thrown_sentence([&] { load(text); });
-        const std::string folder = folder_.path().string() + "/";
-        if (sentence.starts_with(folder)) sentence.erase(0, folder.size());
-        return sentence;
-    }
-
-    TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "rig.toml";
-};
+using RigConfigTest = ConfigText<load_rig_config>;
 
 TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
     const RigConfig config = load("version = 1\nname = 'a'\n");
@@ -114,79 +95,83 @@ authorized_hosts = "/etc/hosts.keys"
 
 TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[match]\nfill = true\nmathcer = 'x'\n"),
-              "rig.toml:5: there is no key 'mathcer' in [match]; the nearest is 'matcher'");
+              "config.toml:5: there is no key 'mathcer' in [match]; the nearest is 'matcher'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[sauce]\n"),
-              "rig.toml:3: there is no key 'sauce'; the nearest is 'source'");
+              "config.toml:3: there is no key 'sauce'; the nearest is 'source'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n\nwheels = 4\n"),
-              "rig.toml:4: there is no key 'wheels'; the ones there are: version, name, "
+              "config.toml:4: there is no key 'wheels'; the ones there are: version, name, "
               "calibration, source, virtual_rig, trigger, match, stream");
 }
 
 TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
     EXPECT_EQ(fault("version = 1\nnaem = 'a'\n"),
-              "rig.toml:2: there is no key 'naem'; the nearest is 'name'");
-    EXPECT_EQ(fault("version = 1\n"), "rig.toml:1: 'name' is missing");
+              "config.toml:2: there is no key 'naem'; the nearest is 'name'");
+    EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'name' is missing");
 }
 
 TEST_F(RigConfigTest, NamesTheWantedType) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 'fast'\n"),
-              "rig.toml:4: 'rate_hz' in [source] must be a number, and it is a string");
+              "config.toml:4: 'rate_hz' in [source] must be a number, and it is a string");
     EXPECT_EQ(fault(head + "[source]\nwidth_px = 320.5\n"),
-              "rig.toml:4: 'width_px' in [source] must be an integer, and it is a number with a "
+              "config.toml:4: 'width_px' in [source] must be an integer, and it is a number with a "
               "fraction");
     EXPECT_EQ(fault(head + "[source]\nloop = 1\n"),
-              "rig.toml:4: 'loop' in [source] must be true or false, and it is an integer");
+              "config.toml:4: 'loop' in [source] must be true or false, and it is an integer");
     EXPECT_EQ(fault(head + "match = 3\n"),
-              "rig.toml:3: 'match' must be a table, and it is an integer");
+              "config.toml:3: 'match' must be a table, and it is an integer");
     EXPECT_EQ(fault(head + "[source]\nkind = true\n"),
-              "rig.toml:4: 'kind' in [source] must be a string, and it is true or false");
+              "config.toml:4: 'kind' in [source] must be a string, and it is true or false");
     EXPECT_EQ(fault(head + "[source]\nseed = -1\n"),
-              "rig.toml:4: 'seed' in [source] is -1, and the least it may be is 0");
-    EXPECT_EQ(fault(head + "[source.controls]\ngain = 1.5\n"),
-              "rig.toml:4: 'gain' in [source.controls] must be an integer, and it is a number with "
-              "a fraction");
+              "config.toml:4: 'seed' in [source] is -1, and the least it may be is 0");
+    EXPECT_EQ(
+        fault(head + "[source.controls]\ngain = 1.5\n"),
+        "config.toml:4: 'gain' in [source.controls] must be an integer, and it is a number with "
+        "a fraction");
 }
 
 TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[match]\ndisparities = 257\n"),
-              "rig.toml:4: 'disparities' in [match] is 257, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 257, and it must be 1 to 256");
     EXPECT_EQ(fault(head + "[match]\ndisparities = 99999999999\n"),
-              "rig.toml:4: 'disparities' in [match] is 99999999999, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 99999999999, and it must be 1 to 256");
     EXPECT_EQ(fault(head + "[source]\nfirst = -1\n"),
-              "rig.toml:4: 'first' in [source] is -1, and the least it may be is 0");
+              "config.toml:4: 'first' in [source] is -1, and the least it may be is 0");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = inf\n"),
-              "rig.toml:4: 'rate_hz' in [source] must be a finite number");
+              "config.toml:4: 'rate_hz' in [source] must be a finite number");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 0\n"),
-              "rig.toml:4: 'rate_hz' in [source] is 0, and it must be 0.01 to 1000");
+              "config.toml:4: 'rate_hz' in [source] is 0, and it must be 0.01 to 1000");
     EXPECT_EQ(fault(head + "[match]\npreset = 'qualty'\n"),
-              "rig.toml:4: 'preset' in [match] must not be 'qualty'; the nearest is 'quality'");
-    EXPECT_EQ(fault(head + "[stream]\nbind = 'tcp://here'\n"),
-              "rig.toml:4: bind = \"tcp://here\" is not an endpoint of the form tcp://HOST:PORT");
+              "config.toml:4: 'preset' in [match] must not be 'qualty'; the nearest is 'quality'");
+    EXPECT_EQ(
+        fault(head + "[stream]\nbind = 'tcp://here'\n"),
+        "config.toml:4: bind = \"tcp://here\" is not an endpoint of the form tcp://HOST:PORT");
     EXPECT_EQ(fault(head + "[source]\npixel_format = 'GREYS'\n"),
-              "rig.toml:4: 'pixel_format' in [source] must be a code of four characters such as "
+              "config.toml:4: 'pixel_format' in [source] must be a code of four characters such as "
               "'GREY' or 'MJPG'");
-    EXPECT_EQ(fault(head + "calibration = ''\n"),
-              "rig.toml:3: 'calibration' must not be empty: leave the key out if there is no such "
-              "file");
-    EXPECT_EQ(fault("version = 1\nname = 'a b'\n"),
-              "rig.toml:2: 'name' is 'a b', and it must be 1 to 64 letters, digits, '-' and '_'");
+    EXPECT_EQ(
+        fault(head + "calibration = ''\n"),
+        "config.toml:3: 'calibration' must not be empty: leave the key out if there is no such "
+        "file");
+    EXPECT_EQ(
+        fault("version = 1\nname = 'a b'\n"),
+        "config.toml:2: 'name' is 'a b', and it must be 1 to 64 letters, digits, '-' and '_'");
 }
 
 TEST_F(RigConfigTest, WantsItsVersion) {
     EXPECT_EQ(fault("name = 'a'\n"),
-              "rig.toml: the key 'version' is missing; put `version = 1` at the top");
+              "config.toml: the key 'version' is missing; put `version = 1` at the top");
     EXPECT_EQ(fault("version = 2\nname = 'a'\n"),
-              "rig.toml:1: 'version' is 2, and this program reads version 1");
+              "config.toml:1: 'version' is 2, and this program reads version 1");
     EXPECT_EQ(fault("version = '1'\nname = 'a'\n"),
-              "rig.toml:1: 'version' must be an integer, and it is a string");
+              "config.toml:1: 'version' must be an integer, and it is a string");
 }
 
 TEST_F(RigConfigTest, NamesTheLineThatIsNotToml) {
-    EXPECT_TRUE(fault("version = 1\nname = \n").starts_with("rig.toml:2: this is not TOML: "));
+    EXPECT_TRUE(fault("version = 1\nname = \n").starts_with("config.toml:2: this is not TOML: "));
     EXPECT_TRUE(fault("version = 1\nname = 'a'\nname = 'b'\n")
-                    .starts_with("rig.toml:3: this is not TOML: "));
+                    .starts_with("config.toml:3: this is not TOML: "));
     EXPECT_NE(fault(std::string("version = 1\nname = '\xff\xfe'\n")), "");
 }
 

@@ -1,31 +1,13 @@
 #include "common/config/stage_config.h"
 
-#include <fstream>
-
 #include <gtest/gtest.h>
 
-#include "tests/support/data_folder.h"
-#include "tests/support/thrown_sentence.h"
+#include "tests/unit/config/config_text.h"
 
 namespace vantage {
 namespace {
 
-class StageConfigTest : public testing::Test {
-  protected:
-    StageConfig load(const std::string& text) {
-        std::ofstream(file_) << text;
-        return load_stage_config(file_);
-    }
-    std::string fault(const std::string& text) {
-        std::string sentence = thrown_sentence([&] { load(text); });
-        const std::string folder = folder_.path().string() + "/";
-        if (sentence.starts_with(folder)) sentence.erase(0, folder.size());
-        return sentence;
-    }
-
-    TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "stage.toml";
-};
+using StageConfigTest = ConfigText<load_stage_config>;
 
 TEST_F(StageConfigTest, ReadsEveryKey) {
     const StageConfig config = load(R"(
@@ -71,34 +53,35 @@ synthesiser = "mesh"
 
 TEST_F(StageConfigTest, WantsRigsWithNamesOfTheirOwn) {
     const std::string rig = "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n";
-    EXPECT_EQ(fault("version = 1\n"), "stage.toml:1: 'rigs' is missing");
+    EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'rigs' is missing");
     EXPECT_EQ(fault("version = 1\nrigs = []\n"),
-              "stage.toml:2: 'rigs' is empty: a stage has at least one rig");
+              "config.toml:2: 'rigs' is empty: a stage has at least one rig");
     EXPECT_EQ(fault("version = 1\n" + rig + rig),
-              "stage.toml:6: 'name' in [[rigs]] is 'a' a second time: every rig has its own name");
+              "config.toml:6: 'name' in [[rigs]] is 'a' a second time: every rig has its own name");
     EXPECT_EQ(fault("version = 1\n[[rigs]]\nname = 'a'\n"),
-              "stage.toml:2: 'endpoint' in [[rigs]] is missing");
+              "config.toml:2: 'endpoint' in [[rigs]] is missing");
 }
 
 TEST_F(StageConfigTest, NamesLineAndMendOfAFault) {
     const std::string head = "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n";
-    EXPECT_EQ(fault(head + "publickey = ''\n"),
-              "stage.toml:5: there is no key 'publickey' in [[rigs]]; the nearest is 'public_key'");
+    EXPECT_EQ(
+        fault(head + "publickey = ''\n"),
+        "config.toml:5: there is no key 'publickey' in [[rigs]]; the nearest is 'public_key'");
     EXPECT_EQ(fault("version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:70000'\n"),
-              "stage.toml:4: endpoint = \"tcp://h:70000\" is not an endpoint of the form "
+              "config.toml:4: endpoint = \"tcp://h:70000\" is not an endpoint of the form "
               "tcp://HOST:PORT");
     EXPECT_EQ(fault(head + "[view]\ntarget_m = [1, 2]\n"),
-              "stage.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it has 2");
+              "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it has 2");
     EXPECT_EQ(
         fault(head + "[view]\ntarget_m = [1, 2, 'x']\n"),
-        "stage.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is a string");
+        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is a string");
     EXPECT_EQ(
         fault(head + "[view]\ntarget_m = 1\n"),
-        "stage.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is an integer");
+        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = [1]\n"),
-              "stage.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is an integer");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = 'a'\n"),
-              "stage.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is a string");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is a string");
 }
 
 }  // namespace
