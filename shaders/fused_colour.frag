@@ -27,6 +27,7 @@ const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's
 
 struct Evidence {
     vec3 sum, squares;
+    vec4 shares;     // each layer's part of the weight
     float weight;    // of the colours
     float rigs;      // that see the point
     float through;   // rigs that see through it
@@ -79,11 +80,12 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     e.sum += weight * c;
     e.squares += weight * c * c;
     e.weight += weight;
+    e.shares[i] += weight;
     e.rigs += min(40.0 * sure, 1.0);
 }
 
 Evidence gather(vec2 pixel, float z, bool near_edge) {
-    Evidence e = Evidence(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0, 2.0);
+    Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0);
 #define ADD(i) add(i, colour[i], source_depth[i], pixel, z, near_edge, e);
     FOR_LAYERS(ADD)
     return e;
@@ -144,6 +146,7 @@ void main() {
     }
     fused = vec4(0.0);
     fused_z = 0.0;
+    tell_origins(vec4(0.0));
     if (z == 0.0) return;
     if (other == 0.0) {
         if (own == 0.0) return;
@@ -152,6 +155,7 @@ void main() {
             if (e.apart > far_aside && !is_clear(pixel, z)) is_known = false;
             fused = vec4(e.sum / e.weight, is_known ? 1.0 : 0.25);
             fused_z = z;
+            tell_origins(e.shares / e.weight);
         }
         return;
     }
@@ -189,4 +193,6 @@ void main() {
         is_known = false;
     fused = vec4(c / (wa + wb), is_known ? 1.0 : 0.25);
     fused_z = wa > wb ? z : other;
+    tell_origins((wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
+                 (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
 }

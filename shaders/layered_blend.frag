@@ -33,11 +33,12 @@ void main() {
     else                                 \
         front = min(front, z[i]);
     FOR_LAYERS(LOOK)
-    vec4 behind = vec4(0.0), before = vec4(0.0);
+    vec4 behind = vec4(0.0), before = vec4(0.0), shares = vec4(0.0);
     float matte = 0.0, weight;
 #define ADD(i)                                                       \
     if (is_one(i, z[i], i % 2 == 0 ? back : front)) {                \
         vec4 c = look(i, colour[i], z[i], pixel, ray, weight);       \
+        shares[i] += weight;                                         \
         if (i % 2 == 0) {                                            \
             behind += weight * vec4(c.rgb, 1.0);                     \
         } else {                                                     \
@@ -51,7 +52,12 @@ void main() {
     if (front > back * (1.0 + softness)) share = 0.0;
     blended = vec4(0.0);
     blended_z = 0.0;
+    tell_origins(vec4(0.0));
     if (behind.a == 0.0 && share < 0.5) return;
+    // Odd layers are in front.
+    vec4 of_front = shares * vec4(0.0, 1.0, 0.0, 1.0) / max(before.a, 1e-12);
+    vec4 of_back = shares * vec4(1.0, 0.0, 1.0, 0.0) / max(behind.a, 1e-12);
+    tell_origins(mix(of_back, of_front, behind.a == 0.0 ? 1.0 : share));
     if (behind.a == 0.0) {
         blended = vec4(before.rgb / before.a, 1.0);
         blended_z = front;

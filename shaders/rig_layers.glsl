@@ -2,6 +2,9 @@
 #ifndef LAYERS
 #define LAYERS 4
 #endif
+#ifndef ORIGINS
+#define ORIGINS 0  // 1: the picture's shader tells the layers' shares in each colour
+#endif
 
 uniform sampler2D layer_depth[LAYERS];   // of the virtual view: 1 - near / z, 1 = nothing
 uniform sampler2D colour[LAYERS];        // the rigs' own
@@ -40,4 +43,14 @@ float apart(vec3 point, vec3 rig_centre) {
 // Level of detail at which one source pixel is about one pixel of the virtual view.
 float detail_level(mat4 source_from_target, float z, float source_z) {
     return log2(max(length(source_from_target[0].xyz) * z / source_z, 1.0));
+}
+
+#if ORIGINS
+layout(location = 2) out vec4 origins;
+#endif
+// The share of every layer in the colour of this pixel.
+void tell_origins(vec4 shares) {
+#if ORIGINS
+    origins = shares;
+#endif
 }

@@ -22,7 +22,7 @@ struct LiveOptions {
     std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
-    bool headless = false, json = false;
+    bool headless = false, json = false, novelty = false;
     std::optional<bool> jog;  ///< default: with a window
 };
 
@@ -56,6 +56,7 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         .pulse_rate_hz = stage.rate_hz,
         .past_bytes = static_cast<std::size_t>(options.past_mb * 1e6),
         .synthesiser = options.synthesiser.empty() ? stage.view.synthesiser : options.synthesiser,
+        .novelty = options.novelty,
         .film = options.film,
         .contact_sheet = options.contact_sheet};
     if (!options.size.empty()) {
@@ -182,6 +183,10 @@ CommandEntry live_command_entry() {
                             "Of the picture, WIDTHxHEIGHT (default: the stage's)");
         command->add_option("--synth", options->synthesiser,
                             "Synthesiser (default: the stage's; see render --help)");
+        command->add_flag(
+            "--novelty", options->novelty,
+            "Show which rigs the pixels come from, a colour a rig, what none has seen "
+            "hatched (key N), in films and snapshots too");
         command
             ->add_option("--wait", options->wait_s,
                          "With --headless: seconds that the rigs may take to come")

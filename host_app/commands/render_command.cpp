@@ -13,6 +13,7 @@
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "host_app/fusion/image_metrics.h"
+#include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/fusion/view_set.h"
 
@@ -23,7 +24,7 @@ constexpr int timed_renderings = 5;
 
 struct RenderOptions {
     std::string views, hold_out, pose, synthesiser = default_synthesiser, output, difference;
-    bool json = false;
+    bool novelty = false, json = false;
 };
 
 void render(const RenderOptions& options) {
@@ -52,6 +53,7 @@ void render(const RenderOptions& options) {
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
     const std::unique_ptr<Synthesiser> synthesiser = make_synthesiser(options.synthesiser, shaders);
+    if (options.novelty) NoveltyOverlay::require(*synthesiser, options.synthesiser);
     synthesiser->set_views(set.views);
     const ColourImage picture = synthesiser->render(target).download();
     const double gpu_ms = median_gpu_ms(timed_renderings, [&] { synthesiser->render(target); });
@@ -67,8 +69,21 @@ void render(const RenderOptions& options) {
     result["coverage"] = coverage(picture);
     result["gpu_ms"] = gpu_ms;
     result["renderer"] = gl.renderer;
+    ColourImage shown = picture;
+    if (options.novelty) {
+        NoveltyOverlay overlay(shaders);
+        for (const DepthView& view : set.views)
+            if (!view.depth_m.empty()) overlay.name_rigs({view.name});
+        const Texture& plain = synthesiser->render(target);
+        const PixelOrigins& origins = *synthesiser->origins();
+        result["novelty"] = to_json(novelty_shares(picture, origins));
+        for (const NoveltyOverlay::Key& key : overlay.legend())
+            result["novelty"]["colours"][key.rig] =
+                fmt::format("#{:02x}{:02x}{:02x}", key.colour[0], key.colour[1], key.colour[2]);
+        shown = overlay.lay(plain, origins).download();
+    }
 
-    write_colour_image(options.output, picture);
+    write_colour_image(options.output, shown);
     if (!options.difference.empty())
         write_colour_image(options.difference, difference_picture(picture, truth));
     print_result(result, options.json);
@@ -105,6 +120,9 @@ CommandEntry render_command_entry() {
             ->add_option("--difference", options->difference,
                          "With --hold-out: also write 4 * |rendered - true|")
             ->needs(hold_out);
+        command->add_flag("--novelty", options->novelty,
+                          "Write which views the pixels come from, a colour a view, what none has "
+                          "seen hatched; the numbers are still those of the plain picture");
         command->add_flag("--json", options->json, "Write the result as one JSON object");
         command->callback([options] { render(*options); });
     }};

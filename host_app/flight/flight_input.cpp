@@ -14,6 +14,7 @@ void FlightInput::add(const FlightInput& other) {
     // Two presses of a switch undo each other.
     toggle_freeze ^= other.toggle_freeze;
     toggle_move ^= other.toggle_move;
+    toggle_novelty ^= other.toggle_novelty;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;

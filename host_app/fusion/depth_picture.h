@@ -8,16 +8,23 @@
 namespace vantage {
 
 /// A picture of the virtual view with its depth, to draw into: rgba8 colour (alpha 0 = nothing
-/// there) and r32f depth in metres.
+/// there), r32f depth in metres and, where wanted, the rigs' shares in the colour (PixelOrigins).
 class DepthPicture {
   public:
     /// Keeps what there is if the size stays.
-    void resize(cv::Size size) {
-        if (colour_ && colour_->size() == size) return;
+    void resize(cv::Size size, bool with_shares = false) {
+        if (colour_ && colour_->size() == size && shares_.has_value() == with_shares) return;
         target_.reset();
+        shares_.reset();
         colour_.emplace(TextureFormat::rgba8, size.width, size.height, Filter::linear);
         depth_m_.emplace(TextureFormat::r32f, size.width, size.height);
-        target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_});
+        if (with_shares) {
+            shares_.emplace(TextureFormat::rgba8, size.width, size.height);
+            target_.emplace(
+                std::initializer_list<const Texture*>{&*colour_, &*depth_m_, &*shares_});
+        } else {
+            target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_});
+        }
     }
 
     void clear() const {
@@ -25,14 +32,17 @@ class DepthPicture {
         const float nothing[4] = {0, 0, 0, 0};
         glClearBufferfv(GL_COLOR, 0, nothing);
         glClearBufferfv(GL_COLOR, 1, nothing);
+        if (shares_) glClearBufferfv(GL_COLOR, 2, nothing);
     }
 
     const Texture& colour() const { return *colour_; }
     const Texture& depth_m() const { return *depth_m_; }
+    /// Null: none were wanted.
+    const Texture* shares() const { return shares_ ? &*shares_ : nullptr; }
     const Framebuffer& target() const { return *target_; }
 
   private:
-    std::optional<Texture> colour_, depth_m_;
+    std::optional<Texture> colour_, depth_m_, shares_;
     std::optional<Framebuffer> target_;
 };
 

@@ -19,6 +19,16 @@ struct VirtualView {
     Pose world_from_camera = Pose::Identity();
 };
 
+/// Which rigs a picture's pixels come from.
+struct PixelOrigins {
+    static constexpr std::size_t max_rigs = 4;
+
+    /// rgba8, of the picture's size: channel i is the share of rigs[i] in the pixel's colour. The
+    /// shares of a pixel add up to 1, or to 0 where the colour is no rig's.
+    const Texture* shares = nullptr;
+    std::vector<std::string> rigs;  ///< at most max_rigs; a rig may be there twice
+};
+
 /// Renders one view from several rigs' depth views, on the GPU. The context that was current at
 /// construction must be current at every call.
 class Synthesiser {
@@ -33,6 +43,12 @@ class Synthesiser {
     /// synthesiser and valid until the next call. Alpha is 255 where a rig saw the surface, and
     /// below 128 where the pixel was filled in or stayed empty (this is what `coverage` counts).
     virtual const Texture& render(const VirtualView& view) = 0;
+
+    /// Lets render() note, or no longer note, which rigs its pixels come from. False: this one
+    /// cannot tell.
+    virtual bool note_origins(bool noted) { return !noted; }
+    /// Of the last picture; null if they were not noted. Valid until the next call.
+    virtual const PixelOrigins* origins() const { return nullptr; }
 };
 
 /// One registered synthesiser: host_app/fusion/synthesisers/NAME_synthesiser.cpp defines

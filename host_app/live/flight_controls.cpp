@@ -16,6 +16,7 @@ OrbitView FlightControls::step(FlightInput hands, LiveSession& session, double t
     }
     if (hands.toggle_freeze) session.set_frozen(!session.frozen());
     if (hands.next_synthesiser) session.next_synthesiser();
+    if (hands.toggle_novelty) session.set_novelty(!session.novelty());
     if (hands.to_live) session.to_live();
     double pulses = hands.past_steps;
     if (helm_.wheel_mode() == WheelMode::past)

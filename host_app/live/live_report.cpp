@@ -142,6 +142,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     for (const StageTime& time : report.stages)
         if (time.ms.count > 0) json["stages_ms"][time.stage] = to_json(time.ms);
     json["latency_ms"] = to_json(report.latency_ms);
+    if (report.novelty) json["novelty"] = to_json(*report.novelty);
     for (const DeckDevice& wheel : report.wheels)
         json["wheels"].push_back({{"name", wheel.model},
                                   {"path", wheel.place.path},
@@ -177,6 +178,12 @@ std::string to_text(const LiveReport& report) {
     text += fmt::format(
         "\nexposure to picture: p50 {:.1f} ms, p95 {:.1f}, p99 {:.1f}, max {:.1f}\n",
         report.latency_ms.p50, report.latency_ms.p95, report.latency_ms.p99, report.latency_ms.max);
+    if (report.novelty) {
+        text += "pixels of the last picture by rig:";
+        for (const auto& [rig, share] : report.novelty->rigs)
+            text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
+        text += fmt::format(" filled {:.1f} %\n", 100 * report.novelty->filled);
+    }
     for (const DeckDevice& wheel : report.wheels)
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
                             wheel.model, wheel.place.path, wheel.reports, wheel.unread,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "common/base/percentiles.h"
 #include "common/receive/stage_receiver.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/novelty_overlay.h"
 #include "host_app/jog/jog_deck.h"
 
 namespace vantage {
@@ -43,6 +45,8 @@ struct LiveReport {
     /// render, readback, encode. Of network and decode the worst rig's; without samples: not done.
     std::vector<StageTime> stages;
     Percentiles latency_ms;  ///< from exposure to the picture, of every set that was shown
+
+    std::optional<NoveltyShares> novelty;  ///< of the last picture, where it shows novelty
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 

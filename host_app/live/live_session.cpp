@@ -68,12 +68,15 @@ LiveSession::LiveSession(const LiveSettings& settings, const ShaderLibrary& shad
       past_(settings.past_bytes),
       newest_(settings.past_bytes > 0 ? kept_feed(std::move(feed), past_) : std::move(feed)),
       synthesiser_(make_synthesiser(settings.synthesiser, shaders)),
+      overlay_(shaders),
       moments_(sheet_moments) {
     if (!settings.film.empty())
         recorder_.emplace(settings.film, VideoSettings{.width_px = settings.width_px,
                                                        .height_px = settings.height_px,
                                                        .rate_hz = settings.rate_hz});
+    if (settings_.novelty) NoveltyOverlay::require(*synthesiser_, settings_.synthesiser);
     refresh_status();
+    for (const RigStatus& rig : status_.rigs) overlay_.name_rigs({rig.rig});
 }
 
 const ReceiverStatus& LiveSession::refresh_status() {
@@ -181,7 +184,9 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
                              view.K(settings_.width_px, settings_.height_px),
                              view.world_from_camera()};
     ask_for_rigs(target);
-    const Texture& texture = synthesiser_->render(target);
+    const Texture& plain = synthesiser_->render(target);
+    const PixelOrigins* origins = synthesiser_->origins();
+    const Texture& texture = origins ? overlay_.lay(plain, *origins) : plain;
     glFinish();
     times_.add(Stage::render, ms_since(start));
     check_gl("rendering the virtual view");
@@ -234,7 +239,18 @@ void LiveSession::next_synthesiser() {
     if (next.name == settings_.synthesiser) return;
     synthesiser_ = next.make(*shaders_);
     settings_.synthesiser = next.name;
+    synthesiser_->note_origins(settings_.novelty);
     if (shown_) give_to_synthesiser(*shown_);
+}
+
+void LiveSession::set_novelty(bool novelty) {
+    settings_.novelty = novelty;
+    synthesiser_->note_origins(novelty);
+}
+
+std::optional<NoveltyShares> LiveSession::last_shares() const {
+    if (!last_texture_ || !synthesiser_->origins()) return std::nullopt;
+    return novelty_shares(last_picture(), *synthesiser_->origins());
 }
 
 std::vector<StageTime> LiveSession::stage_summary() const {
@@ -278,6 +294,7 @@ LiveReport LiveSession::report() const {
         report.film_dropped = recorder_->dropped();
     }
     report.latency_ms = latency_ms_.summary();
+    report.novelty = last_shares();
     return report;
 }
 

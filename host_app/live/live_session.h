@@ -10,6 +10,7 @@
 #include "common/base/stop_signal.h"
 #include "common/colour/colour_correction.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/rig_demand.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/live/live_report.h"
@@ -27,6 +28,7 @@ struct LiveSettings {
     double pulse_rate_hz = 30;             ///< of the stage
     std::size_t past_bytes = 0;            ///< of frames kept to go back to; 0: none
     std::string synthesiser = "fused";
+    bool novelty = false;                                  ///< the picture is a NoveltyOverlay
     std::filesystem::path film, contact_sheet;             ///< empty: none
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
@@ -36,7 +38,8 @@ struct LiveSettings {
 /// context, which must be current.
 class LiveSession {
   public:
-    /// Throws Error if the synthesiser is unknown or the film cannot be opened.
+    /// Throws Error if the synthesiser is unknown, or cannot tell what the novelty overlay is to
+    /// show, or the film cannot be opened.
     LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed);
 
     /// Waits until a set with all rigs has come; at the limit, goes on with those that are there
@@ -75,6 +78,14 @@ class LiveSession {
     void next_synthesiser();
     const std::string& synthesiser() const { return settings_.synthesiser; }
 
+    /// The picture, also in films, shows which rigs its pixels come from, as long as the
+    /// synthesiser can tell.
+    void set_novelty(bool novelty);
+    bool novelty() const { return settings_.novelty; }
+    const std::vector<NoveltyOverlay::Key>& novelty_legend() const { return overlay_.legend(); }
+    /// Of the picture that was made last; nothing if it shows no novelty. Waits for the GPU.
+    std::optional<NoveltyShares> last_shares() const;
+
     /// The set that is shown; null before the first.
     const FrameSet* shown() const { return shown_ ? &*shown_ : nullptr; }
     /// Grows with every set that is shown.
@@ -106,6 +117,7 @@ class LiveSession {
     NewestSet newest_;
     ReceiverStatus status_;
     std::unique_ptr<Synthesiser> synthesiser_;
+    NoveltyOverlay overlay_;
     RigDemand demand_;
     std::optional<VideoRecorder> recorder_;
     MomentCollector moments_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/gl/limits.h"
 #include "host_app/live/disparity_picture.h"
 
@@ -53,6 +55,25 @@ void PanelFeed::refresh_disparities(const FrameSet& set) {
     }
 }
 
+std::optional<PanelNovelty> PanelFeed::novelty_of(const LiveSession& session) {
+    if (!session.novelty()) return std::nullopt;
+    PanelNovelty novelty;
+    const std::optional<NoveltyShares> shares = session.last_shares();
+    if (!shares) {
+        novelty.remark = fmt::format("The synthesiser {} cannot tell.", session.synthesiser());
+        return novelty;
+    }
+    for (const NoveltyOverlay::Key& key : session.novelty_legend()) {
+        const auto share = shares->rigs.find(key.rig);
+        novelty.rows.push_back({key.rig,
+                                {key.colour[0], key.colour[1], key.colour[2]},
+                                share == shares->rigs.end() ? 0.0 : share->second});
+    }
+    const auto* filled = novelty_filled_colour;
+    novelty.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, shares->filled});
+    return novelty;
+}
+
 void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now) {
     picture_rate_.add(pictures, now);
     const ReceiverStatus& status = session.refresh_status();
@@ -71,6 +92,7 @@ void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicT
     }
     state_.picture_rate_hz = picture_rate_.per_second();
     state_.latency_ms = session.latest_latency_ms();
+    state_.novelty = novelty_of(session);
 }
 
 PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const OrbitView& view,

@@ -22,6 +22,7 @@ class PanelFeed {
   private:
     void refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now);
     void refresh_disparities(const FrameSet& set);
+    static std::optional<PanelNovelty> novelty_of(const LiveSession& session);
     PanelRig rig_of(const RigStatus& status, const FrameSet* set) const;
 
     std::optional<MonotonicTime> refreshed_;

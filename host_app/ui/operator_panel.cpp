@@ -227,6 +227,30 @@ void draw_left_panel(const PanelState& state, const UiFonts& fonts, float top) {
     ImGui::End();
 }
 
+void draw_novelty(const PanelNovelty& novelty, const UiFonts& fonts) {
+    ImGui::Spacing();
+    heading(fonts, "PIXELS BY RIG");
+    if (!novelty.remark.empty()) {
+        ImGui::PushTextWrapPos(0);
+        text(palette::warn, novelty.remark);
+        ImGui::PopTextWrapPos();
+        return;
+    }
+    if (!ImGui::BeginTable("novelty", 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const PanelNovelty::Row& row : novelty.rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {at.x, at.y + 0.15f * em()}, {at.x + 0.8f * em(), at.y + 0.95f * em()},
+            IM_COL32(row.rgb[0], row.rgb[1], row.rgb[2], 255), 2);
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em());
+        text(row.rig);
+        cell(fmt::format("{:.1f} %", 100 * row.share));
+    }
+    ImGui::EndTable();
+}
+
 void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top) {
     constexpr double deg = 180 / std::numbers::pi;
     const float width = 17.5f * em();
@@ -255,6 +279,7 @@ void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top)
         text(palette::dim, "planned move; steer to take over");
         ImGui::ProgressBar(static_cast<float>(*state.move_progress), {-1, 0.4f * em()}, "");
     }
+    if (state.novelty) draw_novelty(*state.novelty, fonts);
     if (!state.wheel.empty()) {
         ImGui::PushTextWrapPos(0);
         text(palette::dim, state.wheel);
@@ -324,6 +349,7 @@ void draw_help(const UiFonts& fonts) {
         {"L", "back to live"},
         {"P", "play or leave the planned move"},
         {"F2", "next synthesiser"},
+        {"N", "show which rig each pixel comes from"},
         {"Tab", "show or hide the panels"},
         {"F1", "show or hide this help"},
         {"Esc", "end"}};

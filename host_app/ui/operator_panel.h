@@ -28,6 +28,17 @@ struct PanelStage {
     bool at_rig = false;
 };
 
+/// What the novelty overlay's colours say.
+struct PanelNovelty {
+    struct Row {
+        std::string rig;
+        unsigned char rgb[3] = {0, 0, 0};
+        double share = 0;  ///< of the picture's pixels
+    };
+    std::vector<Row> rows;
+    std::string remark;  ///< why there is no overlay; empty: there is one
+};
+
 /// All that the operator's screen tells.
 struct PanelState {
     const Texture* picture = nullptr;  ///< the virtual view
@@ -44,6 +55,7 @@ struct PanelState {
     OrbitView view;
     std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
+    std::optional<PanelNovelty> novelty;  ///< while it is asked for
     bool show_panels = true, show_help = false;
 };
 

@@ -109,6 +109,9 @@ void OperatorWindow::take_key(int key, bool control) {
         case GLFW_KEY_L:
             input_.to_live = true;
             break;
+        case GLFW_KEY_N:
+            input_.toggle_novelty = !input_.toggle_novelty;
+            break;
         case GLFW_KEY_F1:
             show_help_ = !show_help_;
             break;

@@ -2,12 +2,9 @@
 #include <memory>
 #include <vector>
 
-#include "common/gl/fullscreen_pass.h"
-#include "host_app/fusion/depth_picture.h"
 #include "host_app/fusion/gpu_view.h"
-#include "host_app/fusion/hole_filler.h"
+#include "host_app/fusion/layer_blender.h"
 #include "host_app/fusion/layer_splitter.h"
-#include "host_app/fusion/rig_layers.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/fusion/view_ranking.h"
 
@@ -23,19 +20,15 @@ constexpr std::size_t blended_views = 2;
 class LayeredSynthesiser final : public Synthesiser {
   public:
     explicit LayeredSynthesiser(const ShaderLibrary& library)
-        : splitter_(library), layers_(library), filler_(library) {
-        for (std::size_t views = 1; views <= blended_views; ++views)
-            blend_.emplace_back(library, "layered_blend.frag",
-                                ShaderDefines{{"LAYERS", std::to_string(2 * views)}});
-    }
+        : splitter_(library), blender_(library, "layered_blend.frag", softness, 2) {}
 
     void set_views(std::span<const DepthView> views) override {
         upload_views(views, mains_);
         upload_views(views, boundaries_);
         for (std::size_t i = 0; i < mains_.size(); ++i) {
             splitter_.split(*mains_[i], *mains_[i], *boundaries_[i]);
-            layers_.rasteriser().build_triangles(*mains_[i]);
-            layers_.rasteriser().build_triangles(*boundaries_[i]);
+            blender_.layers().rasteriser().build_triangles(*mains_[i]);
+            blender_.layers().rasteriser().build_triangles(*boundaries_[i]);
         }
     }
 
@@ -47,27 +40,20 @@ class LayeredSynthesiser final : public Synthesiser {
                                          [&](const auto& other) { return other.get() == main; });
             used.push_back(boundaries_[static_cast<std::size_t>(at - mains_.begin())].get());
         }
-        layers_.draw(used, view);
-        blended_.resize({view.width_px, view.height_px});
-        if (used.empty()) {
-            blended_.clear();
-        } else {
-            FullscreenPass& pass = blend_[used.size() / 2 - 1];
-            Program& program = pass.use();
-            layers_.bind(program);
-            program.set("softness", softness);
-            pass.draw(blended_.target());
-        }
-        return filler_.fill(blended_.colour(), blended_.depth_m());
+        blender_.layers().draw(used, view);
+        return blender_.blend(view);
     }
+
+    bool note_origins(bool noted) override {
+        blender_.note_origins(noted);
+        return true;
+    }
+    const PixelOrigins* origins() const override { return blender_.origins(); }
 
   private:
     std::vector<std::unique_ptr<GpuView>> mains_, boundaries_;  ///< in the same order
     LayerSplitter splitter_;
-    RigLayers layers_;
-    HoleFiller filler_;
-    std::vector<FullscreenPass> blend_;  ///< one for every number of views
-    DepthPicture blended_;
+    LayerBlender blender_;
 };
 
 }  // namespace

@@ -116,6 +116,37 @@ TEST_F(LiveSessionTest, GoesBackThroughThePastAndToLiveAgain) {
         << "what is looked at again is not counted again";
 }
 
+TEST_F(LiveSessionTest, ShowsTheRigsOfThePixelsWhileThatIsAskedFor) {
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}, {90, 90, 90, 255}));
+    session.wait_for_rigs(10s, stop_);
+    session.make_picture(view_, 0ns);
+    EXPECT_FALSE(session.last_shares());
+    session.set_novelty(true);
+    session.make_picture(view_, 1ms);
+    const cv::Vec4b shown = middle(session.last_picture());
+    EXPECT_GT(std::max({shown[0], shown[1], shown[2]}) - std::min({shown[0], shown[1], shown[2]}),
+              20)
+        << "a rig's colour over a grey wall";
+    const std::optional<NoveltyShares> shares = session.last_shares();
+    ASSERT_TRUE(shares);
+    EXPECT_EQ(shares->rigs.size(), 2u);
+    EXPECT_NEAR(shares->rigs.at("north") + shares->rigs.at("south") + shares->filled, 1, 1e-6);
+    ASSERT_EQ(session.novelty_legend().size(), 2u);
+    while (session.synthesiser() != "points") session.next_synthesiser();
+    session.make_picture(view_, 2ms);
+    EXPECT_FALSE(session.last_shares()) << "points cannot tell";
+    session.finish();
+    EXPECT_FALSE(to_json(session.report()).contains("novelty"));
+}
+
+TEST_F(LiveSessionTest, RefusesANoveltyOverlayOfWhatCannotTell) {
+    settings_.novelty = true;
+    settings_.synthesiser = "points";
+    const std::string sentence = thrown_sentence([&] { session(); });
+    EXPECT_NE(sentence.find("'points' cannot tell"), std::string::npos) << sentence;
+}
+
 TEST_F(LiveSessionTest, StaysLiveWhereNoPastIsKept) {
     LiveSession session = this->session();
     feed_.push(feed_.set(1, {"north", "south"}));

@@ -111,6 +111,23 @@ TEST_F(OperatorScreen, TellsTheStateOfARig) {
     EXPECT_GT(differing(before, after, {400, 500, 500, 220}), 500) << "its disparity goes";
 }
 
+TEST_F(OperatorScreen, NamesTheColoursOfTheNoveltyOverlay) {
+    const cv::Rect panel(960, 30, 320, 300);
+    const auto patch = [&](cv::Scalar colour) {
+        cv::Mat1b mask;
+        cv::inRange(ColourImage(draw(state_)(panel)), colour, colour, mask);
+        return cv::countNonZero(mask);
+    };
+    const cv::Scalar of_north(230, 159, 0, 255), of_filled(255, 0, 255, 255);
+    EXPECT_EQ(patch(of_north) + patch(of_filled), 0);
+    state_.novelty = {{{"north", {230, 159, 0}, 0.61}, {"filled", {255, 0, 255}, 0.04}}, ""};
+    EXPECT_GT(patch(of_north), 40);
+    EXPECT_GT(patch(of_filled), 40);
+    const ColourImage shares = draw(state_);
+    state_.novelty = {{}, "The synthesiser points cannot tell."};
+    EXPECT_GT(differing(shares, draw(state_), panel), 100);
+}
+
 TEST_F(OperatorScreen, ShowsTheDisparitiesInColour) {
     const ColourImage screen = draw(state_);
     cv::Mat1b red, blue;
