@@ -4,12 +4,15 @@ namespace vantage {
 
 EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
     : luma_(library, layout_of(settings)),
+      smooth_(library, layout_of(settings)),
       result_(library, layout_of(settings), settings.confidence) {}
 
 const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {
     profiler_.begin_frame();
     luma_.run(profiler_, left, right);
-    const Texture& result = result_.run(profiler_, search(profiler_, luma_));
+    const Buffer& disparity = search(profiler_, luma_);
+    smooth_.run(profiler_, disparity);
+    const Texture& result = result_.run(profiler_, disparity);
     profiler_.end_frame();
     return result;
 }

@@ -9,11 +9,12 @@
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/luma_pass.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
+#include "rig_firmware/stereo/passes/smooth_pass.h"
 
 namespace vantage {
 
-/// What the engine's matchers share: luma of the pictures before the search, the median after it,
-/// and the book-keeping.
+/// What the engine's matchers share: luma of the pictures before the search, smoothing and median
+/// after it, and the book-keeping.
 class EngineMatcher : public Matcher {
   public:
     const Texture& match(const Texture& left, const Texture& right) final;
@@ -21,7 +22,7 @@ class EngineMatcher : public Matcher {
     std::vector<PassReport> passes() const final { return profiler_.reports(); }
     void set_profiling(bool on) final { profiler_.set_enabled(on); }
     std::size_t gpu_bytes() const final {
-        return luma_.gpu_bytes() + result_.gpu_bytes() + search_bytes();
+        return luma_.gpu_bytes() + smooth_.gpu_bytes() + result_.gpu_bytes() + search_bytes();
     }
 
   protected:
@@ -35,6 +36,7 @@ class EngineMatcher : public Matcher {
   private:
     PassProfiler profiler_;
     LumaPass luma_;
+    SmoothPass smooth_;
     ResultPass result_;
 };
 

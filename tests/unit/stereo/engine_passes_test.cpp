@@ -11,6 +11,7 @@
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
+#include "rig_firmware/stereo/passes/smooth_pass.h"
 #include "rig_firmware/stereo/passes/upsample_pass.h"
 #include "rig_firmware/stereo/passes/upsample_reference.h"
 #include "tests/unit/stereo/engine_buffers.h"
@@ -65,9 +66,16 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     const DisparityImage filled = filled_from_background(checked.disparity);
     expect_equal(lower_half(channel_of(fill.filled(), layout_, 1, 0)), as_int(filled), "filled");
 
+    SmoothPass smooth(library_, layout_);
+    smooth.run(profiler_, fill.filled());
+    const cv::Mat1i smooth_words = channel_of(fill.filled(), layout_, 1, 0);
+    const DisparityImage smoothed = smoothed_where_near(filled);
+    expect_equal(lower_half(smooth_words), as_int(smoothed), "smoothed");
+    EXPECT_GT(cv::norm(smoothed, filled, cv::NORM_L1), 0) << "nothing was there to be smoothed";
+
     ResultPass result(library_, layout_);
     expect_equal(as_int(result.run(profiler_, fill.filled()).download()),
-                 as_int(median_of_known(filled)), "dense result");
+                 as_int(median_of_known(smoothed)), "dense result");
     expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
                  as_int(median_of_known(checked.disparity)), "result with unknowns");
     ResultPass with_confidence(library_, layout_, true);
