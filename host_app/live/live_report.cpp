@@ -85,12 +85,12 @@ std::string rig_remarks(const LiveReport& report) {
     for (const RigAccount& rig : report.rigs) {
         if (!rig.status.connected)
             text += fmt::format("{} is {}\n", rig.status.rig, state_of(rig.status));
-        else if (!rig.status.same_clock)
+        else if (!rig.status.same_clock && rig.status.sync.disciplined)
             text += fmt::format("{}: {}\n", rig.status.rig, clock_text(rig.status));
+        for (const std::string& worry : worries_of(rig.status))
+            text += fmt::format("{}: {}\n", rig.status.rig, worry);
         if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
             text += fmt::format("{}: {}\n", rig.status.rig, pulses);
-        if (rig.status.health.under_voltage)
-            text += fmt::format("{}: {}\n", rig.status.rig, health_text(rig.status.health));
         if (!rig.status.last_error.empty())
             text +=
                 fmt::format("{}: the last fault was: {}\n", rig.status.rig, rig.status.last_error);
@@ -103,6 +103,20 @@ std::string rig_remarks(const LiveReport& report) {
 std::string state_of(const RigStatus& status) {
     if (!status.refused.empty()) return "refused: " + status.refused;
     return status.connected ? "connected" : "disconnected";
+}
+
+std::vector<std::string> worries_of(const RigStatus& status) {
+    // A Raspberry Pi's processors slow down from here on.
+    constexpr float hot_c = 80;
+    std::vector<std::string> worries;
+    if (!status.connected) return worries;
+    if (status.health.temperature_c.value_or(0) >= hot_c)
+        worries.push_back(fmt::format("{:.0f} C, it slows down from {:.0f}",
+                                      *status.health.temperature_c, hot_c));
+    if (status.health.under_voltage) worries.emplace_back("its supply sags");
+    if (!status.same_clock && !status.sync.disciplined)
+        worries.emplace_back("clocks not disciplined: skew unknown");
+    return worries;
 }
 
 nlohmann::ordered_json to_json(const LiveReport& report) {

@@ -61,4 +61,7 @@ std::string to_text(const LiveReport& report);
 /// "connected", "disconnected" or "refused: ...".
 std::string state_of(const RigStatus& status);
 
+/// What of a connected rig a technician should look after, a few words each: heat, supply, clock.
+std::vector<std::string> worries_of(const RigStatus& status);
+
 }  // namespace vantage

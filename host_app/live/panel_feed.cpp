@@ -6,6 +6,7 @@
 
 #include "common/gl/limits.h"
 #include "host_app/live/disparity_picture.h"
+#include "host_app/live/live_report.h"
 
 namespace vantage {
 namespace {
@@ -38,6 +39,7 @@ PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
     rig.lost = status.rig_counters.missed + status.rig_counters.late + status.link.send_dropped +
                status.lost + status.undecodable + status.late + status.duplicate +
                status.unsynchronized + status.out_of_step + status.queue_dropped;
+    rig.worries = worries_of(status);
     if (const auto picture = disparities_.find(status.rig); picture != disparities_.end())
         rig.disparity = &picture->second;
     return rig;

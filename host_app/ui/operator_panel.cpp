@@ -166,6 +166,9 @@ void draw_rig_table(const PanelState& state, const UiFonts& fonts) {
         if (rig.lost > 0) ImGui::PopStyleColor();
     }
     ImGui::EndTable();
+    for (const PanelRig& rig : state.rigs)
+        for (const std::string& worry : rig.worries)
+            text(palette::warn, fmt::format("{}: {}", rig.name, worry));
 }
 
 void draw_stages(const PanelState& state, const UiFonts& fonts) {

@@ -20,6 +20,8 @@ struct PanelRig {
     double latency_ms = 0;               ///< exposure to decoded, median
     std::uint64_t lost = 0;              ///< frames that met no set, wherever they were lost
     const Texture* disparity = nullptr;  ///< colour-mapped; null: none yet
+    std::vector<std::string> worries =
+        {};  ///< what a technician should look after, a few words each
 };
 
 struct PanelStage {

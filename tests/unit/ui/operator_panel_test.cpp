@@ -128,6 +128,12 @@ TEST_F(OperatorScreen, NamesTheColoursOfTheNoveltyOverlay) {
     EXPECT_GT(differing(shares, draw(state_), panel), 100);
 }
 
+TEST_F(OperatorScreen, ShowsWhatATechnicianShouldLookAfter) {
+    const ColourImage before = draw(state_);
+    state_.rigs[0].worries = {"83 C, it slows down from 80", "its supply sags"};
+    EXPECT_GT(differing(before, draw(state_), {0, 40, 400, 400}), 100);
+}
+
 TEST_F(OperatorScreen, ShowsTheDisparitiesInColour) {
     const ColourImage screen = draw(state_);
     cv::Mat1b red, blue;
