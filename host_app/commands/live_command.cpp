@@ -11,6 +11,7 @@
 #include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
+#include "host_app/commands/stereoscopic_options.h"
 #include "host_app/live/headless_flight.h"
 #include "host_app/live/window_flight.h"
 #include "host_app/output/picture_target.h"
@@ -23,6 +24,7 @@ struct LiveOptions {
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
     bool headless = false, json = false, novelty = false;
+    StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
 };
 
@@ -57,6 +59,7 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         .past_bytes = static_cast<std::size_t>(options.past_mb * 1e6),
         .synthesiser = options.synthesiser.empty() ? stage.view.synthesiser : options.synthesiser,
         .novelty = options.novelty,
+        .stereoscopy = options.stereoscopic.stereoscopy(),
         .film = options.film,
         .contact_sheet = options.contact_sheet};
     if (!options.size.empty()) {
@@ -187,6 +190,7 @@ CommandEntry live_command_entry() {
             "--novelty", options->novelty,
             "Show which rigs the pixels come from, a colour a rig, what none has seen "
             "hatched (key N), in films and snapshots too");
+        options->stereoscopic.add_to(*command, "the camera's distance from its pivot");
         command
             ->add_option("--wait", options->wait_s,
                          "With --headless: seconds that the rigs may take to come")

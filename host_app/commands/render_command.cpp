@@ -12,6 +12,7 @@
 #include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
+#include "host_app/commands/stereoscopic_options.h"
 #include "host_app/fusion/image_metrics.h"
 #include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/synthesiser.h"
@@ -25,6 +26,72 @@ constexpr int timed_renderings = 5;
 struct RenderOptions {
     std::string views, hold_out, pose, synthesiser = default_synthesiser, output, difference;
     bool novelty = false, json = false;
+    StereoscopicOptions stereoscopic;
+};
+
+/// One camera, or two eyes beside each other; plain, or with the novelty overlay.
+class Rendering {
+  public:
+    Rendering(const RenderOptions& options, const ViewSet& set, const VirtualView& target,
+              const ShaderLibrary& shaders)
+        : synthesiser_(make_synthesiser(options.synthesiser, shaders)), overlay_(shaders) {
+        eyes_ = {target};
+        if (const auto asked = options.stereoscopic.stereoscopy()) {
+            settled_ = asked->settled(target, typical_depth_m(set.views, target));
+            const EyeViews both = eye_views(target, *settled_);
+            eyes_ = {both.left, both.right};
+            side_by_side_.resize({target.width_px, target.height_px});
+        }
+        if (options.novelty) {
+            NoveltyOverlay::require(*synthesiser_, options.synthesiser);
+            synthesiser_->note_origins(false);
+            for (const DepthView& view : set.views)
+                if (!view.depth_m.empty()) overlay_.name_rigs({view.name});
+        }
+        synthesiser_->set_views(set.views);
+    }
+
+    const std::optional<Stereoscopy>& stereoscopy() const { return settled_; }
+
+    const Texture& plain() {
+        return both([](const Texture& eye) -> const Texture& { return eye; });
+    }
+
+    /// The overlay and, in `result`, what it says in numbers.
+    const Texture& novelty(nlohmann::ordered_json& result) {
+        NoveltyShares sum;
+        synthesiser_->note_origins(true);
+        const Texture& picture = both([&](const Texture& eye) -> const Texture& {
+            const PixelOrigins& origins = *synthesiser_->origins();
+            const NoveltyShares shares = novelty_shares(eye.download(), origins);
+            const auto eyes = static_cast<double>(eyes_.size());
+            for (const auto& [rig, share] : shares.rigs) sum.rigs[rig] += share / eyes;
+            sum.filled += shares.filled / eyes;
+            return overlay_.lay(eye, origins);
+        });
+        synthesiser_->note_origins(false);
+        result = to_json(sum);
+        for (const NoveltyOverlay::Key& key : overlay_.legend())
+            result["colours"][key.rig] =
+                fmt::format("#{:02x}{:02x}{:02x}", key.colour[0], key.colour[1], key.colour[2]);
+        return picture;
+    }
+
+  private:
+    template <class Finish>
+    const Texture& both(const Finish& finish) {
+        const Texture& first = finish(synthesiser_->render(eyes_.front()));
+        if (eyes_.size() == 1) return first;
+        side_by_side_.put_left(first);
+        side_by_side_.put_right(finish(synthesiser_->render(eyes_.back())));
+        return side_by_side_.picture();
+    }
+
+    std::unique_ptr<Synthesiser> synthesiser_;
+    NoveltyOverlay overlay_;
+    std::optional<Stereoscopy> settled_;
+    std::vector<VirtualView> eyes_;
+    SideBySide side_by_side_;
 };
 
 void render(const RenderOptions& options) {
@@ -52,11 +119,9 @@ void render(const RenderOptions& options) {
     const GlInfo gl = GlInfo::query();
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
-    const std::unique_ptr<Synthesiser> synthesiser = make_synthesiser(options.synthesiser, shaders);
-    if (options.novelty) NoveltyOverlay::require(*synthesiser, options.synthesiser);
-    synthesiser->set_views(set.views);
-    const ColourImage picture = synthesiser->render(target).download();
-    const double gpu_ms = median_gpu_ms(timed_renderings, [&] { synthesiser->render(target); });
+    Rendering rendering(options, set, target, shaders);
+    const ColourImage picture = rendering.plain().download();
+    const double gpu_ms = median_gpu_ms(timed_renderings, [&] { rendering.plain(); });
 
     nlohmann::ordered_json result{
         {"width", target.width_px}, {"height", target.height_px}, {"synth", options.synthesiser}};
@@ -69,19 +134,9 @@ void render(const RenderOptions& options) {
     result["coverage"] = coverage(picture);
     result["gpu_ms"] = gpu_ms;
     result["renderer"] = gl.renderer;
+    if (const auto& eyes = rendering.stereoscopy()) result["stereoscopic"] = to_json(*eyes);
     ColourImage shown = picture;
-    if (options.novelty) {
-        NoveltyOverlay overlay(shaders);
-        for (const DepthView& view : set.views)
-            if (!view.depth_m.empty()) overlay.name_rigs({view.name});
-        const Texture& plain = synthesiser->render(target);
-        const PixelOrigins& origins = *synthesiser->origins();
-        result["novelty"] = to_json(novelty_shares(picture, origins));
-        for (const NoveltyOverlay::Key& key : overlay.legend())
-            result["novelty"]["colours"][key.rig] =
-                fmt::format("#{:02x}{:02x}{:02x}", key.colour[0], key.colour[1], key.colour[2]);
-        shown = overlay.lay(plain, origins).download();
-    }
+    if (options.novelty) shown = rendering.novelty(result["novelty"]).download();
 
     write_colour_image(options.output, shown);
     if (!options.difference.empty())
@@ -113,6 +168,8 @@ CommandEntry render_command_entry() {
             "Withhold this view, render it from the others and compare: psnr_db, ssim");
         target->add_option("--pose", options->pose, "Render the camera that this file describes");
         target->require_option(1);
+        options->stereoscopic.add_to(*command, "the median depth of what is in view")
+            ->excludes(hold_out);
         command->add_option("--synth", options->synthesiser, "Synthesiser")->capture_default_str();
         command->add_option("-o,--output", options->output, "Picture to write (.png or .jpg)")
             ->required();

@@ -156,6 +156,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     for (const StageTime& time : report.stages)
         if (time.ms.count > 0) json["stages_ms"][time.stage] = to_json(time.ms);
     json["latency_ms"] = to_json(report.latency_ms);
+    if (report.stereoscopy) json["stereoscopic"] = to_json(*report.stereoscopy);
     if (report.novelty) json["novelty"] = to_json(*report.novelty);
     for (const DeckDevice& wheel : report.wheels)
         json["wheels"].push_back({{"name", wheel.model},
@@ -192,6 +193,10 @@ std::string to_text(const LiveReport& report) {
     text += fmt::format(
         "\nexposure to picture: p50 {:.1f} ms, p95 {:.1f}, p99 {:.1f}, max {:.1f}\n",
         report.latency_ms.p50, report.latency_ms.p95, report.latency_ms.p99, report.latency_ms.max);
+    if (report.stereoscopy)
+        text +=
+            fmt::format("side by side: eyes {:.1f} mm apart, converging at {:.2f} m\n",
+                        1000 * report.stereoscopy->interaxial_m, report.stereoscopy->convergence_m);
     if (report.novelty) {
         text += "pixels of the last picture by rig:";
         for (const auto& [rig, share] : report.novelty->rigs)

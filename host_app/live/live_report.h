@@ -11,6 +11,7 @@
 #include "common/receive/stage_receiver.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/fusion/novelty_overlay.h"
+#include "host_app/fusion/stereoscopy.h"
 #include "host_app/jog/jog_deck.h"
 
 namespace vantage {
@@ -46,7 +47,8 @@ struct LiveReport {
     std::vector<StageTime> stages;
     Percentiles latency_ms;  ///< from exposure to the picture, of every set that was shown
 
-    std::optional<NoveltyShares> novelty;  ///< of the last picture, where it shows novelty
+    std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
+    std::optional<NoveltyShares> novelty;    ///< of the last picture, where it shows novelty
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 

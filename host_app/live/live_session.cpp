@@ -44,6 +44,11 @@ Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
     return most;
 }
 
+VirtualView target_of(const OrbitView& view, const LiveSettings& settings) {
+    return {settings.width_px, settings.height_px, view.K(settings.width_px, settings.height_px),
+            view.world_from_camera()};
+}
+
 /// The virtual view, and one rig's colour and disparity.
 SheetMoment row_of(const Moment& moment, std::size_t row) {
     SheetMoment stills{moment.title, {{moment.picture, "virtual view"}}};
@@ -75,6 +80,8 @@ LiveSession::LiveSession(const LiveSettings& settings, const ShaderLibrary& shad
                                                        .height_px = settings.height_px,
                                                        .rate_hz = settings.rate_hz});
     if (settings_.novelty) NoveltyOverlay::require(*synthesiser_, settings_.synthesiser);
+    if (settings_.stereoscopy)
+        (void)settings_.stereoscopy->settled(target_of(OrbitView{}, settings_), 1);
     refresh_status();
     for (const RigStatus& rig : status_.rigs) overlay_.name_rigs({rig.rig});
 }
@@ -168,6 +175,22 @@ void LiveSession::ask_for_rigs(const VirtualView& view) {
     }
 }
 
+const Texture& LiveSession::render_eye(const VirtualView& eye) {
+    const Texture& plain = synthesiser_->render(eye);
+    const PixelOrigins* origins = synthesiser_->origins();
+    last_eye_ = origins ? &overlay_.lay(plain, *origins) : &plain;
+    return *last_eye_;
+}
+
+const Texture& LiveSession::render(const VirtualView& target, double focus_m) {
+    if (!settings_.stereoscopy) return render_eye(target);
+    const auto [left, right] = eye_views(target, settings_.stereoscopy->settled(target, focus_m));
+    side_by_side_.resize({target.width_px, target.height_px});
+    side_by_side_.put_left(render_eye(left));
+    side_by_side_.put_right(render_eye(right));
+    return side_by_side_.picture();
+}
+
 const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nanoseconds time) {
     if (past_pulse_) {
         std::optional<FrameSet> set = past_.at(*past_pulse_);
@@ -180,13 +203,9 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
     }
     const MonotonicTime start = MonotonicClock::now();
     if (!first_picture_) first_picture_ = start;
-    const VirtualView target{settings_.width_px, settings_.height_px,
-                             view.K(settings_.width_px, settings_.height_px),
-                             view.world_from_camera()};
+    const VirtualView target = target_of(view, settings_);
     ask_for_rigs(target);
-    const Texture& plain = synthesiser_->render(target);
-    const PixelOrigins* origins = synthesiser_->origins();
-    const Texture& texture = origins ? overlay_.lay(plain, *origins) : plain;
+    const Texture& texture = render(target, view.distance_m);
     glFinish();
     times_.add(Stage::render, ms_since(start));
     check_gl("rendering the virtual view");
@@ -249,8 +268,8 @@ void LiveSession::set_novelty(bool novelty) {
 }
 
 std::optional<NoveltyShares> LiveSession::last_shares() const {
-    if (!last_texture_ || !synthesiser_->origins()) return std::nullopt;
-    return novelty_shares(last_picture(), *synthesiser_->origins());
+    if (!last_eye_ || !synthesiser_->origins()) return std::nullopt;
+    return novelty_shares(last_eye_->download(), *synthesiser_->origins());
 }
 
 std::vector<StageTime> LiveSession::stage_summary() const {
@@ -295,6 +314,9 @@ LiveReport LiveSession::report() const {
     }
     report.latency_ms = latency_ms_.summary();
     report.novelty = last_shares();
+    if (settings_.stereoscopy)
+        report.stereoscopy =
+            settings_.stereoscopy->settled(target_of(last_view_, settings_), last_view_.distance_m);
     return report;
 }
 

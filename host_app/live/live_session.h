@@ -12,6 +12,7 @@
 #include "host_app/flight/orbit_view.h"
 #include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/rig_demand.h"
+#include "host_app/fusion/stereoscopy.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/moment_collector.h"
@@ -28,7 +29,9 @@ struct LiveSettings {
     double pulse_rate_hz = 30;             ///< of the stage
     std::size_t past_bytes = 0;            ///< of frames kept to go back to; 0: none
     std::string synthesiser = "fused";
-    bool novelty = false;                                  ///< the picture is a NoveltyOverlay
+    bool novelty = false;  ///< the picture is a NoveltyOverlay
+    /// Two eyes side by side that converge, where this does not say, at the pivot's distance.
+    std::optional<Stereoscopy> stereoscopy = {};
     std::filesystem::path film, contact_sheet;             ///< empty: none
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
@@ -39,7 +42,7 @@ struct LiveSettings {
 class LiveSession {
   public:
     /// Throws Error if the synthesiser is unknown, or cannot tell what the novelty overlay is to
-    /// show, or the film cannot be opened.
+    /// show, or there can be no stereoscopic picture of this width, or the film cannot be opened.
     LiveSession(const LiveSettings& settings, const ShaderLibrary& shaders, StageFeed feed);
 
     /// Waits until a set with all rigs has come; at the limit, goes on with those that are there
@@ -105,6 +108,9 @@ class LiveSession {
 
   private:
     void show(FrameSet set);
+    /// The picture of one camera, with the overlay if that is wanted.
+    const Texture& render_eye(const VirtualView& eye);
+    const Texture& render(const VirtualView& target, double focus_m);
     void give_to_synthesiser(const FrameSet& set);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(const VirtualView& view);
@@ -118,11 +124,13 @@ class LiveSession {
     ReceiverStatus status_;
     std::unique_ptr<Synthesiser> synthesiser_;
     NoveltyOverlay overlay_;
+    SideBySide side_by_side_;
     RigDemand demand_;
     std::optional<VideoRecorder> recorder_;
     MomentCollector moments_;
 
     const Texture* last_texture_ = nullptr;
+    const Texture* last_eye_ = nullptr;  ///< the picture that the synthesiser's origins belong to
     OrbitView last_view_;
     std::optional<FrameSet> shown_;
     bool is_new_ = false;  ///< shown_ was in no picture yet

@@ -140,6 +140,31 @@ TEST_F(LiveSessionTest, ShowsTheRigsOfThePixelsWhileThatIsAskedFor) {
     EXPECT_FALSE(to_json(session.report()).contains("novelty"));
 }
 
+TEST_F(LiveSessionTest, PutsTheEyesOfAStereoscopicPictureSideBySide) {
+    settings_.stereoscopy = Stereoscopy{};
+    settings_.novelty = true;
+    LiveSession session = this->session();
+    feed_.push(feed_.set(1, {"north", "south"}, {200, 200, 200, 255}));
+    session.wait_for_rigs(10s, stop_);
+    session.make_picture(view_, 0ns);
+    const ColourImage picture = session.last_picture();
+    EXPECT_EQ(picture.size(), cv::Size(64, 48));
+    EXPECT_GE(picture(24, 16)[3], 128) << "the middle of the left eye's half";
+    EXPECT_GE(picture(24, 48)[3], 128) << "of the right eye's";
+    ASSERT_TRUE(session.last_shares());
+    session.finish();
+    const nlohmann::ordered_json json = to_json(session.report());
+    EXPECT_EQ(json["stereoscopic"]["convergence_m"], 4.5);
+    EXPECT_GT(json["stereoscopic"]["interaxial_m"], 0.05);
+}
+
+TEST_F(LiveSessionTest, RefusesAStereoscopicPictureOfAnOddWidth) {
+    settings_.stereoscopy = Stereoscopy{};
+    settings_.width_px = 65;
+    const std::string sentence = thrown_sentence([&] { session(); });
+    EXPECT_NE(sentence.find("65 px is odd"), std::string::npos) << sentence;
+}
+
 TEST_F(LiveSessionTest, RefusesANoveltyOverlayOfWhatCannotTell) {
     settings_.novelty = true;
     settings_.synthesiser = "points";
