@@ -7,8 +7,19 @@
 #include "common/gl/limits.h"
 
 namespace vantage {
+namespace {
+
+/// Shaders reckon where they are in a buffer with 32-bit signed numbers.
+constexpr std::size_t most_bytes = (std::size_t{1} << 31) - 1;
+
+}  // namespace
 
 Buffer::Buffer(std::size_t bytes, GLenum usage, const void* initial) : bytes_(bytes) {
+    if (bytes > most_bytes)
+        fail(
+            "a GPU buffer of {} MB is more than the {} MB that shaders can address; take smaller "
+            "pictures or a shorter search range",
+            bytes >> 20, most_bytes >> 20);
     GLuint name = 0;
     glGenBuffers(1, &name);
     handle_ = GlHandle<delete_buffer>(name);

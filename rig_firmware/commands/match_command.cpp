@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -35,7 +36,7 @@ double median_px(const DisparityImage& disparity) {
 }
 
 struct MatchOptions {
-    std::string left, right, matcher, preset = "balanced", output, colour_map;
+    std::string left, right, matcher, preset = "balanced", output, colour_map, confidence;
     int disparities = 0, repeats = 5;
     bool no_fill = false, explain = false, json = false;
 };
@@ -44,9 +45,17 @@ struct MatchOptions {
 void check_outputs(const MatchOptions& options) {
     disparity_form(options.output);
     require_writable_output(options.output, {options.left, options.right});
-    if (options.colour_map.empty()) return;
-    require_picture_extension(options.colour_map);
-    require_writable_output(options.colour_map, {options.left, options.right, options.output});
+    if (!options.colour_map.empty()) {
+        require_picture_extension(options.colour_map);
+        require_writable_output(options.colour_map, {options.left, options.right, options.output});
+    }
+    if (!options.confidence.empty()) {
+        if (std::filesystem::path(options.confidence).extension() != ".png")
+            fail("{} cannot hold confidence, which is written without loss: name a .png",
+                 options.confidence);
+        require_writable_output(options.confidence,
+                                {options.left, options.right, options.output, options.colour_map});
+    }
 }
 
 Texture upload(const ColourImage& picture) {
@@ -80,7 +89,8 @@ void match(const MatchOptions& options) {
                                  .height_px = left.rows,
                                  .disparities = options.disparities,
                                  .preset = preset,
-                                 .fill = !options.no_fill};
+                                 .fill = !options.no_fill,
+                                 .confidence = !options.confidence.empty()};
     settings.validate();
 
     const EglContext context;
@@ -88,6 +98,9 @@ void match(const MatchOptions& options) {
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
     const std::unique_ptr<Matcher> matcher = make_matcher(matcher_name, shaders, settings);
+    if (settings.confidence && !matcher->confidence())
+        fail("the matcher '{}' knows no confidence; leave out --confidence or take another matcher",
+             matcher_name);
     const Texture left_texture = upload(left), right_texture = upload(right);
     // The first match warms the driver up: some compile shaders when they are first used.
     const DisparityImage disparity = matcher->match(left_texture, right_texture).download();
@@ -110,6 +123,12 @@ void match(const MatchOptions& options) {
         {"px_per_code",
          disparity_form(options.output) == DisparityForm::pfm ? 1.0 : 1.0 / disparity_steps_per_px},
     };
+    const GreyImage confidence =
+        settings.confidence ? GreyImage(matcher->confidence()->download()) : GreyImage();
+    if (settings.confidence) {
+        result["confidence"] = options.confidence;
+        result["mean_confidence"] = cv::mean(confidence)[0] / 255;
+    }
     if (options.explain) {
         matcher->set_profiling(true);
         matcher->match(left_texture, right_texture);
@@ -122,6 +141,7 @@ void match(const MatchOptions& options) {
         write_colour_image(options.colour_map,
                            colour_map_disparity(to_float_px(disparity), 0,
                                                 static_cast<float>(options.disparities)));
+    if (settings.confidence) write_grey_image(options.confidence, confidence);
     print_result(result, options.json);
     if (options.explain && !options.json) std::cout << '\n' << pass_table(*matcher);
 }
@@ -159,6 +179,11 @@ CommandEntry match_command_entry() {
             ->required();
         command->add_option("--colormap", options->colour_map,
                             "Also write them as colours, blue = 0, red = N, black = unknown");
+        command
+            ->add_option("--confidence", options->confidence,
+                         "Also write how sure each pixel is: 8-bit .png, 255 = surest, 0 = unknown "
+                         "or filled")
+            ->type_name("FILE");
         command->add_flag("--no-fill", options->no_fill,
                           "Leave unknown as unknown instead of filling it");
         command->add_option("--repeats", options->repeats, "Matches that gpu_ms is the median of")

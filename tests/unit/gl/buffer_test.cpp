@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/egl_context.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -24,6 +25,14 @@ TEST(Buffer, GivesBackWhatWasWritten) {
     buffer.read(16, std::as_writable_bytes(std::span(one)));
     EXPECT_EQ(one[0], 5);
     EXPECT_NO_THROW(buffer.read(0, {}));
+}
+
+TEST(Buffer, RefusesMoreThanShadersCanAddressNamingTheLimit) {
+    const EglContext context;
+    const std::string sentence =
+        thrown_sentence([] { Buffer(std::size_t{1} << 31, GL_STATIC_DRAW); });
+    EXPECT_NE(sentence.find("2048 MB"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("2047 MB"), std::string::npos) << sentence;
 }
 
 TEST(Buffer, MovesWithItsObject) {

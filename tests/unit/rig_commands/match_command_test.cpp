@@ -109,6 +109,46 @@ TEST_F(MatchCommandTest, LeavesUnknownAsInfinityWithoutFilling) {
     EXPECT_DOUBLE_EQ(density, 1.0 - unknown / static_cast<double>(px.total()));
 }
 
+TEST_F(MatchCommandTest, WritesHowSureItIsAndIsNotOfWhatItFilled) {
+    const std::string confidence = path("confidence.png");
+    const ProgramResult dense =
+        match({"--disparities", "16", "--confidence", confidence, "--json"});
+    ASSERT_EQ(dense.status, 0) << dense.err;
+    const auto json = nlohmann::json::parse(dense.out);
+    EXPECT_EQ(json.at("confidence"), confidence);
+    EXPECT_EQ(json.at("density"), 1.0);
+    const cv::Mat1w sure = read_code_image(confidence);
+    ASSERT_EQ(sure.size(), cv::Size(61, 47));
+    EXPECT_GT(sure(23, 40), 64);
+    EXPECT_NEAR(json.at("mean_confidence"), cv::mean(sure)[0] / 255, 1e-9);
+
+    ASSERT_EQ(match({"--disparities", "16", "--no-fill"}).status, 0);
+    const cv::Mat1f px = read_pfm(output_);
+    int unknown = 0;
+    for (int y = 0; y < px.rows; ++y)
+        for (int x = 0; x < px.cols; ++x) {
+            if (!std::isinf(px(y, x))) continue;
+            ++unknown;
+            ASSERT_EQ(sure(y, x), 0) << x << ", " << y;
+        }
+    EXPECT_GT(unknown, 0);
+}
+
+TEST_F(MatchCommandTest, RefusesConfidenceThatCannotBeHad) {
+    const std::vector<std::string> wish = {"--disparities", "16", "--confidence"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), wish.begin(), wish.end());
+        return match(more);
+    };
+    expect_refusal(with({path("sure.jpg")}), {"sure.jpg", ".png"});
+    expect_refusal(with({path("missing/sure.png")}), {"missing/sure.png"});
+    expect_refusal(with({left_}), {"left.png"});
+    expect_refusal(with({path("map.png"), "--colormap", path("map.png")}), {"map.png"});
+    expect_refusal(with({path("sure.png"), "--matcher", "gradient"}),
+                   {"gradient", "knows no confidence"});
+    EXPECT_FALSE(std::filesystem::exists(path("sure.png")));
+}
+
 TEST_F(MatchCommandTest, ExplainsItsPasses) {
     const ProgramResult machine =
         match({"--disparities", "16", "--matcher", "gradient", "--explain", "--json"});
@@ -143,6 +183,13 @@ TEST_F(MatchCommandTest, RefusesDisparitiesOutOfRange) {
         expect_refusal(match({"--disparities", count}), {count, "1 to 256"});
     expect_refusal(match({"--disparities", "many"}), {"many"});
     expect_refusal(match({}), {"--disparities"});
+}
+
+TEST_F(MatchCommandTest, RefusesPicturesThatAreTooLargeNamingTheLimit) {
+    const std::string wide = path("wide.png");
+    write_colour_image(wide, ColourImage(20, 4097));
+    expect_refusal(run({"match", wide, wide, "--disparities", "16", "-o", output_}),
+                   {"4097x20", "4096"});
 }
 
 TEST_F(MatchCommandTest, RefusesUnknownNamesAndListsTheKnownOnes) {
