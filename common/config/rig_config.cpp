@@ -96,7 +96,10 @@ RigConfig load_rig_config(const std::filesystem::path& path) {
     RigConfig config;
     read_toml_file(path, rig_config_version, [&](TomlTable& top) {
         read_stream_name(top, config.name);
-        top.read("calibration", config.calibration);
+        std::string calibration;
+        top.read("calibration", calibration);
+        config.uncalibrated = calibration == "none";
+        if (!config.uncalibrated) top.read("calibration", config.calibration);
         top.read_table("source", [&](TomlTable& t) { read_source(t, config.source); });
         top.read_table("virtual_rig",
                        [&](TomlTable& t) { read_virtual_rig(t, config.virtual_rig); });

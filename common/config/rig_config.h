@@ -36,6 +36,7 @@ struct RigConfig {
 
     std::filesystem::path
         calibration;  ///< YAML; may be empty for the virtual source and for rectified files
+    bool uncalibrated = false;  ///< calibration = "none": the rig serves raw pairs only
 
     /// An ideal, already rectified rig: the one the virtual source films with where no calibration
     /// is given, and the one that the files source takes rectified pictures without a calibration

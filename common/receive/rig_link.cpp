@@ -201,6 +201,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     message.streaming = wish.streaming;
     message.rate_divisor = wish.rate_divisor;
     message.first_pulse = wish.first_pulse;
+    message.raw_pairs = wish.raw_pairs;
     if (now < next_heartbeat_ && message == told_) return;
     // Not taken while the rig is away; then the heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

@@ -22,7 +22,7 @@ class RigLink {
     /// A frame as it came, not decoded yet.
     struct Delivery {
         RigMessage message;
-        std::array<zmq::message_t, 3> parts;  ///< header, colour, disparity
+        std::array<zmq::message_t, 3> parts;  ///< as in PackedFrame
         MonotonicTime arrival{};
         TaiTime arrival_tai{};
     };
@@ -33,6 +33,7 @@ class RigLink {
         std::uint32_t rate_divisor = 1;
         std::uint64_t unhandled = 0;    ///< frames that came and are not decoded yet
         std::uint64_t first_pulse = 0;  ///< of the take; 0: not announced yet
+        bool raw_pairs = false;
         bool operator==(const Wish&) const = default;
     };
 

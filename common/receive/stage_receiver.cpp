@@ -92,7 +92,10 @@ struct StageReceiver::Impl {
         if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
         for (const StageConfig::Rig& rig : stage.rigs)
             rigs.push_back(std::make_unique<Rig>(context, rig, keys));
-        for (const auto& rig : rigs) rig->wish.streaming = purpose == Purpose::film;
+        for (const auto& rig : rigs) {
+            rig->wish.streaming = purpose != Purpose::look_on;
+            rig->wish.raw_pairs = purpose == Purpose::calibrate;
+        }
         for (std::size_t i = 0; i < rigs.size(); ++i)
             rigs[i]->decoder = std::thread([this, i] { decode_all(i); });
         io_thread = std::thread([this] { run(); });

@@ -64,8 +64,9 @@ std::string clock_text(const RigStatus& rig);
 class StageReceiver {
   public:
     enum class Purpose {
-        film,    ///< asks every rig for its frames and starts the stage's take
-        look_on  ///< asks for none until ask() does, and leaves the take to the host that films
+        film,       ///< asks every rig for its frames and starts the stage's take
+        calibrate,  ///< as film, but for raw pairs instead of views
+        look_on     ///< asks for none until ask() does, and leaves the take to the host that films
     };
 
     /// Throws Error if a key or an endpoint is unusable.

@@ -33,7 +33,6 @@ void check_range(std::string_view what, double value, double lowest, double high
 }
 
 void check_geometry(const wire::Geometry& geometry) {
-    check_size("picture", geometry.width_px(), geometry.height_px());
     check_range("geometry.f_px", geometry.f_px(), 1e-3, max_focal_length_px);
     check_range("geometry.cx_left_px", geometry.cx_left_px(), -max_focal_length_px,
                 max_focal_length_px);
@@ -77,6 +76,14 @@ void check_timecode(const std::string& timecode) {
     if (!fits) fail("a timecode has to read hh:mm:ss:ff");
 }
 
+void check_times(const wire::StageTimes& times) {
+    constexpr double an_hour_ms = 3.6e6;
+    check_range("times.capture_ms", times.capture_ms(), 0, an_hour_ms);
+    check_range("times.rectify_ms", times.rectify_ms(), 0, an_hour_ms);
+    check_range("times.match_ms", times.match_ms(), 0, an_hour_ms);
+    check_range("times.pack_ms", times.pack_ms(), 0, an_hour_ms);
+}
+
 /// Everything that can be said about a header without the payloads; both directions go through it.
 Pose check_header(const wire::FrameHeader& header) {
     check_schema_version("frame", header.schema_version());
@@ -92,7 +99,21 @@ Pose check_header(const wire::FrameHeader& header) {
     if (header.exposure_tai_ns() < 0 || header.published_tai_ns() < 0)
         fail("a frame's times have to lie after 1970: exposed at {} ns, published at {} ns",
              header.exposure_tai_ns(), header.published_tai_ns());
-    check_geometry(header.geometry());
+    check_range("max_disparity_px", header.max_disparity_px(), 0, max_disparity_px);
+    check_times(header.times());
+    const wire::Geometry& geometry = header.geometry();
+    check_size("picture", geometry.width_px(), geometry.height_px());
+    if (header.content() == wire::FrameHeader::RAW_PAIR) {
+        if (geometry.f_px() != 0 || geometry.baseline_m() != 0 ||
+            geometry.world_from_camera_size() != 0 ||
+            header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE ||
+            header.colour_codec() == wire::FrameHeader::COLOUR_NONE)
+            fail("a raw pair carries two pictures and neither geometry nor disparity");
+        return Pose::Identity();
+    }
+    if (header.content() != wire::FrameHeader::VIEW)
+        fail("a frame's content {} is not known here", static_cast<int>(header.content()));
+    check_geometry(geometry);
     if (header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE) {
         check_size("disparity", header.disparity_width_px(), header.disparity_height_px());
         if (header.disparity_width_px() > header.geometry().width_px() ||
@@ -103,12 +124,6 @@ Pose check_header(const wire::FrameHeader& header) {
     } else if (header.colour_codec() == wire::FrameHeader::COLOUR_NONE) {
         fail("a frame without colour and without disparity carries nothing");
     }
-    check_range("max_disparity_px", header.max_disparity_px(), 0, max_disparity_px);
-    constexpr double an_hour_ms = 3.6e6;
-    check_range("times.capture_ms", header.times().capture_ms(), 0, an_hour_ms);
-    check_range("times.rectify_ms", header.times().rectify_ms(), 0, an_hour_ms);
-    check_range("times.match_ms", header.times().match_ms(), 0, an_hour_ms);
-    check_range("times.pack_ms", header.times().pack_ms(), 0, an_hour_ms);
     return to_pose(header.geometry());
 }
 
@@ -141,6 +156,9 @@ FrameEncoder::~FrameEncoder() = default;
 
 PackedFrame FrameEncoder::encode(RigFrame& frame) {
     const MonotonicTime start = MonotonicClock::now();
+    const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
+    // Corners are measured to a hundredth of a pixel.
+    const bool lossless = impl_->jpeg_quality == 0 || is_raw_pair;
     wire::FrameHeader header;
     header.set_schema_version(wire_schema_version);
     header.set_rig(frame.rig);
@@ -153,23 +171,27 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     wire::Geometry& geometry = *header.mutable_geometry();
     geometry.set_width_px(static_cast<std::uint32_t>(frame.geometry.width_px));
     geometry.set_height_px(static_cast<std::uint32_t>(frame.geometry.height_px));
-    geometry.set_f_px(frame.geometry.f_px);
-    geometry.set_cx_left_px(frame.geometry.cx_left_px);
-    geometry.set_cx_right_px(frame.geometry.cx_right_px);
-    geometry.set_cy_px(frame.geometry.cy_px);
-    geometry.set_baseline_m(frame.geometry.baseline_m);
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            geometry.add_world_from_camera(frame.world_from_camera.matrix()(row, column));
-    header.set_max_disparity_px(frame.max_disparity_px);
+    if (is_raw_pair) {
+        header.set_content(wire::FrameHeader::RAW_PAIR);
+    } else {
+        geometry.set_f_px(frame.geometry.f_px);
+        geometry.set_cx_left_px(frame.geometry.cx_left_px);
+        geometry.set_cx_right_px(frame.geometry.cx_right_px);
+        geometry.set_cy_px(frame.geometry.cy_px);
+        geometry.set_baseline_m(frame.geometry.baseline_m);
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column)
+                geometry.add_world_from_camera(frame.world_from_camera.matrix()(row, column));
+        header.set_max_disparity_px(frame.max_disparity_px);
+    }
     header.mutable_times()->set_capture_ms(frame.times.capture_ms);
     header.mutable_times()->set_rectify_ms(frame.times.rectify_ms);
     header.mutable_times()->set_match_ms(frame.times.match_ms);
     to_wire(frame.counters, *header.mutable_counters());
     to_wire(frame.sync, *header.mutable_sync());
     if (!frame.colour.empty())
-        header.set_colour_codec(impl_->jpeg_quality == 0 ? wire::FrameHeader::COLOUR_ZSTD_RGBA
-                                                         : wire::FrameHeader::COLOUR_JPEG);
+        header.set_colour_codec(lossless ? wire::FrameHeader::COLOUR_ZSTD_RGBA
+                                         : wire::FrameHeader::COLOUR_JPEG);
     if (!frame.disparity.empty()) {
         header.set_disparity_codec(wire::FrameHeader::DISPARITY_ZSTD_U16);
         header.set_disparity_width_px(static_cast<std::uint32_t>(frame.disparity.cols));
@@ -180,13 +202,17 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
                                   frame.colour.rows != frame.geometry.height_px))
         fail("a colour picture of {}x{} does not fit its geometry of {}x{}", frame.colour.cols,
              frame.colour.rows, frame.geometry.width_px, frame.geometry.height_px);
+    if (is_raw_pair && frame.raw_right.size() != frame.colour.size())
+        fail("a raw pair of {}x{} and {}x{} has to be of one size", frame.colour.cols,
+             frame.colour.rows, frame.raw_right.cols, frame.raw_right.rows);
 
     PackedFrame packed;
     packed.trigger_index = frame.trigger_index;
+    packed.is_raw_pair = is_raw_pair;
     if (!frame.colour.empty())
-        packed.colour = impl_->jpeg_quality == 0
-                            ? impl_->lossless_colour.encode(frame.colour)
-                            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+        packed.colour = lossless ? impl_->lossless_colour.encode(frame.colour)
+                                 : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+    if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.raw_right);
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 
     const std::chrono::duration<float, std::milli> spent = MonotonicClock::now() - start;
@@ -224,11 +250,17 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     };
     check_payload("colour", header.colour_codec() != wire::FrameHeader::COLOUR_NONE, colour.size(),
                   bytes(width, height, sizeof(cv::Vec4b)));
+    const bool is_raw_pair = header.content() == wire::FrameHeader::RAW_PAIR;
+    if (is_raw_pair)
+        check_payload("right picture", true, disparity.size(),
+                      bytes(width, height, sizeof(cv::Vec4b)));
     const bool has_disparity = header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE;
-    check_payload(
-        "disparity", has_disparity, disparity.size(),
-        has_disparity ? bytes(disparity_width, disparity_height, sizeof(std::uint16_t)) : 0);
+    if (!is_raw_pair)
+        check_payload(
+            "disparity", has_disparity, disparity.size(),
+            has_disparity ? bytes(disparity_width, disparity_height, sizeof(std::uint16_t)) : 0);
 
+    if (is_raw_pair) frame.content = RigFrame::Content::raw_pair;
     frame.rig = header.rig();
     frame.session = header.session();
     frame.synchronized = header.synchronized();
@@ -239,11 +271,13 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     frame.calibration_id = header.calibration_id();
     frame.geometry.width_px = width;
     frame.geometry.height_px = height;
-    frame.geometry.f_px = header.geometry().f_px();
-    frame.geometry.cx_left_px = header.geometry().cx_left_px();
-    frame.geometry.cx_right_px = header.geometry().cx_right_px();
-    frame.geometry.cy_px = header.geometry().cy_px();
-    frame.geometry.baseline_m = header.geometry().baseline_m();
+    if (!is_raw_pair) {
+        frame.geometry.f_px = header.geometry().f_px();
+        frame.geometry.cx_left_px = header.geometry().cx_left_px();
+        frame.geometry.cx_right_px = header.geometry().cx_right_px();
+        frame.geometry.cy_px = header.geometry().cy_px();
+        frame.geometry.baseline_m = header.geometry().baseline_m();
+    }
     frame.max_disparity_px = header.max_disparity_px();
     frame.times = {header.times().capture_ms(), header.times().rectify_ms(),
                    header.times().match_ms(), header.times().pack_ms()};
@@ -255,9 +289,12 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
             break;
         case wire::FrameHeader::COLOUR_JPEG:
             frame.colour = impl_->jpeg.decode(colour, width, height);
+            if (is_raw_pair) frame.raw_right = impl_->jpeg.decode(disparity, width, height);
             break;
         case wire::FrameHeader::COLOUR_ZSTD_RGBA:
             frame.colour = impl_->lossless_colour.decode(colour, width, height);
+            if (is_raw_pair)
+                frame.raw_right = impl_->lossless_colour.decode(disparity, width, height);
             break;
         default:
             fail("colour codec {} is not known here", static_cast<int>(header.colour_codec()));

@@ -13,15 +13,17 @@ namespace vantage {
 /// A frame as it travels: the three parts that follow the RigMessage of its delivery.
 struct PackedFrame {
     std::uint64_t trigger_index = 0;
+    bool is_raw_pair = false;
     std::vector<std::byte> header;     ///< FrameHeader of frame.proto
     std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour
-    std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity
+    std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity. Of a
+                                       ///< raw pair: the right picture
 };
 
 /// RigFrame to parts. Keeps its codecs between frames. Not thread-safe.
 class FrameEncoder {
   public:
-    /// jpeg_quality 1..100, or 0 for lossless colour.
+    /// jpeg_quality 1..100, or 0 for lossless colour. Raw pairs are always lossless.
     explicit FrameEncoder(int jpeg_quality);
     ~FrameEncoder();
 

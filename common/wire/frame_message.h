@@ -62,6 +62,12 @@ struct LinkCounters {
 
 /// One published instant of one rig, decoded: what the host gets, what the rig packs.
 struct RigFrame {
+    enum class Content {
+        view,     ///< the rectified left picture and its disparity
+        raw_pair  ///< both pictures as the sensors gave them, for calibration: of `geometry` only
+                  ///< the size, no pose and no disparity
+    };
+    Content content = Content::view;
     std::string rig;
     std::uint64_t session = 0;  ///< random per start of the daemon
     bool synchronized = false;  ///< false: trigger_index names no pulse of the stage
@@ -72,7 +78,8 @@ struct RigFrame {
     std::string calibration_id;
     RectifiedStereo geometry;                   ///< of the colour picture
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left
-    ColourImage colour;                         ///< rectified left picture; may be empty
+    ColourImage colour;     ///< rectified left picture, may be empty; or the raw left one
+    ColourImage raw_right;  ///< of a raw pair: the right one, of the same size
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)
     float max_disparity_px = 0;

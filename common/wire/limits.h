@@ -10,7 +10,7 @@ namespace vantage {
 
 /// Version of frame.proto and link.proto; an end that speaks another one is refused with a
 /// sentence.
-inline constexpr std::uint32_t wire_schema_version = 1;
+inline constexpr std::uint32_t wire_schema_version = 2;
 
 /// Largest picture side: the largest image a Raspberry Pi's GPU holds.
 inline constexpr int max_picture_side_px = 4096;

@@ -62,6 +62,7 @@ std::vector<std::byte> encode(const HostMessage& message) {
     out.set_streaming(message.streaming);
     out.set_rate_divisor(message.rate_divisor);
     out.set_first_pulse(message.first_pulse);
+    out.set_raw_pairs(message.raw_pairs);
     return serialise(out);
 }
 
@@ -77,8 +78,8 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
         fail("a rate divisor of {} is outside 1..{}", in.rate_divisor(), max_rate_divisor);
     if (in.first_pulse() > max_trigger_index)
         fail("a first pulse of {} is beyond {}", in.first_pulse(), max_trigger_index);
-    return {in.host_id(),   in.link(),         in.handled(),    in.credit_window(),
-            in.streaming(), in.rate_divisor(), in.first_pulse()};
+    return {in.host_id(),   in.link(),         in.handled(),     in.credit_window(),
+            in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
 }
 
 std::vector<std::byte> encode(const RigMessage& message) {

@@ -21,6 +21,7 @@ struct HostMessage {
     bool streaming = true;
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; only pulses whose index it divides
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
+    bool raw_pairs = false;          ///< what the sensors saw instead of views
 
     bool operator==(const HostMessage&) const = default;
 };

@@ -44,8 +44,9 @@ StereoCalibration rig_calibration(const RigConfig& config, cv::Size picture_size
     if (config.calibration.empty()) {
         if (find_source(config).takes_ideal_rig) return ideal_rig(config, picture_size);
         fail(
-            "the source '{}' needs a calibration: make one with vantage-calib and name it with "
-            "'calibration' in the rig's configuration",
+            "the source '{}' needs a calibration: name it with 'calibration' in the rig's "
+            "configuration; until there is one set calibration = \"none\" and make it with "
+            "vantage-calib stereo --live",
             config.source.kind);
     }
     StereoCalibration calibration = load_calibration(config.calibration);

@@ -33,14 +33,35 @@ struct CapturedFrame {
 };
 
 /// What of a rig's health stays as it is.
-RigHealth facts_of(const RigConfig& config, const StereoCalibration& calibration) {
+RigHealth facts_of(const RigConfig& config, const std::optional<StereoCalibration>& calibration) {
     RigHealth facts;
-    facts.calibration_id = calibration.id;
+    if (calibration) facts.calibration_id = calibration->id;
     if (config.calibration.empty()) return facts;
     const CalibrationRecord record = load_calibration_record(config.calibration);
     facts.calibration_date = record.date;
     facts.calibration_row_rms_px = static_cast<float>(record.row_rms_px);
     return facts;
+}
+
+/// What leaves the rig of one instant.
+struct Instant {
+    std::optional<RigFrame> view;      ///< empty at a rig without calibration
+    std::optional<RigFrame> raw_pair;  ///< where a host asks for it, and at a rig without views
+    const RigFrame& either() const { return view ? *view : *raw_pair; }
+};
+
+RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id) {
+    RigFrame pair;
+    pair.content = RigFrame::Content::raw_pair;
+    pair.synchronized = frame.synchronized;
+    pair.trigger_index = frame.trigger_index;
+    pair.exposure = frame.exposure;
+    pair.calibration_id = calibration_id;
+    pair.geometry.width_px = frame.left.cols;
+    pair.geometry.height_px = frame.left.rows;
+    pair.colour = frame.left;
+    pair.raw_right = frame.right;
+    return pair;
 }
 
 }  // namespace
@@ -55,7 +76,7 @@ struct RigDaemon::Impl {
     void start();
     void capture(std::promise<cv::Size> ready, const std::future<void>& go);
     void capture_one(StereoSource& source);
-    void run_gpu(const StereoCalibration& calibration, std::promise<void> ready);
+    void run_gpu(const std::optional<StereoCalibration>& calibration, std::promise<void> ready);
     void publish();
     void keep_in_step(const RigHealth& facts);
     RigSync sync_now(const std::optional<PtpState>& ptp) const;
@@ -92,7 +113,7 @@ struct RigDaemon::Impl {
     const std::unique_ptr<RigTrigger> trigger;  ///< null: the role free
 
     BoundedQueue<CapturedFrame> captured{1};
-    BoundedQueue<RigFrame> matched{1};
+    BoundedQueue<Instant> matched{1};
 
     mutable std::mutex mutex;
     RigCounters counters;
@@ -117,7 +138,15 @@ void RigDaemon::Impl::start() {
             guarded("capture", [&] { capture(std::move(p), go); });
             captured.close();
         });
-    const StereoCalibration calibration = rig_calibration(config, size.get());
+    const cv::Size picture_size = size.get();
+    std::optional<StereoCalibration> calibration;
+    if (config.uncalibrated)
+        publisher.serve_raw_pairs_only(fmt::format(
+            "rig {} has no calibration yet (calibration = \"none\") and sends no views; "
+            "make one with: vantage-calib stereo --live",
+            config.name));
+    else
+        calibration = rig_calibration(config, picture_size);
     std::promise<void> gpu_ready;
     std::future<void> gpu = gpu_ready.get_future();
     gpu_thread = std::thread([this, calibration, p = std::move(gpu_ready)]() mutable {
@@ -231,12 +260,16 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp) const {
     return now;
 }
 
-void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise<void> ready) {
+void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibration,
+                              std::promise<void> ready) {
     std::optional<GpuStage> gpu;
     try {
-        gpu.emplace(config, calibration);
+        if (calibration) gpu.emplace(config, *calibration);
         const std::lock_guard lock(mutex);
-        gpu_report = gpu->report();
+        gpu_report = gpu ? gpu->report()
+                         : std::vector<std::string>{
+                               "not calibrated: raw pairs for vantage-calib, "
+                               "no views"};
     } catch (...) {
         ready.set_exception(std::current_exception());
         return;
@@ -245,31 +278,38 @@ void RigDaemon::Impl::run_gpu(const StereoCalibration& calibration, std::promise
     while (!(captured.closed() && captured.size() == 0)) {
         std::optional<CapturedFrame> next = captured.pop_for(wait_slice);
         if (!next) continue;
-        RigFrame frame = gpu->process(std::move(next->frame));
-        frame.times.capture_ms = next->capture_ms;
-        if (matched.push(std::move(frame))) count([](RigCounters& c) { ++c.late; });
+        Instant instant;
+        if (!gpu || publisher.wants_raw_pair(next->frame.trigger_index))
+            instant.raw_pair = raw_pair_of(next->frame, calibration ? calibration->id : "");
+        if (gpu) instant.view = gpu->process(std::move(next->frame));
+        for (std::optional<RigFrame>* frame : {&instant.view, &instant.raw_pair})
+            if (*frame) (*frame)->times.capture_ms = next->capture_ms;
+        if (matched.push(std::move(instant))) count([](RigCounters& c) { ++c.late; });
     }
 }
 
 void RigDaemon::Impl::publish() {
     std::uint64_t published = 0;
     while (!(matched.closed() && matched.size() == 0)) {
-        std::optional<RigFrame> frame = matched.pop_for(wait_slice);
-        if (!frame) continue;
+        std::optional<Instant> instant = matched.pop_for(wait_slice);
+        if (!instant) continue;
         if (frame_limit > 0 && published == frame_limit) {
             count([](RigCounters& c) { ++c.late; });
             continue;
         }
-        if (frame->synchronized)
-            frame->timecode = time_of_day_code(frame->exposure, config.source.rate_hz);
-        const RigStageTimes times = frame->times;
-        const TaiTime exposure = frame->exposure;
-        {
-            const std::lock_guard lock(mutex);
-            frame->counters = counters;
-        }
+        const RigStageTimes times = instant->either().times;
+        const TaiTime exposure = instant->either().exposure;
         const MonotonicTime start = MonotonicClock::now();
-        publisher.publish(std::move(*frame));
+        for (std::optional<RigFrame>* frame : {&instant->view, &instant->raw_pair}) {
+            if (!*frame) continue;
+            if ((*frame)->synchronized)
+                (*frame)->timecode = time_of_day_code(exposure, config.source.rate_hz);
+            {
+                const std::lock_guard lock(mutex);
+                (*frame)->counters = counters;
+            }
+            publisher.publish(std::move(**frame));
+        }
         const auto packing = MonotonicClock::now() - start;
         const auto latency = TaiClock::now() - exposure;
         if (++published == frame_limit) stopping = true;

@@ -27,9 +27,10 @@ HostLinks::HostLinks(std::string rig, std::uint64_t session, std::size_t queue_f
       queue_frames_(std::max<std::size_t>(queue_frames, 1)) {}
 
 void HostLinks::offer(std::shared_ptr<const PackedFrame> frame) {
-    ++rig_counters_.published;
+    // Beside a view its raw pair is no second instant.
+    if (!frame->is_raw_pair || serves_raw_pairs_only()) ++rig_counters_.published;
     for (Link& link : links_) {
-        if (!link.attached) continue;
+        if (!link.attached || link.raw_pairs != frame->is_raw_pair) continue;
         ++link.counters.offered;
         if (!link.streaming || frame->trigger_index % link.rate_divisor != 0) {
             ++link.counters.thinned;
@@ -40,8 +41,19 @@ void HostLinks::offer(std::shared_ptr<const PackedFrame> frame) {
     }
 }
 
+bool HostLinks::wants_raw_pair(std::uint64_t trigger_index) const {
+    return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
+        return link.attached && link.raw_pairs && link.streaming &&
+               trigger_index % link.rate_divisor == 0;
+    });
+}
+
 void HostLinks::hear(const Route& route, const std::string& host_key, const HostMessage& message,
                      MonotonicTime now) {
+    if (serves_raw_pairs_only() && message.streaming && !message.raw_pairs) {
+        refuse(route, no_views_);
+        return;
+    }
     Link* link = find(host_key, message.host_id);
     if (!link) link = take_on(host_key, message.host_id);
     if (!link) {
@@ -54,6 +66,7 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
     link->route = route;
     link->heard = now;
     link->streaming = message.streaming;
+    link->raw_pairs = message.raw_pairs;
     link->rate_divisor = message.rate_divisor;
     if (message.link == link->id)
         link->credit_limit = std::min(message.handled, link->counters.sent) + message.credit_window;

@@ -43,8 +43,19 @@ class HostLinks {
 
     HostLinks(std::string rig, std::uint64_t session, std::size_t queue_frames);
 
-    /// A frame for every attached host.
+    /// A frame for every attached host that asks for its kind.
     void offer(std::shared_ptr<const PackedFrame> frame);
+
+    /// An attached host asks for the raw pair of this pulse.
+    bool wants_raw_pair(std::uint64_t trigger_index) const;
+
+    /// From now on hosts that ask for views are refused with this reason, and what is published are
+    /// raw pairs.
+    void serve_raw_pairs_only(std::string reason) { no_views_ = std::move(reason); }
+    bool serves_raw_pairs_only() const { return !no_views_.empty(); }
+
+    /// A raw pair of a rig that has nothing else was not packed, since nobody asks for it.
+    void pass_over() { ++rig_counters_.published; }
 
     /// Takes the host on, or moves its link to this route, and grants it credit.
     void hear(const Route& route, const std::string& host_key, const HostMessage& message,
@@ -88,6 +99,7 @@ class HostLinks {
         bool attached = false;
         bool heartbeat_due = false;
         bool streaming = true;
+        bool raw_pairs = false;
         std::uint32_t rate_divisor = 1;
         std::uint64_t credit_limit = 0;  ///< frames of this link that may be sent in all
         LinkCounters counters;
@@ -104,6 +116,7 @@ class HostLinks {
     std::string rig_;
     std::uint64_t session_;
     std::size_t queue_frames_;
+    std::string no_views_;  ///< why; empty: views are served
     RigCounters rig_counters_;
     RigSync sync_;
     RigHealth health_;

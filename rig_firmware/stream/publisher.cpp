@@ -219,10 +219,16 @@ void Publisher::publish(RigFrame frame) {
         const std::lock_guard lock(impl_->mutex);
         if (!impl_->failure.empty())
             fail("publishing of rig {} came to an end: {}", impl_->rig, impl_->failure);
-        impl_->links.set_rig_counters(frame.counters);
-        frame.counters = impl_->links.rig_counters();
-        ++frame.counters.published;
-        frame.sync = impl_->links.sync();
+        HostLinks& links = impl_->links;
+        links.set_rig_counters(frame.counters);
+        const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
+        if (is_raw_pair && !links.wants_raw_pair(frame.trigger_index)) {
+            if (links.serves_raw_pairs_only()) links.pass_over();
+            return;
+        }
+        frame.counters = links.rig_counters();
+        if (!is_raw_pair || links.serves_raw_pairs_only()) ++frame.counters.published;
+        frame.sync = links.sync();
     }
     auto packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
     {
@@ -230,6 +236,16 @@ void Publisher::publish(RigFrame frame) {
         impl_->links.offer(std::move(packed));
     }
     impl_->wake.notify();
+}
+
+bool Publisher::wants_raw_pair(std::uint64_t trigger_index) const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->links.wants_raw_pair(trigger_index);
+}
+
+void Publisher::serve_raw_pairs_only(std::string reason) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->links.serve_raw_pairs_only(std::move(reason));
 }
 
 void Publisher::report(const RigCounters& counters) {

@@ -29,8 +29,16 @@ class Publisher {
 
     /// Packs on the calling thread and never waits for the network. `rig`, `session`, `published`,
     /// pack_ms and two of the counters are filled in here. Throws Error naming the first value of
-    /// the frame that may not travel, or why publishing came to an end. One thread at a time.
+    /// the frame that may not travel, or why publishing came to an end. A raw pair that no host
+    /// asks for is not packed. One thread at a time.
     void publish(RigFrame frame);
+
+    /// A host asks for the raw pair of this pulse. Any thread.
+    bool wants_raw_pair(std::uint64_t trigger_index) const;
+
+    /// The rig has no views: hosts that ask for them are refused with this reason, and publish() is
+    /// given raw pairs only.
+    void serve_raw_pairs_only(std::string reason);
 
     /// Tells hosts the daemon's counts (captured, missed, late) also while no frame is published.
     /// Any thread.

@@ -45,6 +45,11 @@ void write_frames(const Seeds& seeds) {
         const PackedFrame packed = FrameEncoder(quality).encode(frame);
         seeds.write("frame_decoder", "whole-" + std::to_string(quality), join_frame(packed));
     }
+    RigFrame pair = seed_frame();
+    pair.content = RigFrame::Content::raw_pair;
+    pair.raw_right = pair.colour;
+    pair.disparity = DisparityImage();
+    seeds.write("frame_decoder", "raw-pair", join_frame(FrameEncoder(lossless).encode(pair)));
     RigFrame frame = seed_frame();
     frame.colour = ColourImage();
     frame.disparity = frame.disparity(cv::Rect(0, 0, 7, 5));

@@ -17,6 +17,13 @@ TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
     EXPECT_EQ(config.match.preset, "balanced");
     EXPECT_EQ(config.stream.queue_frames, 4);
     EXPECT_TRUE(config.calibration.empty());
+    EXPECT_FALSE(config.uncalibrated);
+}
+
+TEST_F(RigConfigTest, TakesNoneForACalibrationThatIsStillToBeMade) {
+    const RigConfig config = load("version = 1\nname = 'a'\ncalibration = 'none'\n");
+    EXPECT_TRUE(config.uncalibrated);
+    EXPECT_TRUE(config.calibration.empty());
 }
 
 TEST_F(RigConfigTest, ReadsEveryKey) {

@@ -3,9 +3,11 @@
 #include <chrono>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/receive/stage_receiver.h"
 
 namespace vantage {
 namespace {
@@ -21,6 +23,16 @@ RigConfig small_rig() {
     config.match.disparities = 16;
     config.stream.bind = "tcp://127.0.0.1:*";
     return config;
+}
+
+/// A stage of this rig alone, at the port that it was given.
+StageConfig stage_of(const RigDaemon& daemon, const RigConfig& config) {
+    const std::string line = daemon.report().back();
+    const std::size_t begin = line.find("tcp://");
+    StageConfig stage;
+    stage.rate_hz = config.source.rate_hz;
+    stage.rigs.push_back({"test", line.substr(begin, line.find(',') - begin), {}});
+    return stage;
 }
 
 TEST(RigDaemon, AccountsForEveryFrameAtItsStop) {
@@ -46,6 +58,54 @@ TEST(RigDaemon, CanBeStoppedAtAnyTime) {
         EXPECT_EQ(counters.captured, counters.published + counters.late);
         EXPECT_FALSE(daemon.running());
     }
+}
+
+TEST(RigDaemon, WithoutACalibrationServesRawPairsToWhoAsksAndAccountsForEveryFrame) {
+    RigConfig config = small_rig();
+    config.uncalibrated = true;
+    config.source.rate_hz = 50;
+    RigDaemon daemon(config);
+    const StageConfig stage = stage_of(daemon, config);
+    StageReceiver films(stage);
+    StageReceiver calibrates(stage, StageReceiver::Purpose::calibrate);
+    std::shared_ptr<const RigFrame> pair;
+    while (daemon.running() && !pair)
+        if (const std::optional<FrameSet> set = calibrates.next(100ms)) pair = set->slots[0].frame;
+    ASSERT_TRUE(pair);
+    EXPECT_EQ(pair->content, RigFrame::Content::raw_pair);
+    EXPECT_EQ(pair->colour.size(), cv::Size(61, 47));
+    EXPECT_EQ(pair->raw_right.size(), cv::Size(61, 47));
+    EXPECT_EQ(pair->calibration_id, "");
+    while (daemon.running() && films.status().rigs[0].refused.empty())
+        std::this_thread::sleep_for(5ms);
+    EXPECT_THAT(films.status().rigs[0].refused, testing::HasSubstr("no calibration yet"));
+    daemon.stop();
+    daemon.rethrow_failure();
+    const RigCounters counters = daemon.status().publisher.counters;
+    EXPECT_GT(counters.published, 0u);
+    EXPECT_EQ(counters.captured, counters.published + counters.late);
+}
+
+TEST(RigDaemon, ServesRawPairsBesideItsViews) {
+    RigConfig config = small_rig();
+    config.source.rate_hz = 20;
+    RigDaemon daemon(config);
+    const StageConfig stage = stage_of(daemon, config);
+    StageReceiver films(stage);
+    StageReceiver calibrates(stage, StageReceiver::Purpose::calibrate);
+    std::shared_ptr<const RigFrame> pair, view;
+    while (daemon.running() && !(pair && view)) {
+        if (const auto set = calibrates.next(20ms)) pair = set->slots[0].frame;
+        if (const auto set = films.next(20ms)) view = set->slots[0].frame;
+    }
+    ASSERT_TRUE(pair && view);
+    EXPECT_EQ(view->content, RigFrame::Content::view);
+    EXPECT_EQ(pair->content, RigFrame::Content::raw_pair);
+    EXPECT_EQ(pair->calibration_id, view->calibration_id);
+    daemon.stop();
+    daemon.rethrow_failure();
+    const RigCounters counters = daemon.status().publisher.counters;
+    EXPECT_EQ(counters.captured, counters.published + counters.late);
 }
 
 TEST(RigDaemon, SaysWhyItCannotStand) {

@@ -378,6 +378,28 @@ TEST_F(LinkTest, AHostThatOnlyLooksOnStartsNoTake) {
     EXPECT_EQ(rig.announced_pulse(), 0u);
 }
 
+TEST_F(LinkTest, AHostThatCalibratesGetsRawPairsAndAnotherOneGoesOnFilming) {
+    Publisher rig(open_stream(), "rig-a");
+    StageReceiver films(stage_of(rig));
+    StageReceiver calibrates(stage_of(rig), StageReceiver::Purpose::calibrate);
+    ASSERT_TRUE(eventually([&] { return connected(films) && connected(calibrates); }));
+    ASSERT_TRUE(eventually([&] { return rig.wants_raw_pair(7); }));
+    RigFrame view = make_frame(7);
+    RigFrame pair = make_frame(7);
+    pair.content = RigFrame::Content::raw_pair;
+    pair.raw_right = make_frame(8).colour;
+    pair.disparity = DisparityImage();
+    rig.publish(view);
+    rig.publish(pair);
+    const std::optional<FrameSet> filmed = films.next(patience);
+    const std::optional<FrameSet> raw = calibrates.next(patience);
+    ASSERT_TRUE(filmed && filmed->slots[0].frame && raw && raw->slots[0].frame);
+    EXPECT_EQ(filmed->slots[0].frame->content, RigFrame::Content::view);
+    EXPECT_EQ(raw->slots[0].frame->content, RigFrame::Content::raw_pair);
+    EXPECT_TRUE(same_pixels(raw->slots[0].frame->raw_right, pair.raw_right));
+    EXPECT_EQ(rig.status().counters.published, 1u);
+}
+
 TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {
     RigStatus rig;
     EXPECT_THAT(clock_text(rig), HasSubstr("clocks not disciplined: skew unknown"));

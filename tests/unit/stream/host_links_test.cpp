@@ -12,9 +12,10 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t queue_frames = 3;
 
-std::shared_ptr<const PackedFrame> frame_of(std::uint64_t index) {
+std::shared_ptr<const PackedFrame> frame_of(std::uint64_t index, bool is_raw_pair = false) {
     auto frame = std::make_shared<PackedFrame>();
     frame->trigger_index = index;
+    frame->is_raw_pair = is_raw_pair;
     return frame;
 }
 
@@ -224,6 +225,53 @@ TEST_F(HostLinksTest, HeartbeatsGoToAttachedHostsAndCarryTheNewestCounts) {
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].message.rig_counters, (RigCounters{100, 7, 3, 0, 0}));
     EXPECT_TRUE(links_.take().empty());
+}
+
+TEST_F(HostLinksTest, RawPairsGoToTheHostsThatAskForThemAndViewsToTheOthers) {
+    attach("films", 5, 9);
+    HostMessage wish;
+    wish.host_id = 6;
+    wish.raw_pairs = true;
+    wish.rate_divisor = 2;
+    wish.credit_window = 9;
+    EXPECT_FALSE(links_.wants_raw_pair(4));
+    links_.hear("calibrates", "key", wish, now_);
+    for (const auto& outgoing : links_.take()) wish.link = outgoing.message.link;
+    links_.hear("calibrates", "key", wish, now_);
+    EXPECT_TRUE(links_.wants_raw_pair(4));
+    EXPECT_FALSE(links_.wants_raw_pair(5));
+
+    links_.offer(frame_of(4));
+    links_.offer(frame_of(4, true));
+    const auto all = links_.take();
+    ASSERT_EQ(indices(all).size(), 2u);
+    for (const auto& outgoing : all)
+        EXPECT_EQ(outgoing.frame->is_raw_pair, outgoing.route == "calibrates");
+    EXPECT_EQ(links_.rig_counters().published, 1u) << "one instant";
+    for (const auto& host : links_.hosts()) EXPECT_EQ(host.counters, (LinkCounters{1, 1, 0, 0}));
+
+    wish.streaming = false;
+    links_.hear("calibrates", "key", wish, now_);
+    EXPECT_FALSE(links_.wants_raw_pair(4));
+}
+
+TEST_F(HostLinksTest, ARigWithoutViewsSaysSoToHostsThatWantThemAndServesRawPairs) {
+    links_.serve_raw_pairs_only("no calibration yet");
+    HostMessage wish;
+    wish.host_id = 5;
+    links_.hear("films", "key", wish, now_);
+    const auto refusals = links_.take();
+    ASSERT_EQ(refusals.size(), 1u);
+    EXPECT_EQ(refusals[0].message.refusal, "no calibration yet");
+    EXPECT_TRUE(links_.hosts().empty());
+
+    wish.raw_pairs = true;
+    wish.host_id = 6;
+    links_.hear("calibrates", "key", wish, now_);
+    EXPECT_EQ(links_.hosts().size(), 1u);
+    links_.offer(frame_of(1, true));
+    links_.pass_over();
+    EXPECT_EQ(links_.rig_counters().published, 2u);
 }
 
 }  // namespace

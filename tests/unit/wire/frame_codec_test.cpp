@@ -124,6 +124,85 @@ TEST(FrameCodec, RefusesToPackWhatNoHostWouldTake) {
     EXPECT_THROW(FrameEncoder(-1), Error);
 }
 
+/// What both sensors saw, both pictures full of noise.
+RigFrame make_raw_pair(std::uint64_t trigger_index) {
+    RigFrame pair = make_frame(trigger_index);
+    pair.content = RigFrame::Content::raw_pair;
+    pair.raw_right = make_frame(trigger_index + 1).colour;
+    pair.disparity = DisparityImage();
+    return pair;
+}
+
+TEST(FrameCodec, CarriesARawPairBitExactWhateverTheColourQuality) {
+    for (const int quality : {lossless, 85}) {
+        RigFrame sent = make_raw_pair(12);
+        const PackedFrame packed = FrameEncoder(quality).encode(sent);
+        EXPECT_TRUE(packed.is_raw_pair);
+        const RigFrame got = decode(packed);
+        EXPECT_EQ(got.content, RigFrame::Content::raw_pair);
+        EXPECT_EQ(got.trigger_index, 12u);
+        EXPECT_EQ(got.calibration_id, sent.calibration_id);
+        EXPECT_EQ(got.geometry.width_px, sent.colour.cols);
+        EXPECT_EQ(got.geometry.height_px, sent.colour.rows);
+        EXPECT_TRUE(same_pixels(got.colour, sent.colour));
+        EXPECT_TRUE(same_pixels(got.raw_right, sent.raw_right));
+        EXPECT_TRUE(got.disparity.empty());
+    }
+}
+
+TEST(FrameCodec, RefusesToPackARawPairThatIsNone) {
+    RigFrame one_sided = make_raw_pair(3);
+    one_sided.raw_right = ColourImage();
+    EXPECT_THAT(thrown_sentence([&] { FrameEncoder(lossless).encode(one_sided); }),
+                HasSubstr("one size"));
+    RigFrame with_disparity = make_raw_pair(3);
+    with_disparity.disparity = make_frame(3).disparity;
+    EXPECT_THAT(thrown_sentence([&] { FrameEncoder(lossless).encode(with_disparity); }),
+                HasSubstr("neither geometry nor disparity"));
+}
+
+TEST(FrameCodec, HostileRawPairsAreRefused) {
+    RigFrame sent = make_raw_pair(3);
+    const PackedFrame whole = FrameEncoder(lossless).encode(sent);
+    const auto refusal = [&](const std::function<void(wire::FrameHeader&)>& spoil) {
+        PackedFrame packed = whole;
+        wire::FrameHeader header;
+        header.ParseFromArray(packed.header.data(), static_cast<int>(packed.header.size()));
+        spoil(header);
+        packed.header.resize(header.ByteSizeLong());
+        header.SerializeToArray(packed.header.data(), static_cast<int>(packed.header.size()));
+        return refusal_of(packed);
+    };
+    using Header = wire::FrameHeader;
+    EXPECT_EQ(refusal([](Header&) {}), "");
+    EXPECT_THAT(refusal([](Header& h) { h.mutable_geometry()->set_f_px(300); }),
+                HasSubstr("neither geometry nor disparity"));
+    EXPECT_THAT(refusal([](Header& h) { h.mutable_geometry()->add_world_from_camera(1); }),
+                HasSubstr("neither geometry nor disparity"));
+    EXPECT_THAT(refusal([](Header& h) { h.set_colour_codec(Header::COLOUR_NONE); }),
+                HasSubstr("neither geometry nor disparity"));
+    EXPECT_THAT(refusal([](Header& h) { h.set_content(static_cast<Header::Content>(7)); }),
+                HasSubstr("content 7"));
+    EXPECT_THAT(refusal([](Header& h) { h.set_content(Header::VIEW); }), HasSubstr("f_px"));
+    EXPECT_THAT(refusal([](Header& h) { h.mutable_geometry()->set_width_px(4097); }),
+                HasSubstr("4097x47"));
+    EXPECT_THAT(refusal([](Header& h) { h.mutable_geometry()->set_height_px(48); }),
+                HasSubstr("payload"));
+    EXPECT_THAT(refusal([](Header& h) { h.set_colour_codec(Header::COLOUR_JPEG); }),
+                HasSubstr("JPEG"));
+    PackedFrame without_right = whole;
+    without_right.disparity.clear();
+    EXPECT_THAT(refusal_of(without_right), HasSubstr("right picture payload is empty"));
+    PackedFrame overlong = whole;
+    overlong.disparity.resize(61 * 47 * 4 + payload_slack_bytes + 1);
+    EXPECT_THAT(refusal_of(overlong), HasSubstr("beyond the limit"));
+    for (std::size_t size = 0; size < whole.header.size(); ++size) {
+        PackedFrame cut = whole;
+        cut.header.resize(size);
+        EXPECT_THROW(decode(cut), Error) << size;
+    }
+}
+
 /// A good frame whose header is then spoiled in one way.
 struct Spoiled {
     const char* name;

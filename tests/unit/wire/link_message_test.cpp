@@ -29,7 +29,7 @@ std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
 }
 
 TEST(LinkMessage, HostMessageComesBackWhole) {
-    const HostMessage sent{11, 12, 13, 14, false, 15};
+    const HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
 }
 
