@@ -184,9 +184,9 @@ StereoScene make_random_scene(std::uint64_t seed, const RandomSceneLook& look,
     }
 
     StereoScene scene;
-    scene.name = fmt::format("random {}", seed);
+    scene.name = fmt::format("generated {}", seed);
     scene.disparities = look.disparities;
-    scene.for_tuning = true;
+    scene.use = seed < first_held_out_seed ? SceneUse::tuning : SceneUse::held_out_generated;
     scene.left = photograph_of(surfaces, look, false, random);
     scene.right = photograph_of(surfaces, look, true, random);
     scene.disparity_px = cv::Mat1f(look.height_px, look.width_px);

@@ -1,6 +1,8 @@
 // Quality and time of the presets beside OpenCV's matchers, as the tables of docs/stereo.md.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -70,6 +72,8 @@ class Bench {
 struct Quality {
     double way = 0, hh4 = 0, bm = 0;
     double ours[std::size(presets)] = {};
+
+    double best() const { return std::max(std::min(way, hh4), 0.01); }
 };
 
 Quality judge(const ShaderLibrary& library, const std::string& matcher, const StereoScene& scene,
@@ -96,41 +100,73 @@ Quality judge(const ShaderLibrary& library, const std::string& matcher, const St
     return q;
 }
 
+/// Errors of the presets against OpenCV's better, over a set of scenes.
+class Verdict {
+  public:
+    void add(const Quality& q) {
+        const double best = q.best();
+        ++scenes_;
+        best_sum_ += best;
+        for (std::size_t i = 0; i < std::size(presets); ++i) {
+            sums_[i] += q.ours[i];
+            ratio_sums_[i] += q.ours[i] / best;
+        }
+    }
+    void print(std::string_view set) const {
+        if (scenes_ == 0) return;
+        const auto row = [&](const char* how, const auto& ratio) {
+            fmt::print("| **{} ({}), {}** | | | | | | | **{:.2f}** | **{:.2f}** | **{:.2f}** |\n",
+                       set, scenes_, how, ratio(0), ratio(1), ratio(2));
+        };
+        row("ratio of means", [&](int i) { return sums_[i] / best_sum_; });
+        row("mean of ratios", [&](int i) { return ratio_sums_[i] / scenes_; });
+    }
+
+  private:
+    double sums_[std::size(presets)] = {}, ratio_sums_[std::size(presets)] = {}, best_sum_ = 0;
+    int scenes_ = 0;
+};
+
+const char* mark_of(SceneUse use) {
+    switch (use) {
+        case SceneUse::tuning:
+            return " (t)";
+        case SceneUse::in_sight:
+            return " (s)";
+        default:
+            return "";
+    }
+}
+
 void print_quality(const ShaderLibrary& library, const std::string& matcher,
                    const std::vector<StereoScene>& scenes, const std::string& pictures) {
     fmt::print(
-        "bad-2.0 in percent, non-occluded known pixels, dense; (t) = seen while tuning\n\n"
+        "bad-2.0 in percent, non-occluded known pixels, dense; (t) = settings were chosen by it, "
+        "(s) = in sight meanwhile\n\n"
         "| scene | BM | 3WAY | HH4 | quality | balanced | fast | quality / best | balanced / best "
         "| fast / best |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    double sums[std::size(presets)] = {}, best_sum = 0;
-    double ratio_sums[std::size(presets)] = {};
-    int judged = 0;
+    Verdict photographs, generated, held_out, tuning;
     for (const StereoScene& scene : scenes) {
         const Quality q = judge(library, matcher, scene, pictures);
-        const double best = std::min(q.way, q.hh4);
         fmt::print(
             "| {}{} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | "
             "{:.2f} |\n",
-            scene.name, scene.for_tuning ? " (t)" : "", q.bm, q.way, q.hh4, q.ours[0], q.ours[1],
-            q.ours[2], q.ours[0] / best, q.ours[1] / best, q.ours[2] / best);
+            scene.name, mark_of(scene.use), q.bm, q.way, q.hh4, q.ours[0], q.ours[1], q.ours[2],
+            q.ours[0] / q.best(), q.ours[1] / q.best(), q.ours[2] / q.best());
         std::cout.flush();
-        if (scene.for_tuning) continue;
-        ++judged;
-        best_sum += best;
-        for (std::size_t i = 0; i < std::size(presets); ++i) {
-            sums[i] += q.ours[i];
-            ratio_sums[i] += q.ours[i] / best;
+        if (scene.use == SceneUse::tuning || scene.use == SceneUse::in_sight) {
+            tuning.add(q);
+            continue;
         }
+        held_out.add(q);
+        (scene.use == SceneUse::held_out ? photographs : generated).add(q);
     }
-    if (judged > 0)
-        fmt::print(
-            "| **unseen scenes, ratio of means** | | | | | | | **{:.2f}** | **{:.2f}** | "
-            "**{:.2f}** |\n"
-            "| **unseen scenes, mean of ratios** | | | | | | | **{:.2f}** | **{:.2f}** | "
-            "**{:.2f}** |\n\n",
-            sums[0] / best_sum, sums[1] / best_sum, sums[2] / best_sum, ratio_sums[0] / judged,
-            ratio_sums[1] / judged, ratio_sums[2] / judged);
+    held_out.print("held-out scenes");
+    photographs.print("held-out photographs");
+    generated.print("held-out generated scenes");
+    tuning.print("scenes of tuning");
+    fmt::print("\n");
 }
 
 void print_times(const ShaderLibrary& library, const std::string& matcher, const StereoScene& scene,
@@ -201,36 +237,60 @@ void print_robustness(const ShaderLibrary& library, const std::string& matcher,
     fmt::print("\n");
 }
 
-void print_memory(const ShaderLibrary& library, const std::string& matcher) {
+/// What a preset's matcher takes for the largest pictures of the rigs' sensors, measured in a
+/// process of its own: where another matcher ran before, freed memory would be used again and not
+/// grow.
+void print_memory_of(MatchPreset preset, const std::string& matcher) {
     constexpr int width = 1456, height = 1088, disparities = 128;
+    const EglContext context;
+    const ShaderLibrary library;
+    const double before = resident_mb();
+    Bench bench(library, matcher, preset, {width, height}, disparities);
+    bench.run();
+    bench.run();
+    const double gl = static_cast<double>(bench.gpu_bytes()) / 1e6, grown = resident_mb() - before;
+    // Where the CPU draws, GL objects are part of the resident memory.
+    const bool counted_already = GlInfo::query().renderer.find("llvmpipe") != std::string::npos;
+    fmt::print("| {:.0f} | {:.0f} | {:.0f} |\n", gl, grown, counted_already ? grown : gl + grown);
+}
+
+void print_memory(const std::string& matcher) {
     fmt::print(
-        "| memory at {}x{}x{} | GL objects, MB | resident growth, MB |\n| --- | --- | --- |\n",
-        width, height, disparities);
+        "| memory at 1456x1088x128 | GL objects, MB | resident growth, MB | together, each byte "
+        "once, MB |\n| --- | --- | --- | --- |\n");
     for (const Preset& preset : presets) {
-        const double before = resident_mb();
-        Bench bench(library, matcher, preset.preset, {width, height}, disparities);
-        bench.run();
-        fmt::print("| {} | {:.0f} | {:.0f} |\n", preset.name,
-                   static_cast<double>(bench.gpu_bytes()) / 1e6, resident_mb() - before);
+        fmt::print("| {} ", preset.name);
+        std::fflush(stdout);
+        const std::string command = fmt::format(
+            "'{}' --memory-of {} --matcher '{}'",
+            std::filesystem::read_symlink("/proc/self/exe").string(), preset.name, matcher);
+        if (std::system(command.c_str()) != 0)
+            fail("the memory of {} could not be measured: '{}' failed", preset.name, command);
     }
     fmt::print("\n");
 }
 
 int run(int argc, char** argv) {
     CLI::App app("Quality and time of the stereo presets beside OpenCV's matchers");
-    std::string data = data_folder().value_or("").string(), pictures, matcher;
+    std::string data = data_folder().value_or("").string(), pictures, matcher, only, memory_of;
     int repeats = 11, random_scenes = 6;
-    std::uint64_t first_seed = 1001;
+    std::uint64_t first_seed = first_held_out_seed;
     bool no_times = false;
     app.add_option("--data", data, "folder with the stereo data");
     app.add_option("--pictures", pictures, "write colour-mapped disparities to this folder");
     app.add_option("--matcher", matcher, "use this matcher for all presets");
     app.add_option("--repeats", repeats, "interleaved repeats of the timing")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--only", only, "judge scenes whose name has this in it");
     app.add_option("--random-scenes", random_scenes, "generated scenes to judge as well");
     app.add_option("--first-seed", first_seed, "of the generated scenes");
     app.add_flag("--quality-only", no_times, "leave out times, memory and robustness");
+    app.add_option("--memory-of", memory_of, "print only this preset's memory, as a row's end");
     CLI11_PARSE(app, argc, argv);
+    if (!memory_of.empty()) {
+        print_memory_of(parse_preset(memory_of), matcher);
+        return 0;
+    }
 
     const EglContext context;
     const ShaderLibrary library;
@@ -239,13 +299,13 @@ int run(int argc, char** argv) {
     if (!data.empty()) scenes = load_stereo_scenes(data);
     const auto photographs =
         data.empty() ? std::vector<ColourImage>() : load_texture_photographs(data);
-    for (int i = 0; i < random_scenes; ++i) {
+    for (int i = 0; i < random_scenes; ++i)
         scenes.push_back(
             make_random_scene(first_seed + static_cast<std::uint64_t>(i), {}, photographs));
-        // The generator itself was in sight; these seeds were not, but only photographs count as
-        // unseen.
-        scenes.back().for_tuning = true;
-    }
+    if (!only.empty())
+        std::erase_if(scenes, [&](const StereoScene& scene) {
+            return scene.name.find(only) == std::string::npos;
+        });
     if (!pictures.empty()) std::filesystem::create_directories(pictures);
     print_quality(library, matcher, scenes, pictures);
     if (no_times) return 0;
@@ -261,7 +321,7 @@ int run(int argc, char** argv) {
         print_times(library, matcher, make_random_scene(first_seed, look, photographs), repeats);
     fmt::print("\n");
     print_robustness(library, matcher, scenes);
-    print_memory(library, matcher);
+    print_memory(matcher);
     return 0;
 }
 

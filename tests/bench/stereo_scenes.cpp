@@ -1,6 +1,7 @@
 #include "tests/bench/stereo_scenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -55,6 +56,14 @@ cv::Mat1b judged(const cv::Mat1w& mask, const cv::Mat1f& disparity) {
     return result;
 }
 
+SceneUse use_of(const std::string& name) {
+    constexpr std::array tuning = {"tsukuba", "teddy", "books_third", "laundry_third",
+                                   "moebius_third"};
+    if (std::ranges::find(tuning, name) != tuning.end()) return SceneUse::tuning;
+    // TeddyQ is the scene of teddy.
+    return name == "aloe_half" || name == "TeddyQ" ? SceneUse::in_sight : SceneUse::held_out;
+}
+
 int disparities_of_calibration(const fs::path& path) {
     std::ifstream in(path);
     for (std::string line; std::getline(in, line);)
@@ -74,7 +83,7 @@ std::vector<StereoScene> load_stereo_scenes(const fs::path& data) {
         s.disparity_px = scaled_codes(folder / "disp3.png", 1.0f / 16);
         s.non_occluded = judged(read_code_image(folder / "mask3_nonocc.png"), s.disparity_px);
         s.disparities = 16;
-        s.for_tuning = true;
+        s.use = use_of(s.name);
         scenes.push_back(std::move(s));
     }
     for (const fs::path& folder : folders_in(data / "middlebury2003")) {
@@ -83,8 +92,11 @@ std::vector<StereoScene> load_stereo_scenes(const fs::path& data) {
         s.left = read_colour_image(folder / "im2.png");
         s.right = read_colour_image(folder / "im6.png");
         s.disparity_px = scaled_codes(folder / "disp2.png", 1.0f / 4);
-        s.non_occluded = judged(read_code_image(folder / "mask2_nonocc.png"), s.disparity_px);
-        s.for_tuning = true;
+        s.non_occluded =
+            fs::exists(folder / "mask2_nonocc.png")
+                ? judged(read_code_image(folder / "mask2_nonocc.png"), s.disparity_px)
+                : seen_by_both(s.disparity_px, scaled_codes(folder / "disp6.png", 1.0f / 4));
+        s.use = use_of(s.name);
         scenes.push_back(std::move(s));
     }
     for (const fs::path& folder : folders_in(data / "middlebury2006")) {
@@ -92,9 +104,12 @@ std::vector<StereoScene> load_stereo_scenes(const fs::path& data) {
         s.name = folder.filename().string();
         s.left = read_colour_image(folder / "view1.png");
         s.right = read_colour_image(folder / "view5.png");
-        s.disparity_px = scaled_codes(folder / "disp1.png", 0.5f);
-        s.non_occluded = seen_by_both(s.disparity_px, scaled_codes(folder / "disp5.png", 0.5f));
-        s.disparities = 107;
+        // Codes are pixels of the full-size pictures.
+        const float scale = s.name.ends_with("_third") ? 1.0f / 3 : 0.5f;
+        s.disparity_px = scaled_codes(folder / "disp1.png", scale);
+        s.non_occluded = seen_by_both(s.disparity_px, scaled_codes(folder / "disp5.png", scale));
+        s.disparities = s.name.ends_with("_third") ? 80 : 107;
+        s.use = use_of(s.name);
         scenes.push_back(std::move(s));
     }
     for (const fs::path& folder : folders_in(data / "middlebury_eval3")) {
@@ -105,6 +120,7 @@ std::vector<StereoScene> load_stereo_scenes(const fs::path& data) {
         s.disparity_px = read_pfm(folder / "disp0GT.pfm");
         s.non_occluded = judged(read_code_image(folder / "mask0nocc.png"), s.disparity_px);
         s.disparities = disparities_of_calibration(folder / "calib.txt");
+        s.use = use_of(s.name);
         scenes.push_back(std::move(s));
     }
     return scenes;

@@ -7,7 +7,8 @@
 
 namespace vantage {
 
-/// Every stereo pair with truth below the data folder: middlebury2001, 2003, 2006, eval3.
+/// Every stereo pair with truth below the data folder: middlebury2001, 2003, 2006 (folders of half
+/// size, or NAME_third), eval3.
 std::vector<StereoScene> load_stereo_scenes(const std::filesystem::path& data);
 
 /// Photographs for the textures of random scenes (none of them from the stereo pairs).
