@@ -23,7 +23,7 @@ struct LiveOptions {
     std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
-    bool headless = false, json = false, novelty = false;
+    bool headless = false, json = false, novelty = false, harmonise = true;
     StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
 };
@@ -67,6 +67,7 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         settings.width_px = size.width;
         settings.height_px = size.height;
     }
+    settings.harmonise = options.harmonise;
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     return settings;
@@ -186,6 +187,10 @@ CommandEntry live_command_entry() {
                             "Of the picture, WIDTHxHEIGHT (default: the stage's)");
         command->add_option("--synth", options->synthesiser,
                             "Synthesiser (default: the stage's; see render --help)");
+        command->add_flag_callback(
+            "--no-harmonise", [options] { options->harmonise = false; },
+            "Leave the rigs' colours as the calibration makes them; without this, small gains take "
+            "out slowly what differs where rigs show the same surface");
         command->add_flag(
             "--novelty", options->novelty,
             "Show which rigs the pixels come from, a colour a rig, what none has seen "

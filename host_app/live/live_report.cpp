@@ -144,6 +144,11 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         for (const CounterGroup& group : counters_of(rig))
             for (const Counter& counter : group.counters)
                 entry[group.key][counter.key] = counter.value;
+        if (rig.harmony) {
+            const Eigen::Vector3d gain = rig.harmony->gain();
+            entry["colour"] = {{"gains", {gain[0], gain[1], gain[2]}},
+                               {"shared_points", rig.harmony->samples}};
+        }
         entry["latency_ms"] = to_json(rig.status.latency_ms);
         entry["clock"] = clock_text(rig.status);
         entry["same_clock"] = rig.status.same_clock;

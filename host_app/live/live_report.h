@@ -10,6 +10,7 @@
 #include "common/base/percentiles.h"
 #include "common/receive/stage_receiver.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/colour_harmoniser.h"
 #include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/stereoscopy.h"
 #include "host_app/jog/jog_deck.h"
@@ -21,6 +22,8 @@ struct RigAccount {
     RigStatus status;
     std::uint64_t fused = 0;       ///< in sets that the virtual view was made from
     std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before a picture was due
+    /// What live harmonisation adds to its colours; nothing if it never did.
+    std::optional<ColourHarmoniser::Rig> harmony = {};
 };
 
 struct StageTime {

@@ -119,7 +119,7 @@ void LiveSession::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop
                 states_of_missing(status_, shown()));
 }
 
-void LiveSession::give_to_synthesiser(const FrameSet& set) {
+std::vector<DepthView> LiveSession::views_of(const FrameSet& set) const {
     std::vector<DepthView> views;
     for (const FrameSet::Slot& slot : set.slots) {
         if (!slot.frame) continue;
@@ -127,6 +127,12 @@ void LiveSession::give_to_synthesiser(const FrameSet& set) {
         const auto colour = settings_.colours.find(slot.rig);
         if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
     }
+    return views;
+}
+
+void LiveSession::give_to_synthesiser(std::vector<DepthView> views) {
+    if (settings_.harmonise)
+        for (DepthView& view : views) harmoniser_.apply(view);
     synthesiser_->set_views(views);
     demand_.see(views);
 }
@@ -160,7 +166,15 @@ void LiveSession::show(FrameSet set) {
         times_.add(Stage::match, slot.frame->times.match_ms);
         times_.add(Stage::pack, slot.frame->times.pack_ms);
     }
-    give_to_synthesiser(set);
+    std::vector<DepthView> views = views_of(set);
+    if (settings_.harmonise) {
+        const double pulses = last_harmonised_ > 0 && set.trigger_index > last_harmonised_
+                                  ? static_cast<double>(set.trigger_index - last_harmonised_)
+                                  : 0;
+        harmoniser_.see(views, pulses / settings_.pulse_rate_hz);
+        last_harmonised_ = set.trigger_index;
+    }
+    give_to_synthesiser(std::move(views));
     times_.add(Stage::upload, ms_since(start));
     count_frames(set, fused_);
     ++sets_fused_;
@@ -195,7 +209,7 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
     if (past_pulse_) {
         std::optional<FrameSet> set = past_.at(*past_pulse_);
         if (set && set->trigger_index != shown_->trigger_index) {
-            give_to_synthesiser(*set);
+            give_to_synthesiser(views_of(*set));
             shown_ = std::move(set);
         }
     } else if (!frozen_) {
@@ -259,7 +273,7 @@ void LiveSession::next_synthesiser() {
     synthesiser_ = next.make(*shaders_);
     settings_.synthesiser = next.name;
     synthesiser_->note_origins(settings_.novelty);
-    if (shown_) give_to_synthesiser(*shown_);
+    if (shown_) give_to_synthesiser(views_of(*shown_));
 }
 
 void LiveSession::set_novelty(bool novelty) {
@@ -305,6 +319,10 @@ LiveReport LiveSession::report() const {
         report.rigs.push_back(
             {rig, count_of(fused_, rig.rig), count_of(superseded.frames, rig.rig)});
 
+    for (RigAccount& rig : report.rigs)
+        if (const auto found = harmoniser_.rigs().find(rig.status.rig);
+            found != harmoniser_.rigs().end())
+            rig.harmony = found->second;
     report.stages = stage_summary();
     if (recorder_) {
         report.stages[static_cast<std::size_t>(Stage::encode)].ms = recorder_->encode_ms();

@@ -10,6 +10,7 @@
 #include "common/base/stop_signal.h"
 #include "common/colour/colour_correction.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/fusion/colour_harmoniser.h"
 #include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/rig_demand.h"
 #include "host_app/fusion/stereoscopy.h"
@@ -32,7 +33,8 @@ struct LiveSettings {
     bool novelty = false;  ///< the picture is a NoveltyOverlay
     /// Two eyes side by side that converge, where this does not say, at the pivot's distance.
     std::optional<Stereoscopy> stereoscopy = {};
-    std::filesystem::path film, contact_sheet;             ///< empty: none
+    std::filesystem::path film, contact_sheet;  ///< empty: none
+    bool harmonise = true;                      ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
 
@@ -111,7 +113,8 @@ class LiveSession {
     /// The picture of one camera, with the overlay if that is wanted.
     const Texture& render_eye(const VirtualView& eye);
     const Texture& render(const VirtualView& target, double focus_m);
-    void give_to_synthesiser(const FrameSet& set);
+    std::vector<DepthView> views_of(const FrameSet& set) const;
+    void give_to_synthesiser(std::vector<DepthView> views);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(const VirtualView& view);
     void keep_moment(const OrbitView& view, std::chrono::nanoseconds time,
@@ -126,6 +129,8 @@ class LiveSession {
     NoveltyOverlay overlay_;
     SideBySide side_by_side_;
     RigDemand demand_;
+    ColourHarmoniser harmoniser_;
+    std::uint64_t last_harmonised_ = 0;  ///< pulse
     std::optional<VideoRecorder> recorder_;
     MomentCollector moments_;
 

@@ -243,6 +243,8 @@ TEST_F(LiveSessionTest, KeepsBooksThatAddUp) {
     EXPECT_EQ(json["sets"]["partial"], 4);
     EXPECT_EQ(json["rigs"][0]["name"], "north");
     EXPECT_EQ(json["rigs"][0]["host"]["fused"], report.rigs[0].fused);
+    EXPECT_NEAR(json["rigs"][0]["colour"]["gains"][1], 1, 0.01) << "both show one colour";
+    EXPECT_TRUE(json["rigs"][0]["colour"].contains("shared_points"));
     EXPECT_EQ(json["stages_ms"]["match"]["p95"], 3);
     EXPECT_FALSE(json["stages_ms"].contains("encode")) << "no film was written";
     const std::string text = to_text(report);
