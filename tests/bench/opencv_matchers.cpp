@@ -8,14 +8,14 @@
 
 namespace vantage {
 
-OpenCvMatcher::OpenCvMatcher(OpenCvMode mode, int disparities)
+OpenCvMatcher::OpenCvMatcher(OpenCvMode mode, int disparities, int prefilter_cap)
     : disparities_((disparities + 15) / 16 * 16) {
     if (mode == OpenCvMode::bm) {
         matcher_ = cv::StereoBM::create(disparities_, 15);
     } else {
         constexpr int block = 3, p1 = 8 * block * block, p2 = 32 * block * block;
         matcher_ = cv::StereoSGBM::create(
-            0, disparities_, block, p1, p2, 1, 63, 10, 100, 2,
+            0, disparities_, block, p1, p2, 1, prefilter_cap, 10, 100, 2,
             mode == OpenCvMode::hh4 ? cv::StereoSGBM::MODE_HH4 : cv::StereoSGBM::MODE_SGBM_3WAY);
     }
 }

@@ -13,7 +13,9 @@ enum class OpenCvMode { bm, sgbm_3way, hh4 };
 /// background side (the smaller of the nearest known neighbours in the row).
 class OpenCvMatcher {
   public:
-    OpenCvMatcher(OpenCvMode mode, int disparities);
+    /// prefilter_cap: how far gradients count (SGBM only). 15 errs least where both sensors are
+    /// exposed alike, 63 where they are not.
+    OpenCvMatcher(OpenCvMode mode, int disparities, int prefilter_cap = 15);
 
     /// Dense disparity in pixels. `padded`: the pictures are extended to the left by the search
     /// range first, so that OpenCV also judges the columns that it would leave out; slower, better.

@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "common/base/atomic_file.h"
-#include "common/base/error.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
@@ -22,6 +20,7 @@
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/fusion/view_set.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/markdown_tables.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -31,8 +30,6 @@ using namespace std::chrono_literals;
 
 constexpr auto stage_time = 2s;
 constexpr int repeats = 3;
-const std::string begin_marker = "<!-- measured: begin -->\n",
-                  end_marker = "<!-- measured: end -->";
 
 StageCamera camera_at(double azimuth_deg, cv::Size size) {
     const StereoCalibration rig =
@@ -208,18 +205,6 @@ class Bench {
     std::ostringstream text_;
     ColourImage comparison_;
 };
-
-void put_between_markers(const std::filesystem::path& file, const std::string& tables) {
-    constexpr std::size_t max_bytes = std::size_t{1} << 20;
-    const std::vector<std::byte> bytes = read_file(file, max_bytes);
-    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::size_t begin = text.find(begin_marker), end = text.find(end_marker);
-    if (begin == std::string::npos || end == std::string::npos || end < begin)
-        fail("{} lacks the lines '{}' and '{}'; put them where the tables go", file.string(),
-             begin_marker.substr(0, begin_marker.size() - 1), end_marker);
-    text.replace(begin + begin_marker.size(), end - begin - begin_marker.size(), tables + "\n");
-    write_file_atomically(file, std::as_bytes(std::span(text)));
-}
 
 int run(int argc, char** argv) {
     CLI::App app("Quality and time of the synthesisers");

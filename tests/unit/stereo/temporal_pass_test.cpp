@@ -8,7 +8,7 @@
 #include "common/gl/egl_context.h"
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/passes/temporal_reference.h"
-#include "tests/unit/stereo/filmed_pair.h"
+#include "tests/bench/filmed_pair.h"
 
 namespace vantage {
 namespace {

@@ -46,6 +46,17 @@ class StageFilm {
     StereoCalibration calibration_;
 };
 
+/// A set of the virtual stage at one instant: 0 is the show, others are random sets, seen from one
+/// side each, with sensor noise (8-bit grey levels).
+inline FilmedPair filmed_set(const ShaderLibrary& library, std::uint64_t set, cv::Size size,
+                             double noise_sigma) {
+    VirtualStage stage = set == 0 ? VirtualStage(library) : VirtualStage(library, set);
+    return StageFilm(stage, {.azimuth_rad = 0.4 * static_cast<double>(set),
+                             .width_px = size.width,
+                             .height_px = size.height})
+        .at(std::chrono::seconds(1), {.sigma = noise_sigma});
+}
+
 inline Texture uploaded(const ColourImage& picture) {
     Texture texture(TextureFormat::rgba8, picture.cols, picture.rows);
     texture.upload(picture);
