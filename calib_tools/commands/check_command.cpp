@@ -1,7 +1,7 @@
 #include <iostream>
 #include <memory>
 
-#include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/commands/snapshots.h"
 #include "calib_tools/health/health_report.h"
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/command.h"
@@ -12,6 +12,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> rigs;
+    LiveOption live;
     std::string html, history;
     long long instant = -1;
     bool json = false;
@@ -21,11 +22,8 @@ void run(const Options& options) {
     // Before the long work, so that a damaged history costs no time.
     const std::vector<PastCheck> past =
         options.history.empty() ? std::vector<PastCheck>{} : load_history(options.history);
-    std::vector<RigSnapshot> rigs;
-    for (const RigFolder& rig : parse_rig_folders(options.rigs)) {
-        rigs.push_back(load_snapshot(rig.name, rig.folder, options.instant));
-        log_info("rig {}: rectified and matched", rig.name);
-    }
+    const std::vector<RigSnapshot> rigs =
+        take_snapshots(parse_rig_folders(options.rigs), options.live, options.instant);
     const StageHealth health = check_stage(rigs);
     const std::string date = date_now();
     if (!options.html.empty()) {
@@ -51,6 +49,7 @@ CommandEntry check_command_entry() {
                          "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png, "
                          "raw pictures of whatever stands on the stage")
             ->required();
+        options->live.add_to(*command);
         command->add_option("--instant", options->instant,
                             "number of the pictures to take (default: each rig's first)");
         command->add_option("--html", options->html, "report to write, a page for a browser");

@@ -7,8 +7,7 @@
 
 #include "calib_tools/colour/chart.h"
 #include "calib_tools/colour/overlap.h"
-#include "calib_tools/commands/rig_folders.h"
-#include "calib_tools/health/rig_snapshot.h"
+#include "calib_tools/commands/snapshots.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/command.h"
@@ -22,6 +21,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> rigs, charts;
+    LiveOption live;
     std::string reference, output;
     long long instant = -1;
     bool json = false;
@@ -65,10 +65,10 @@ Result from_overlap(const Options& options) {
     constexpr int places = 4000;
     Result result;
     std::vector<OverlapView> views;
-    for (const RigFolder& rig : parse_rig_folders(options.rigs)) {
-        views.push_back(load_snapshot(rig.name, rig.folder, options.instant).overlap_view());
+    for (const RigSnapshot& rig :
+         take_snapshots(parse_rig_folders(options.rigs), options.live, options.instant)) {
+        views.push_back(rig.overlap_view());
         result.names.push_back(rig.name);
-        log_info("rig {}: rectified and matched", rig.name);
     }
     if (views.size() < 2) fail("colours are matched between rigs: give at least two with --rig");
     result.reference = options.reference.empty() ? result.names.front() : options.reference;
@@ -136,6 +136,7 @@ CommandEntry colour_command_entry() {
         command->add_option("--rig", options->rigs,
                             "NAME=FOLDER, once a rig: calibration.yaml (placed by `stage`), "
                             "left*N.png and right*N.png, raw pictures of one instant");
+        options->live.add_to(*command);
         command->add_option("--chart", options->charts,
                             "NAME='PATTERN', once a rig: pictures of a chart of 24 patches");
         command->add_option("--reference", options->reference,

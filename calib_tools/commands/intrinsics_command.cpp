@@ -6,6 +6,8 @@
 
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/lens_option.h"
+#include "calib_tools/commands/live_option.h"
+#include "calib_tools/live/board_film.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
@@ -13,6 +15,7 @@
 #include "calib_tools/rig/rig_calibration.h"
 #include "common/base/atomic_file.h"
 #include "common/base/command.h"
+#include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/geometry/opencv_bridge.h"
 
@@ -22,6 +25,8 @@ namespace {
 struct Options {
     BoardOptions board;
     LensOption lens;
+    LiveOption live;
+    std::string rig, side = "left";
     std::string pictures, output;
     std::string html;
     bool json = false;
@@ -48,12 +53,25 @@ void save_intrinsics(const std::string& path, const CameraCalibration& result) {
     write_file_atomically(path, std::as_bytes(std::span(text)));
 }
 
+std::vector<SeenPicture> look(const Options& options, const BoardPattern& pattern) {
+    if (!options.live.given()) {
+        if (options.pictures.empty()) fail("which pictures? give --images, or --live and --rig");
+        return look_at_pictures(expand_pictures(options.pictures), pattern);
+    }
+    if (options.rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
+    const std::vector<RigFolder> rig = parse_rig_folders({options.rig});
+    LiveRigs rigs = options.live.connect(rig);
+    BoardFilm film =
+        film_board(rigs, {{0, options.side == "left", options.side, rig[0].folder}}, pattern,
+                   options.live.most_views(), all_see_board, lens_advice({options.side}));
+    return std::move(film.pictures[0]);
+}
+
 void run(const Options& options) {
     const BoardPattern pattern = options.board.pattern();
     RigOptions rig_options;
     rig_options.family = options.lens.family();
-    const CameraCalibration result = calibrate_camera(
-        look_at_pictures(expand_pictures(options.pictures), pattern), pattern, rig_options);
+    const CameraCalibration result = calibrate_camera(look(options, pattern), pattern, rig_options);
     if (!options.output.empty()) {
         save_intrinsics(options.output, result);
         log_info("{} written", options.output);
@@ -77,8 +95,14 @@ CommandEntry intrinsics_command_entry() {
         const auto options = std::make_shared<Options>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--images", options->pictures, "pictures: 'PATTERN' or folder")
-            ->required();
+        command->add_option("--images", options->pictures, "pictures: 'PATTERN' or folder");
+        options->live.add_to(*command);
+        command->add_option("--rig", options->rig,
+                            "live: NAME=FOLDER, the rig of the stage and the folder that keeps its "
+                            "pictures");
+        command->add_option("--side", options->side, "live: which of its cameras")
+            ->check(CLI::IsMember({"left", "right"}))
+            ->capture_default_str();
         command->add_option("-o,--output", options->output,
                             "file to write (YAML, with the names of OpenCV's samples)");
         command->add_option("--html", options->html, "report to write, a page for a browser");

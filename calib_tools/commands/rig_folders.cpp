@@ -6,6 +6,12 @@
 
 namespace vantage {
 
+std::filesystem::path calibration_file_of(const RigFolder& rig) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(rig.folder, ignored) ? rig.folder
+                                                                 : rig.folder / "calibration.yaml";
+}
+
 std::vector<RigFolder> parse_rig_folders(const std::vector<std::string>& arguments) {
     std::vector<RigFolder> rigs;
     std::set<std::string> names;

@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "calib_tools/commands/board_options.h"
+#include "calib_tools/commands/live_option.h"
 #include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/live/board_film.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/stage/stage_calibration.h"
@@ -22,21 +24,17 @@ struct Options {
     std::vector<std::string> rigs;
     std::string output;
     long long floor = -1;
-    bool hold_lenses = false;
+    bool hold_lenses = false, floor_first = false;
+    LiveOption live;
     std::string html;
     bool json = false;
 };
 
-std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
-                                            const BoardPattern& pattern, const StageRig& rig,
-                                            const CameraModel& camera, StageCalibration& notes) {
-    const std::vector<std::filesystem::path> files = expand_pictures(pattern_of_files);
-    const std::vector<long long> numbers = picture_numbers(files);
-    if (numbers.empty())
-        fail("'{}': every picture needs a number in its name that tells its instant",
-             pattern_of_files);
-    std::vector<SeenPicture> pictures = look_at_pictures(files, pattern);
-    refuse_wrong_board(pictures, pattern);
+/// The sightings by instant; pictures of another size than the calibration's are refused.
+std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pictures,
+                                             const std::vector<long long>& numbers,
+                                             const StageRig& rig, const CameraModel& camera,
+                                             StageCalibration& notes) {
     std::map<long long, BoardCorners> seen;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const SeenPicture& p = pictures[i];
@@ -57,27 +55,77 @@ std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
     return seen;
 }
 
+std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
+                                            const BoardPattern& pattern, const StageRig& rig,
+                                            const CameraModel& camera, StageCalibration& notes) {
+    const std::vector<std::filesystem::path> files = expand_pictures(pattern_of_files);
+    const std::vector<long long> numbers = picture_numbers(files);
+    if (numbers.empty())
+        fail("'{}': every picture needs a number in its name that tells its instant",
+             pattern_of_files);
+    std::vector<SeenPicture> pictures = look_at_pictures(files, pattern);
+    refuse_wrong_board(pictures, pattern);
+    return by_instant(pictures, numbers, rig, camera, notes);
+}
+
+/// Films the board live and gives every rig what it saw. Returns the first pulse kept.
+long long film_live(const Options& options, const BoardPattern& pattern,
+                    const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
+                    StageCalibration& notes) {
+    LiveRigs live = options.live.connect(folders);
+    std::vector<FilmedCamera> cameras;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < rigs.size(); ++i) {
+        names.push_back(rigs[i].name);
+        for (const bool is_left : {true, false})
+            cameras.push_back(
+                {i, is_left, rigs[i].name + (is_left ? " left" : " right"), folders[i].folder});
+    }
+    if (options.floor_first)
+        log_info(
+            "lay the board on the floor, face up: the first instant kept is the world's floor");
+    const BoardFilm film = film_board(live, cameras, pattern, options.live.most_views(),
+                                      two_rigs_see_board, tie_advice(names));
+    const std::vector<long long> numbers(film.pulses.begin(), film.pulses.end());
+    for (std::size_t i = 0; i < rigs.size(); ++i) {
+        StageRig& rig = rigs[i];
+        rig.left = by_instant(film.pictures[2 * i], numbers, rig, rig.calibration.left, notes);
+        rig.right =
+            by_instant(film.pictures[2 * i + 1], numbers, rig, rig.calibration.right, notes);
+    }
+    return numbers.front();
+}
+
 void run(const Options& options) {
     const BoardPattern pattern = options.board.pattern();
     std::vector<StageRig> rigs;
     StageCalibration notes;
-    for (const auto& [name, folder] : parse_rig_folders(options.rigs)) {
+    std::optional<long long> floor;
+    if (options.floor >= 0) floor = options.floor;
+    const std::vector<RigFolder> folders = parse_rig_folders(options.rigs);
+    for (const auto& [name, folder] : folders) {
         StageRig rig;
         rig.name = name;
         rig.calibration = load_calibration(folder / "calibration.yaml");
         const CalibrationRecord record = load_calibration_record(folder / "calibration.yaml");
         rig.alpha = record.alpha;
         if (!options.hold_lenses) rig.sigma = record.sigma;
-        rig.left =
-            sightings((folder / "left*").string(), pattern, rig, rig.calibration.left, notes);
-        rig.right =
-            sightings((folder / "right*").string(), pattern, rig, rig.calibration.right, notes);
-        log_info("rig {}: the board in {} left and {} right pictures", rig.name, rig.left.size(),
-                 rig.right.size());
+        if (!options.live.given()) {
+            rig.left =
+                sightings((folder / "left*").string(), pattern, rig, rig.calibration.left, notes);
+            rig.right =
+                sightings((folder / "right*").string(), pattern, rig, rig.calibration.right, notes);
+        }
         rigs.push_back(std::move(rig));
     }
-    StageCalibration stage = calibrate_stage(
-        rigs, pattern, options.floor >= 0 ? std::optional(options.floor) : std::nullopt);
+    if (options.live.given()) {
+        const long long first = film_live(options, pattern, folders, rigs, notes);
+        if (options.floor_first) floor = first;
+    }
+    for (const StageRig& rig : rigs)
+        log_info("rig {}: the board in {} left and {} right pictures", rig.name, rig.left.size(),
+                 rig.right.size());
+    StageCalibration stage = calibrate_stage(rigs, pattern, floor);
     stage.rejected.insert(stage.rejected.end(), notes.rejected.begin(), notes.rejected.end());
     std::filesystem::create_directories(options.output);
     for (std::size_t i = 0; i < stage.rigs.size(); ++i) {
@@ -116,11 +164,15 @@ CommandEntry stage_command_entry() {
         command
             ->add_option("--rig", options->rigs,
                          "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png; "
-                         "equal numbers are equal instants")
+                         "equal numbers are equal instants (live: the folder keeps them)")
             ->required();
         command->add_option("--floor", options->floor,
                             "number of the pictures in which the board lies on the floor, at the "
                             "world's origin");
+        options->live.add_to(*command);
+        command->add_flag("--floor-first", options->floor_first,
+                          "live: in the first instant kept the board lies on the floor, at the "
+                          "world's origin");
         command->add_flag("--hold-lenses", options->hold_lenses,
                           "leave lenses and baselines as each rig's own calibration has them");
         command->add_option("-o,--output", options->output, "folder for one NAME.yaml a rig")

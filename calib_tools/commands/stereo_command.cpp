@@ -3,6 +3,8 @@
 
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/lens_option.h"
+#include "calib_tools/commands/live_option.h"
+#include "calib_tools/live/board_film.h"
 #include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
@@ -19,12 +21,42 @@ namespace {
 struct Options {
     BoardOptions board;
     LensOption lens;
+    LiveOption live;
+    std::string rig;
     std::string left, right, output;
     double alpha = 0;
     std::vector<int> rectified_size;
     std::string html;
     bool json = false;
 };
+
+struct SeenPairs {
+    std::vector<SeenPicture> left, right;
+    std::vector<std::filesystem::path> alone;
+};
+
+SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) {
+    if (options.left.empty() || options.right.empty())
+        fail("which pictures? give --left and --right, or --live and --rig");
+    const PicturePairs pictures =
+        pair_pictures(expand_pictures(options.left), expand_pictures(options.right));
+    std::vector<std::filesystem::path> files;
+    for (const auto& [left, right] : pictures.pairs) files.push_back(left);
+    for (const auto& [left, right] : pictures.pairs) files.push_back(right);
+    const std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
+    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
+    return {{seen.begin(), middle}, {middle, seen.end()}, pictures.alone};
+}
+
+SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
+    if (options.rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
+    const std::vector<RigFolder> rig = parse_rig_folders({options.rig});
+    LiveRigs rigs = options.live.connect(rig);
+    BoardFilm film = film_board(
+        rigs, {{0, true, "left", rig[0].folder}, {0, false, "right", rig[0].folder}}, pattern,
+        options.live.most_views(), all_see_board, lens_advice({"left", "right"}));
+    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}};
+}
 
 void run(const Options& options) {
     const BoardPattern pattern = options.board.pattern();
@@ -35,17 +67,11 @@ void run(const Options& options) {
         rig_options.rectified_width_px = options.rectified_size[0];
         rig_options.rectified_height_px = options.rectified_size[1];
     }
-    const PicturePairs pictures =
-        pair_pictures(expand_pictures(options.left), expand_pictures(options.right));
-    std::vector<std::filesystem::path> files;
-    for (const auto& [left, right] : pictures.pairs) files.push_back(left);
-    for (const auto& [left, right] : pictures.pairs) files.push_back(right);
-    std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
-    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
+    SeenPairs seen = options.live.given() ? pairs_from_rig(options, pattern)
+                                          : pairs_from_files(options, pattern);
     RigCalibration result =
-        calibrate_rig(std::vector<SeenPicture>(seen.begin(), middle),
-                      std::vector<SeenPicture>(middle, seen.end()), pattern, rig_options);
-    for (const std::filesystem::path& file : pictures.alone) {
+        calibrate_rig(std::move(seen.left), std::move(seen.right), pattern, rig_options);
+    for (const std::filesystem::path& file : seen.alone) {
         ++result.views_given;
         result.rejected.push_back(
             {file.filename().string(), "has no partner of the same number on the other side"});
@@ -78,10 +104,12 @@ CommandEntry stereo_command_entry() {
         const auto options = std::make_shared<Options>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--left", options->left, "left pictures: 'PATTERN' or folder")
-            ->required();
-        command->add_option("--right", options->right, "right pictures: 'PATTERN' or folder")
-            ->required();
+        command->add_option("--left", options->left, "left pictures: 'PATTERN' or folder");
+        command->add_option("--right", options->right, "right pictures: 'PATTERN' or folder");
+        options->live.add_to(*command);
+        command->add_option("--rig", options->rig,
+                            "live: NAME=FOLDER, the rig of the stage and the folder that keeps its "
+                            "pictures");
         command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
             ->required();
         command

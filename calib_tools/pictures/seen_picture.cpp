@@ -30,11 +30,7 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
 
 void look_at(SeenPicture& picture, const BoardPattern& pattern) {
     try {
-        const GreyImage grey = to_grey(read_colour_image(picture.path));
-        picture.width_px = grey.cols;
-        picture.height_px = grey.rows;
-        judge(grey, picture);
-        picture.sighting = find_board(grey, pattern);
+        picture = look_at_picture(to_grey(read_colour_image(picture.path)), picture.path, pattern);
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();
@@ -58,7 +54,20 @@ double quantile(std::vector<double> values, double share) {
     return *place;
 }
 
-void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
+}  // namespace
+
+SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
+                            const BoardPattern& pattern) {
+    SeenPicture picture;
+    picture.path = path;
+    picture.width_px = grey.cols;
+    picture.height_px = grey.rows;
+    judge(grey, picture);
+    picture.sighting = find_board(grey, pattern);
+    return picture;
+}
+
+UsualPicture usual_of(const std::vector<SeenPicture>& pictures) {
     std::vector<double> blurs, sharpnesses, saturations, burnt_out_shares;
     for (const SeenPicture& p : pictures) {
         if (!p.sighting.found()) continue;
@@ -67,34 +76,32 @@ void explain_blur_and_glare(std::vector<SeenPicture>& pictures) {
         saturations.push_back(p.saturated);
         burnt_out_shares.push_back(p.sighting.burnt_out_share);
     }
-    const double usual_burnt_out = quantile(burnt_out_shares, 0.5);
-    const double usual_blur = quantile(blurs, 0.5), usual_sharpness = quantile(sharpnesses, 0.5);
-    const double usual_saturation = quantile(saturations, 0.5);
-    for (SeenPicture& p : pictures) {
-        const BoardSighting& s = p.sighting;
-        if (s.found()) {
-            const double limit = std::max(1.5, 2.2 * usual_blur);
-            if (s.blur_px > limit)
-                refuse(p, fmt::format("is blurred: edges of {:.1f} px where {:.1f} px is usual in "
-                                      "this series and {:.1f} px the limit; hold the board still, "
-                                      "in focus",
-                                      s.blur_px, usual_blur, limit));
-            else if (s.burnt_out_share > 0.08 + 1.5 * usual_burnt_out)
-                refuse(p, fmt::format("has glare on the board: {:.0f} % of it is overexposed where "
-                                      "{:.0f} % is usual in this series; turn it away from the "
-                                      "lamp or expose shorter",
-                                      100 * s.burnt_out_share, 100 * usual_burnt_out));
-        } else if (p.width_px > 0 && !s.mirrored) {
-            if (usual_sharpness > 0 && p.sharpness < 0.5 * usual_sharpness)
-                p.sighting.reason += ": the picture is blurred";
-            else if (p.saturated > 0.02 + 2 * usual_saturation)
-                p.sighting.reason += fmt::format(": {:.0f} % of the picture is overexposed (glare)",
-                                                 100 * p.saturated);
-        }
-    }
+    return {quantile(blurs, 0.5), quantile(sharpnesses, 0.5), quantile(saturations, 0.5),
+            quantile(burnt_out_shares, 0.5)};
 }
 
-}  // namespace
+void judge_blur_and_glare(SeenPicture& picture, const UsualPicture& usual) {
+    const BoardSighting& s = picture.sighting;
+    if (s.found()) {
+        const double limit = std::max(1.5, 2.2 * usual.blur_px);
+        if (s.blur_px > limit)
+            refuse(picture, fmt::format("is blurred: edges of {:.1f} px where {:.1f} px is usual "
+                                        "in this series and {:.1f} px the limit; hold the board "
+                                        "still, in focus",
+                                        s.blur_px, usual.blur_px, limit));
+        else if (s.burnt_out_share > 0.08 + 1.5 * usual.burnt_out_share)
+            refuse(picture, fmt::format("has glare on the board: {:.0f} % of it is overexposed "
+                                        "where {:.0f} % is usual in this series; turn it away "
+                                        "from the lamp or expose shorter",
+                                        100 * s.burnt_out_share, 100 * usual.burnt_out_share));
+    } else if (picture.width_px > 0 && !s.mirrored) {
+        if (usual.sharpness > 0 && picture.sharpness < 0.5 * usual.sharpness)
+            picture.sighting.reason += ": the picture is blurred";
+        else if (picture.saturated > 0.02 + 2 * usual.saturated)
+            picture.sighting.reason += fmt::format(
+                ": {:.0f} % of the picture is overexposed (glare)", 100 * picture.saturated);
+    }
+}
 
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
                                           const BoardPattern& pattern) {
@@ -122,7 +129,8 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
         static_cast<double>(files.size()));
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
-    explain_blur_and_glare(pictures);
+    const UsualPicture usual = usual_of(pictures);
+    for (SeenPicture& picture : pictures) judge_blur_and_glare(picture, usual);
     return pictures;
 }
 

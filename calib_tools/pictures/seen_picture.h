@@ -24,6 +24,20 @@ struct SeenPicture {
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
                                           const BoardPattern& pattern);
 
+/// A picture that is at hand already; it is not judged by blur and glare yet.
+SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
+                            const BoardPattern& pattern);
+
+/// What is usual in a series of pictures in which the board was found.
+struct UsualPicture {
+    double blur_px = 0, sharpness = 0, saturated = 0, burnt_out_share = 0;
+};
+UsualPicture usual_of(const std::vector<SeenPicture>& pictures);
+
+/// Refuses a picture of the board that is blurred or has glare on the board by what is usual; to
+/// the reason of a picture without a board, says whether blur or glare may be why.
+void judge_blur_and_glare(SeenPicture& picture, const UsualPicture& usual);
+
 /// The size that most pictures have; pictures of another size are refused with the reason.
 void require_one_size(std::vector<SeenPicture>& pictures);
 

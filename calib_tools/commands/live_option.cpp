@@ -1,0 +1,27 @@
+#include "calib_tools/commands/live_option.h"
+
+namespace vantage {
+
+void LiveOption::add_to(CLI::App& command) {
+    CLI::Option* live = command.add_option(
+        "--live", stage_file,
+        "stage.toml: take the pictures from the running rigs of this stage, not from files");
+    command.add_option("--views", views, "live: instants to keep at most")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str()
+        ->needs(live);
+    command.add_option("--patience-s", patience_s, "live: how long rigs may be silent")
+        ->check(CLI::Range(1, 3600))
+        ->capture_default_str()
+        ->needs(live);
+}
+
+LiveRigs LiveOption::connect(const std::vector<RigFolder>& rigs) const {
+    LiveOptions options;
+    options.stage_file = stage_file;
+    for (const RigFolder& rig : rigs) options.rigs.push_back(rig.name);
+    options.patience = std::chrono::seconds(patience_s);
+    return LiveRigs(options);
+}
+
+}  // namespace vantage

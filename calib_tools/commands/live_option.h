@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/live/live_rigs.h"
+
+namespace vantage {
+
+/// --live and what belongs to it, of the commands that take pictures from running rigs too.
+struct LiveOption {
+    std::string stage_file;
+    int views = 40;
+    int patience_s = 30;
+
+    void add_to(CLI::App& command);
+    bool given() const { return !stage_file.empty(); }
+    std::size_t most_views() const { return static_cast<std::size_t>(views); }
+    /// Throws Error as LiveRigs does.
+    LiveRigs connect(const std::vector<RigFolder>& rigs) const;
+};
+
+}  // namespace vantage

@@ -1,0 +1,176 @@
+#include "calib_tools/live/board_film.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <optional>
+
+#include "calib_tools/board/chessboard_finder.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/time.h"
+#include "common/image/image_file.h"
+
+namespace vantage {
+namespace {
+
+/// A board that has moved less than this share of the picture's width shows nothing new.
+constexpr double new_place_share = 0.04;
+/// The same reason is not said more often than this.
+constexpr std::chrono::seconds repeat_after{3};
+constexpr int looks_between_size_tests = 5;
+
+std::filesystem::path file_of(const FilmedCamera& camera, std::uint64_t pulse) {
+    return camera.folder / fmt::format("{}_{}.png", camera.is_left ? "left" : "right", pulse);
+}
+
+void require_empty(const FilmedCamera& camera) {
+    const std::string side = camera.is_left ? "left" : "right";
+    std::filesystem::create_directories(camera.folder);
+    for (const auto& entry : std::filesystem::directory_iterator(camera.folder))
+        if (entry.path().filename().string().starts_with(side))
+            fail(
+                "{} holds {} pictures already: give a folder without pictures, or calibrate from "
+                "those without --live",
+                camera.folder.string(), side);
+}
+
+/// Mean way of the corners that both pictures show; empty if they share too few.
+std::optional<double> way_px(const BoardCorners& a, const BoardCorners& b) {
+    constexpr int fewest = 4;
+    double sum = 0;
+    int count = 0;
+    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+        if (i->id < j->id) {
+            ++i;
+        } else if (j->id < i->id) {
+            ++j;
+        } else {
+            sum += (i->pixel - j->pixel).norm();
+            ++count;
+            ++i;
+            ++j;
+        }
+    }
+    if (count < fewest) return std::nullopt;
+    return sum / count;
+}
+
+/// The board stands where it stood in an instant that is kept, for every camera that sees it.
+bool shows_nothing_new(const BoardFilm& film, const std::vector<SeenPicture>& pictures) {
+    for (std::size_t k = 0; k < film.pulses.size(); ++k) {
+        bool same = true;
+        for (std::size_t c = 0; same && c < pictures.size(); ++c) {
+            const SeenPicture& now = pictures[c];
+            if (!now.sighting.found()) continue;
+            const auto way = way_px(now.sighting.corners, film.pictures[c][k].sighting.corners);
+            same = way && *way < new_place_share * now.width_px;
+        }
+        if (same) return true;
+    }
+    return false;
+}
+
+/// Says each reason when it is new, or again after a while.
+class Notice {
+  public:
+    void say(const std::string& sentence) {
+        const MonotonicTime now = MonotonicClock::now();
+        if (sentence == last_ && now - when_ < repeat_after) return;
+        log_info("{}", sentence);
+        last_ = sentence;
+        when_ = now;
+    }
+
+  private:
+    std::string last_;
+    MonotonicTime when_{};
+};
+
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string all;
+    for (const std::string& sentence : sentences) all += (all.empty() ? "" : "; ") + sentence;
+    return all;
+}
+
+/// Throws Error if two pictures show a chessboard of one other size: then no waiting helps.
+class OtherBoardWatch {
+  public:
+    explicit OtherBoardWatch(const BoardPattern& pattern) : pattern_(pattern) {}
+
+    void look(const GreyImage& picture) {
+        if (pattern_.kind != BoardKind::chessboard || looks_++ % looks_between_size_tests != 0)
+            return;
+        const std::optional<BoardPattern> other = find_other_size(picture, pattern_);
+        if (other && ++votes_[{other->columns, other->rows}] >= 2)
+            fail(
+                "the rigs see a board of {} inner corners, not {} (corners where four squares meet "
+                "are counted, not squares)",
+                other->size_name(), pattern_.size_name());
+    }
+
+  private:
+    BoardPattern pattern_;
+    int looks_ = 0;
+    std::map<std::pair<int, int>, int> votes_;
+};
+
+}  // namespace
+
+BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
+                     const BoardPattern& pattern, std::size_t most, const FilmRule& rule,
+                     const FilmAdvice& advice) {
+    for (const FilmedCamera& camera : cameras) require_empty(camera);
+    BoardFilm film;
+    film.pictures.resize(cameras.size());
+    OtherBoardWatch other_board(pattern);
+    Notice notice;
+    log_info("show the board; Ctrl-C ends the film and calibrates from what is kept");
+    while (film.pulses.size() < most) {
+        const std::optional<LiveInstant> instant = rigs.next();
+        if (!instant) break;
+        std::vector<SeenPicture> pictures(cameras.size());
+        std::vector<const ColourImage*> raw(cameras.size(), nullptr);
+        for (std::size_t c = 0; c < cameras.size(); ++c) {
+            const std::optional<RawPair>& pair = instant->pairs[cameras[c].rig];
+            if (pair) raw[c] = cameras[c].is_left ? &pair->left : &pair->right;
+            pictures[c].path = file_of(cameras[c], instant->pulse);
+            pictures[c].sighting.reason = "did not come in time";
+        }
+        cv::parallel_for_(cv::Range(0, static_cast<int>(cameras.size())), [&](const cv::Range& r) {
+            for (int i = r.start; i < r.end; ++i) {
+                const auto c = static_cast<std::size_t>(i);
+                if (raw[c])
+                    pictures[c] = look_at_picture(to_grey(*raw[c]), pictures[c].path, pattern);
+            }
+        });
+        bool anyone = false;
+        for (std::size_t c = 0; c < cameras.size(); ++c) {
+            anyone = anyone || pictures[c].sighting.found();
+            judge_blur_and_glare(pictures[c], usual_of(film.pictures[c]));
+        }
+        if (!anyone && raw[0]) other_board.look(to_grey(*raw[0]));
+        const std::string fault = rule(pictures);
+        if (!fault.empty()) {
+            notice.say(fault);
+            continue;
+        }
+        if (shows_nothing_new(film, pictures)) {
+            notice.say("this place is kept already: move the board on");
+            continue;
+        }
+        for (std::size_t c = 0; c < cameras.size(); ++c) {
+            if (raw[c]) write_colour_image(pictures[c].path, *raw[c]);
+            film.pictures[c].push_back(std::move(pictures[c]));
+        }
+        film.pulses.push_back(instant->pulse);
+        const std::vector<std::string> missing = advice(film);
+        log_info("{} kept (pulse {}); {}", film.pulses.size(), instant->pulse,
+                 missing.empty() ? "nothing is missing" : "still missing: " + joined(missing));
+        if (missing.empty()) break;
+    }
+    if (film.pulses.empty()) fail("the film ended before a picture of the board could be kept");
+    return film;
+}
+
+}  // namespace vantage

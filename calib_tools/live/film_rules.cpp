@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <numeric>
+
+#include "calib_tools/live/board_film.h"
+#include "calib_tools/rig/camera_solver.h"
+#include "calib_tools/rig/guidance.h"
+#include "calib_tools/stage/stage_calibration.h"
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+/// From so few pictures no lens can be estimated that would tell a board's tilt.
+constexpr std::size_t fewest_for_lens = 4;
+
+std::string fault_of(const SeenPicture& picture) {
+    return picture.name() + " " + picture.sighting.reason;
+}
+
+std::vector<std::string> missing_for_camera(const std::vector<SeenPicture>& pictures,
+                                            const std::string& name) {
+    CameraViews views;
+    for (const SeenPicture& p : pictures) {
+        views.width_px = p.width_px;
+        views.height_px = p.height_px;
+        views.instants.push_back(p.sighting.corners);
+    }
+    if (views.instants.size() < fewest_for_lens)
+        return {fmt::format("{} more pictures before the {} camera's lens can be judged",
+                            fewest_for_lens - views.instants.size(), name)};
+    const std::optional<Bundle> solved = solve_camera(views, lens_family("radial1"));
+    if (!solved)
+        return {fmt::format("pictures of the {} camera with the board tilted by 30 degrees", name)};
+    return missing_pictures(*solved, 0, name);
+}
+
+}  // namespace
+
+std::string all_see_board(const std::vector<SeenPicture>& pictures) {
+    for (const SeenPicture& picture : pictures)
+        if (!picture.sighting.found()) return fault_of(picture);
+    return {};
+}
+
+FilmAdvice lens_advice(std::vector<std::string> camera_names) {
+    return [names = std::move(camera_names)](const BoardFilm& film) {
+        std::vector<std::string> all;
+        for (std::size_t c = 0; c < names.size(); ++c)
+            for (std::string& sentence : missing_for_camera(film.pictures[c], names[c]))
+                all.push_back(std::move(sentence));
+        return all;
+    };
+}
+
+std::string two_rigs_see_board(const std::vector<SeenPicture>& pictures) {
+    std::size_t seeing = 0;
+    for (std::size_t c = 0; c + 1 < pictures.size(); c += 2)
+        seeing += pictures[c].sighting.found() || pictures[c + 1].sighting.found() ? 1 : 0;
+    if (seeing >= 2) return {};
+    for (const SeenPicture& picture : pictures)
+        if (!picture.sighting.found() && picture.sighting.reason.starts_with("is blurred"))
+            return fault_of(picture);
+    return fmt::format("{} sees the board: hold it where two rigs see it",
+                       seeing == 0 ? "no rig" : "only one rig");
+}
+
+FilmAdvice tie_advice(std::vector<std::string> rig_names) {
+    return [names = std::move(rig_names)](const BoardFilm& film) {
+        const std::size_t count = names.size();
+        struct Tie {
+            int shared;
+            std::size_t a, b;
+        };
+        std::vector<Tie> ties;
+        const auto sees = [&](std::size_t rig, std::size_t instant) {
+            return film.pictures[2 * rig][instant].sighting.found() ||
+                   film.pictures[2 * rig + 1][instant].sighting.found();
+        };
+        for (std::size_t a = 0; a < count; ++a)
+            for (std::size_t b = a + 1; b < count; ++b) {
+                Tie tie{0, a, b};
+                for (std::size_t k = 0; k < film.pulses.size(); ++k)
+                    tie.shared += sees(a, k) && sees(b, k) ? 1 : 0;
+                ties.push_back(tie);
+            }
+        // The strongest ties that reach every rig (Kruskal); the weak ones among them are missing.
+        std::stable_sort(ties.begin(), ties.end(),
+                         [](const Tie& x, const Tie& y) { return x.shared > y.shared; });
+        std::vector<std::size_t> group(count);
+        std::iota(group.begin(), group.end(), 0u);
+        std::vector<std::string> all;
+        for (const Tie& tie : ties) {
+            if (group[tie.a] == group[tie.b]) continue;
+            std::replace(group.begin(), group.end(), std::size_t{group[tie.b]},
+                         std::size_t{group[tie.a]});
+            if (tie.shared == 0)
+                all.push_back(
+                    fmt::format("the board before rig {} and a neighbour of it", names[tie.b]));
+            else if (tie.shared < StageCalibration::few_shared)
+                all.push_back(fmt::format("the board where rigs {} and {} both see it ({} of {})",
+                                          names[tie.a], names[tie.b], tie.shared,
+                                          StageCalibration::few_shared));
+        }
+        return all;
+    };
+}
+
+}  // namespace vantage
