@@ -10,7 +10,8 @@ void GpuView::upload(const DepthView& view) {
         colour_ && depth_ && colour_->size() == view.colour.size() &&
         depth_->size() == view.depth_m.size() && camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    if (!is_same_camera) has_steady_ = false;
+    if (!is_same_camera || !is_prepared_) has_steady_ = false;
+    is_prepared_ = false;
     camera_ = view;
     camera_.colour.release();
     camera_.depth_m.release();

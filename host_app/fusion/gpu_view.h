@@ -45,6 +45,11 @@ class GpuView {
     const Framebuffer& next_steady_target();
     void finish_steady_depth();
 
+    /// Whether what is drawn of this rig was made of the last upload. A rig that was not drawn has
+    /// no past to steady its depth with.
+    bool is_prepared() const { return is_prepared_; }
+    void set_prepared() { is_prepared_ = true; }
+
     /// How far this rig takes part, 0..1: it fades in when it comes and out when it is gone.
     float presence() const { return presence_; }
     void set_presence(float presence) { presence_ = presence; }
@@ -67,7 +72,7 @@ class GpuView {
     std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::r32f),
                                         DrawnTexture(TextureFormat::r32f)};
     std::size_t steady_now_ = 0;
-    bool has_steady_ = false;
+    bool has_steady_ = false, is_prepared_ = false;
     float presence_ = 1;
     std::optional<Buffer> triangles_;
     SurfaceSamples samples_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "host_app/fusion/edge_trust.h"
 #include "host_app/fusion/gpu_view.h"
 #include "host_app/fusion/layer_blender.h"
+#include "host_app/fusion/rig_consensus.h"
 #include "host_app/fusion/rig_presence.h"
 #include "host_app/fusion/synthesiser.h"
 #include "host_app/fusion/view_ranking.h"
@@ -19,14 +21,15 @@ constexpr float softness = 0.005f;
 /// Depths that differ by more than this ratio lie on two surfaces.
 constexpr float edge_ratio = 1.03f;
 
-/// The best that is done live: the rigs' depth maps are closed, the surfaces that they agree on are
-/// found for every pixel, each rig that sees a surface gives its colour to it, and close to depth
-/// edges the rigs' colours decide which surface it is.
+/// The best that is done live: the rigs' depth maps are bettered by each other and closed, the
+/// surfaces that they agree on are found for every pixel, each rig that sees a surface gives its
+/// colour to it, and close to depth edges the rigs' colours decide which surface it is.
 class FusedSynthesiser final : public Synthesiser {
   public:
     explicit FusedSynthesiser(const ShaderLibrary& library)
         : steadier_(library),
           closer_(library),
+          consensus_(library),
           edge_trust_(library),
           blender_(library, "fused_colour.frag", softness) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
@@ -35,17 +38,16 @@ class FusedSynthesiser final : public Synthesiser {
     }
 
     void set_views(std::span<const DepthView> views) override {
-        for (GpuView* view : upload_with_fades(views, views_)) {
-            steadier_.steady(*view);
-            closer_.close(view->steady_depth(), view->surface_target());
-            edge_trust_.judge(*view);
-            blender_.layers().rasteriser().build_triangles(*view);
-        }
+        for (GpuView* view : upload_with_fades(views, views_)) steadier_.steady(*view);
     }
 
     const Texture& render(const VirtualView& view) override {
         RigLayers& layers = blender_.layers();
-        layers.draw(most_useful(views_, view, RigLayers::max_layers), view);
+        const std::vector<const GpuView*> used = most_useful(views_, view, RigLayers::max_layers);
+        for (const auto& one : views_)
+            if (!one->is_prepared() && std::find(used.begin(), used.end(), one.get()) != used.end())
+                prepare(*one);
+        layers.draw(used, view);
         fused_depth_.resize({view.width_px, view.height_px});
         if (!layers.used().empty()) find_depth();
         return blender_.blend(view, [&](Program& colour, int unit) {
@@ -62,6 +64,16 @@ class FusedSynthesiser final : public Synthesiser {
     const PixelOrigins* origins() const override { return blender_.origins(); }
 
   private:
+    /// What only those rigs need that take part in a picture, once an instant.
+    void prepare(GpuView& view) {
+        // Asked for before anything is bound: making a texture binds it.
+        const Framebuffer& surface = view.surface_target();
+        closer_.close(consensus_.better(view, views_), surface);
+        edge_trust_.judge(view);
+        blender_.layers().rasteriser().build_triangles(view);
+        view.set_prepared();
+    }
+
     void find_depth() {
         FullscreenPass& pass = depth_pass_[blender_.layers().used().size() - 1];
         Program& program = pass.use();
@@ -73,6 +85,7 @@ class FusedSynthesiser final : public Synthesiser {
     std::vector<std::unique_ptr<GpuView>> views_;
     DepthSteadier steadier_;
     DepthCloser closer_;
+    RigConsensus consensus_;
     EdgeTrust edge_trust_;
     LayerBlender blender_;
     std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers

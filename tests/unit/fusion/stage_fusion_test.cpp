@@ -1,7 +1,9 @@
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
 #include "common/image/image_file.h"
@@ -125,6 +127,65 @@ TEST(FusedStage, IsWithinThirtyDecibelsBetweenRigsTwentyDegreesApart) {
         EXPECT_GE(s.ssim, 0.93) << "at " << azimuth_deg;
         EXPECT_GE(s.coverage, 0.92) << "at " << azimuth_deg;
     }
+}
+
+/// Four rigs twenty degrees apart; their depth is exact.
+std::vector<DepthView> film_arc(VirtualStage& stage, int width_px, int height_px) {
+    std::vector<DepthView> views;
+    for (const double azimuth_deg : {-30, -10, 10, 30})
+        views.push_back(film(stage, azimuth_deg, width_px, height_px));
+    return views;
+}
+
+/// The picture midway between rigs twenty degrees apart, against the stage's own.
+double midway_psnr_db(VirtualStage& stage, const ShaderLibrary& shaders,
+                      std::span<const DepthView> views, const std::string& name) {
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    synthesiser->set_views(views);
+    return score(*synthesiser, stage, 0, name, views[0].colour.cols, views[0].colour.rows).psnr_db;
+}
+
+/// A third of a pixel of disparity is ten pixels in the picture of a rig far aside.
+TEST(RigConsensusOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
+    constexpr int width_px = 240, height_px = 180;
+    constexpr double disparity_error_px = 0.3;
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    std::vector<DepthView> views = film_arc(stage, width_px, height_px);
+    const double exact_db = midway_psnr_db(stage, shaders, views, "consensus-exact");
+    cv::RNG random(3);
+    for (DepthView& view : views) {
+        cv::Mat1f error_px(view.depth_m.size());
+        random.fill(error_px, cv::RNG::NORMAL, 0, 1);
+        cv::GaussianBlur(error_px, error_px, {}, 4);
+        error_px *= disparity_error_px / cv::norm(error_px) * std::sqrt(error_px.total());
+        const auto f_baseline = static_cast<float>(view.K(0, 0) * view.baseline_m);
+        cv::Mat1f disparity_px = f_baseline / view.depth_m + error_px;
+        view.depth_m = f_baseline / disparity_px;
+    }
+    const double bettered_db = midway_psnr_db(stage, shaders, views, "consensus-bettered");
+    // Without a baseline depth counts as measured some other way, and stays as it is.
+    for (DepthView& view : views) view.baseline_m = 0;
+    const double as_they_are_db = midway_psnr_db(stage, shaders, views, "consensus-as-they-are");
+    EXPECT_GE(bettered_db, as_they_are_db + 3);
+    EXPECT_GE(bettered_db, exact_db - 5);
+}
+
+TEST(RigConsensusOnTheStage, CarvesAwayWhatOtherRigsSeeThrough) {
+    constexpr int width_px = 240, height_px = 180;
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    std::vector<DepthView> views = film_arc(stage, width_px, height_px);
+    const double clean_db = midway_psnr_db(stage, shaders, views, "carving-clean");
+    // Blocks that hover in front of everything.
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        views[i].depth_m = views[i].depth_m.clone();
+        cv::rectangle(views[i].depth_m, cv::Rect(60 + 20 * static_cast<int>(i), 40, 30, 60),
+                      cv::Scalar(2.0), cv::FILLED);
+    }
+    EXPECT_GE(midway_psnr_db(stage, shaders, views, "carving-carved"), clean_db - 2.5);
 }
 
 /// Halos are errors beside depth edges.

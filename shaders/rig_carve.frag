@@ -1,0 +1,67 @@
+// A rig's depth as the other rigs leave it: carved away where they see through it, that is, where none of them has a
+// surface and one sees a farther one. With MOVES 1 it first goes along with its half-size map, which was refined.
+#ifndef MOVES
+#define MOVES 1
+#endif
+#include "rig_others.glsl"
+
+uniform float softness;  // relative depth within which two surfaces are one
+
+layout(location = 0) out float carved;
+
+#if MOVES
+uniform sampler2D half_before;  // metres: the half-size map before it was refined, and after; 0 = unknown
+uniform sampler2D half_after;
+uniform sampler2D agreement;    // from rig_agreement.frag
+uniform float edge_ratio;       // two depths whose ratio is larger lie on two surfaces
+uniform float least_change;     // of inverse depth, relative: less is not worth losing detail for
+
+const float agreed = 0.7;  // share of a map that is exact where nothing is to be gained
+
+// Moves a depth by what the four half-size pixels around it were moved by, those on its surface.
+float moved(ivec2 at, float z) {
+    vec4 share = textureLod(agreement, vec2(0.5), 16.0);
+    if (share.r > agreed * share.a) return z;
+    ivec2 last = textureSize(half_before, 0) - 1;
+    ivec2 low = (at + 1) / 2 - 1;
+    vec2 part = vec2(at & 1) * -0.5 + 0.75;
+    float change = 0.0, inverse = 0.0, weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i & 1, i >> 1), there = clamp(low + corner, ivec2(0), last);
+        float before = texelFetch(half_before, there, 0).r, after = texelFetch(half_after, there, 0).r;
+        if (max(before, z) > min(before, z) * edge_ratio || after <= 0.0) continue;
+        vec2 w = mix(1.0 - part, part, vec2(corner));
+        change += w.x * w.y * before / after;
+        inverse += w.x * w.y / after;
+        weights += w.x * w.y;
+    }
+    if (weights == 0.0 || abs(change / weights - 1.0) < least_change) return z;
+    return weights > 0.99 ? 1.0 / inverse : z * weights / change;
+}
+#endif
+
+void examine(int i, sampler2D map, vec2 pixel, float z, inout float support, inout float through) {
+    vec4 q = other_from_pixel[i] * vec4(pixel * z, z, 1.0);
+    if (q.z <= 0.0) return;
+    vec2 uv = (q.xy / q.z + 0.5) / other_size[i];
+    vec2 inside = min(uv, 1.0 - uv);
+    if (min(inside.x, inside.y) < 0.0) return;
+    vec4 there = textureGather(map, uv);
+    vec4 off = there / q.z - 1.0;
+    float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
+    if (any(lessThan(abs(off), vec4(tolerance)))) support += 1.0;
+    if (all(greaterThan(off, vec4(tolerance)))) through += 1.0;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    carved = texelFetch(depth_map, at, 0).r;
+    if (carved <= 0.0) return;
+#if MOVES
+    carved = moved(at, carved);
+#endif
+    float support = 0.0, through = 0.0;
+#define EXAMINE(i) examine(i, other_depth[i], vec2(at), carved, support, through);
+    FOR_OTHERS(EXAMINE)
+    if (through > support) carved = 0.0;
+}

@@ -1,0 +1,41 @@
+// Smooths a rig's depth within surfaces: the average inverse depth of those pixels around that lie on the same surface
+// and are of like colour. With SCALE 2 into a map of half the size.
+#ifndef SCALE
+#define SCALE 1
+#endif
+#ifndef REACH
+#define REACH 2  // px of the result to either side
+#endif
+
+uniform sampler2D depth_map;  // metres, 0 = unknown
+uniform sampler2D picture;
+uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
+
+layout(location = 0) out float smoothed;
+
+const float like_colour = 0.08;  // mean difference (0..1) at which a pixel's weight is 1/e
+
+void main() {
+    ivec2 size = textureSize(depth_map, 0);
+    ivec2 at = SCALE * ivec2(gl_FragCoord.xy);
+    float own = 0.0;
+    for (int k = 0; k < SCALE * SCALE && own <= 0.0; ++k)
+        own = texelFetch(depth_map, min(at + ivec2(k % SCALE, k / SCALE), size - 1), 0).r;
+    smoothed = 0.0;
+    if (own <= 0.0) return;
+    vec2 texel = 1.0 / vec2(size);
+    vec2 middle = vec2(at) + 0.5 * float(SCALE);
+    vec3 colour = textureLod(picture, middle * texel, 0.0).rgb;
+    float sum = 0.0, weights = 0.0;
+    ivec2 low = max(at - REACH, ivec2(0)), high = min(at + REACH + SCALE - 1, size - 1);
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            float z = texelFetch(depth_map, ivec2(x, y), 0).r;
+            if (max(z, own) > min(z, own) * edge_ratio) continue;
+            vec3 unlike = abs(textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb - colour);
+            float w = exp(-dot(unlike, vec3(1.0 / 3.0)) / like_colour) + 1e-4;
+            sum += w / z;
+            weights += w;
+        }
+    smoothed = weights / sum;
+}
