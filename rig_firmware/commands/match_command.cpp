@@ -20,6 +20,7 @@
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/pass_table.h"
+#include "rig_firmware/stereo/pi_model.h"
 
 namespace vantage {
 namespace {
@@ -73,6 +74,13 @@ nlohmann::ordered_json passes_as_json(const Matcher& matcher) {
                           {"bytes_moved", pass.bytes_moved},
                           {"operations", pass.operations}});
     return passes;
+}
+
+nlohmann::ordered_json modelled_frames_as_json(const Matcher& matcher) {
+    nlohmann::ordered_json frames;
+    for (const PiModel& model : pi_models)
+        frames[model.name] = modelled_frame_ms(model, matcher.passes());
+    return frames;
 }
 
 void match(const MatchOptions& options) {
@@ -135,6 +143,7 @@ void match(const MatchOptions& options) {
         result["passes"] = passes_as_json(*matcher);
         result["gpu_bytes"] = matcher->gpu_bytes();
         result["cost_volume_bytes"] = matcher->cost_volume_bytes();
+        result["modelled_frame_ms"] = modelled_frames_as_json(*matcher);
     }
     write_disparity(options.output, disparity);
     if (!options.colour_map.empty())

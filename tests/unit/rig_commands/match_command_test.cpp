@@ -156,6 +156,9 @@ TEST_F(MatchCommandTest, ExplainsItsPasses) {
     const auto json = nlohmann::json::parse(machine.out);
     EXPECT_GE(json.at("passes").size(), 4u);
     EXPECT_GT(json.at("gpu_bytes"), json.at("cost_volume_bytes"));
+    const auto& modelled = json.at("modelled_frame_ms");
+    EXPECT_GT(modelled.at("Raspberry Pi 4"), modelled.at("Raspberry Pi 5"));
+    EXPECT_GT(modelled.at("Raspberry Pi 5"), 0);
     const ProgramResult person =
         match({"--disparities", "16", "--matcher", "gradient", "--explain"});
     EXPECT_NE(person.out.find("aggregation"), std::string::npos);
