@@ -22,34 +22,36 @@ constexpr double colour_warn = 2.0, colour_bad = 5.0;
 constexpr double same_surface_share = 0.15;
 constexpr int fields_a_side = 4, fewest_in_field = 8;
 
-void judge(HealthMeasure& m, int fewest, const char* nothing) {
+/// The measure with its verdict: unknown for fewer samples than `fewest`, with the sentence
+/// `too_few`; where it is not good, with the sentence `not_good`.
+HealthMeasure judged(HealthMeasure m, int fewest, std::string_view too_few, std::string not_good) {
     if (m.samples < fewest) {
         m.verdict = Verdict::unknown;
-        m.sentence = fmt::format("{} ({} places, {} are needed)", nothing, m.samples, fewest);
-        return;
+        m.sentence = fmt::format("{} ({} places, {} are needed)", too_few, m.samples, fewest);
+        return m;
     }
     m.verdict = m.value >= m.bad_at    ? Verdict::bad
                 : m.value >= m.warn_at ? Verdict::warn
                                        : Verdict::good;
+    if (m.verdict != Verdict::good) m.sentence = std::move(not_good);
+    return m;
 }
 
 HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>& rows) {
-    HealthMeasure m{
-        "rows", rig.name, 0, "px", row_warn_px, row_bad_px, static_cast<int>(rows.size())};
     std::vector<double> misses;
     for (const TrackedRow& row : rows) misses.push_back(std::abs(row.row_miss_px));
     std::sort(misses.begin(), misses.end());
     misses.resize(misses.size() - misses.size() / 10);
     double squares = 0;
     for (const double miss : misses) squares += miss * miss;
-    if (!misses.empty()) m.value = std::sqrt(squares / static_cast<double>(misses.size()));
-    judge(m, fewest_rows, "too few features to follow from the left to the right picture");
-    if (m.verdict == Verdict::warn || m.verdict == Verdict::bad)
-        m.sentence = fmt::format(
-            "the rows of rig {} miss each other by {:.2f} px: a camera or lens has moved on its "
-            "rig; calibrate it again (stereo)",
-            rig.name, m.value);
-    return m;
+    const double rms_px =
+        misses.empty() ? 0 : std::sqrt(squares / static_cast<double>(misses.size()));
+    return judged(
+        {"rows", rig.name, rms_px, "px", row_warn_px, row_bad_px, static_cast<int>(rows.size())},
+        fewest_rows, "too few features to follow from the left to the right picture",
+        fmt::format("the rows of rig {} miss each other by {:.2f} px: a camera or lens has moved "
+                    "on its rig; calibrate it again (stereo)",
+                    rig.name, rms_px));
 }
 
 /// Depth differences of two rigs by fields of the picture: noise of the matcher has no side it
@@ -80,16 +82,13 @@ HealthMeasure measure_depth(const std::string& names, const cv::Size& size,
             ++used;
         }
     const double warn_percent = 100 * std::max(depth_warn_share, median(bias_shares));
-    HealthMeasure m{"depth",      names,        used > 0 ? 100 * std::sqrt(squares / used) : 0,
-                    "% of depth", warn_percent, bad_times_warn * warn_percent,
-                    count};
-    judge(m, fewest_overlap, "the two rigs see too little of the same surfaces");
-    if (m.verdict == Verdict::warn || m.verdict == Verdict::bad)
-        m.sentence = fmt::format(
-            "rigs {} see one surface {:.1f} % of its depth apart: one of them has been moved; "
-            "place them again (stage)",
-            names, m.value);
-    return m;
+    const double apart_percent = used > 0 ? 100 * std::sqrt(squares / used) : 0;
+    return judged({"depth", names, apart_percent, "% of depth", warn_percent,
+                   bad_times_warn * warn_percent, count},
+                  fewest_overlap, "the two rigs see too little of the same surfaces",
+                  fmt::format("rigs {} see one surface {:.1f} % of its depth apart: one of them "
+                              "has been moved; place them again (stage)",
+                              names, apart_percent));
 }
 
 void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealth& health) {
@@ -108,16 +107,13 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
         }
     }
     health.measures.push_back(measure_depth(names, rig_b.left.size(), samples));
-    HealthMeasure colour{"colour",    names,       coloured > 0 ? delta_e / coloured : 0,
-                         "CIEDE2000", colour_warn, colour_bad,
-                         coloured};
-    judge(colour, fewest_overlap, "the two rigs agree on too few surfaces to compare colours");
-    if (colour.verdict == Verdict::warn || colour.verdict == Verdict::bad)
-        colour.sentence = fmt::format(
-            "rigs {} show one surface in colours {:.1f} CIEDE2000 apart: fix exposure and white "
-            "balance, then match them (colour)",
-            names, colour.value);
-    health.measures.push_back(colour);
+    const double apart = coloured > 0 ? delta_e / coloured : 0;
+    health.measures.push_back(
+        judged({"colour", names, apart, "CIEDE2000", colour_warn, colour_bad, coloured},
+               fewest_overlap, "the two rigs agree on too few surfaces to compare colours",
+               fmt::format("rigs {} show one surface in colours {:.1f} CIEDE2000 apart: fix "
+                           "exposure and white balance, then match them (colour)",
+                           names, apart)));
 }
 
 }  // namespace

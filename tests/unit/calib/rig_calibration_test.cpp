@@ -1,5 +1,7 @@
 #include "calib_tools/rig/rig_calibration.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,6 +45,62 @@ TEST(RigCalibration, recovers_a_known_rig_and_states_uncertainties_that_cover_it
     EXPECT_NEAR(c.baseline_m, rig.right_from_left.translation().norm(), 4 * c.baseline_sigma_m);
     EXPECT_LT(c.baseline_sigma_m, 0.001);
     EXPECT_LT(c.row_rms_px, 0.16);
+}
+
+TEST(RigCalibration, errs_by_as_much_as_it_says_over_many_films) {
+    const SyntheticRig rig;
+    constexpr int films = 6;
+    double squares = 0;
+    int count = 0;
+    const auto add = [&](double solved, double truth, double sigma) {
+        squares += std::pow((solved - truth) / sigma, 2);
+        ++count;
+    };
+    for (std::uint64_t seed = 1; seed <= films; ++seed) {
+        SyntheticViews views(pattern, 0.1, 100 + seed);
+        const SyntheticRig::Series series = rig.film(views, 10);
+        const RigCalibration c =
+            calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        for (const bool is_left : {true, false}) {
+            const CameraModel& truth = is_left ? rig.left : rig.right;
+            const CameraModel& solved = is_left ? c.calibration.left : c.calibration.right;
+            const BundleUncertainty::Camera& sigma = c.uncertainty.cameras[is_left ? 0 : 1];
+            add(solved.fx_px, truth.fx_px, sigma.fx_px);
+            add(solved.fy_px, truth.fy_px, sigma.fy_px);
+            add(solved.cx_px, truth.cx_px, sigma.cx_px);
+            add(solved.cy_px, truth.cy_px, sigma.cy_px);
+            for (std::size_t k = 0; k < 4; ++k)
+                add(solved.distortion[k], truth.distortion[k], sigma.distortion[k]);
+        }
+        add(c.baseline_m, rig.right_from_left.translation().norm(), c.baseline_sigma_m);
+    }
+    const double normalized_rms = std::sqrt(squares / count);
+    RecordProperty("normalized_rms", std::to_string(normalized_rms));
+    EXPECT_GT(normalized_rms, 0.7);
+    EXPECT_LT(normalized_rms, 1.3);
+}
+
+TEST(RigCalibration, recovers_small_pictures_whose_pixels_are_not_square) {
+    SyntheticRig rig;
+    for (CameraModel* camera : {&rig.left, &rig.right}) {
+        camera->width_px = 320;
+        camera->height_px = 240;
+        camera->fx_px *= 0.5;
+        camera->fy_px *= 0.5 * 1.25;
+        camera->cx_px *= 0.5;
+        camera->cy_px *= 0.5;
+    }
+    SyntheticViews views(pattern, 0.15);
+    const SyntheticRig::Series series = rig.film(views, 12);
+    ASSERT_EQ(series.left.size(), 12u);
+    const RigCalibration c = calibrate_rig(series.left, series.right, pattern, {});
+    for (const bool is_left : {true, false}) {
+        const CameraModel& truth = is_left ? rig.left : rig.right;
+        const CameraModel& solved = is_left ? c.calibration.left : c.calibration.right;
+        EXPECT_NEAR(solved.fx_px, truth.fx_px, 0.01 * truth.fx_px);
+        EXPECT_NEAR(solved.fy_px, truth.fy_px, 0.01 * truth.fy_px);
+    }
+    EXPECT_NEAR(c.baseline_m, rig.right_from_left.translation().norm(), 5 * c.baseline_sigma_m);
 }
 
 TEST(RigCalibration, chooses_a_lens_that_predicts_withheld_views) {

@@ -1,5 +1,6 @@
 #include "calib_tools/stage/stage_calibration.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ struct FilmedStage {
     std::vector<Pose> world_from_left;
 };
 
-FilmedStage film(int count_a_pair, bool tie_last = true) {
+FilmedStage film(int count_a_pair, bool tie_last = true, std::uint64_t seed = 1) {
     FilmedStage stage;
     const SyntheticRig optics;
     for (int i = 0; i < 4; ++i) {
@@ -38,7 +39,7 @@ FilmedStage film(int count_a_pair, bool tie_last = true) {
         stage.world_from_left.push_back(
             look_at({4 * std::sin(azimuth), 1.6, 4 * std::cos(azimuth)}, {0, 0.8, 0}));
     }
-    SyntheticViews views(pattern, 0.1);
+    SyntheticViews views(pattern, 0.1, seed);
     long long instant = floor_number;
     const auto show = [&](const Pose& world_from_board) {
         for (std::size_t i = 0; i < 4; ++i) {
@@ -72,6 +73,40 @@ FilmedStage film(int count_a_pair, bool tie_last = true) {
     return stage;
 }
 
+struct Miss {
+    double translation_m = 0, rotation_rad = 0;
+};
+
+/// Of a rig against the first one, as the uncertainties are stated.
+Miss miss_of(const StageCalibration& stage, const FilmedStage& filmed, std::size_t rig) {
+    const Pose solved = stage.rigs[0].calibration.world_from_left.inverse() *
+                        stage.rigs[rig].calibration.world_from_left;
+    const Pose truth = filmed.world_from_left[0].inverse() * filmed.world_from_left[rig];
+    return {
+        (solved.translation() - truth.translation()).norm(),
+        Eigen::AngleAxisd(Eigen::Matrix3d(solved.linear().transpose() * truth.linear())).angle()};
+}
+
+TEST(StageCalibration, errs_by_as_much_as_it_says_over_many_films) {
+    constexpr std::uint64_t films = 8;
+    double squares = 0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= films; ++seed) {
+        const FilmedStage filmed = film(8, true, 200 + seed);
+        const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, floor_number);
+        for (std::size_t i = 1; i < 4; ++i) {
+            const Miss miss = miss_of(stage, filmed, i);
+            squares += std::pow(miss.translation_m / stage.rigs[i].translation_sigma_m, 2) +
+                       std::pow(miss.rotation_rad / stage.rigs[i].rotation_sigma_rad, 2);
+            count += 2;
+        }
+    }
+    const double normalized_rms = std::sqrt(squares / count);
+    RecordProperty("normalized_rms", std::to_string(normalized_rms));
+    EXPECT_GT(normalized_rms, 0.7);
+    EXPECT_LT(normalized_rms, 1.3);
+}
+
 TEST(StageCalibration, places_four_rigs_on_an_arc_and_its_uncertainty_covers_the_truth) {
     const FilmedStage filmed = film(13);
     const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, floor_number);
@@ -79,14 +114,7 @@ TEST(StageCalibration, places_four_rigs_on_an_arc_and_its_uncertainty_covers_the
     EXPECT_TRUE(stage.has_floor);
     double squares_m = 0, squares_rad = 0;
     for (std::size_t i = 1; i < 4; ++i) {
-        // Against the first rig, as the uncertainties are stated.
-        const Pose solved = stage.rigs[0].calibration.world_from_left.inverse() *
-                            stage.rigs[i].calibration.world_from_left;
-        const Pose truth = filmed.world_from_left[0].inverse() * filmed.world_from_left[i];
-        const double miss_m = (solved.translation() - truth.translation()).norm();
-        const double miss_rad =
-            Eigen::AngleAxisd(Eigen::Matrix3d(solved.linear().transpose() * truth.linear()))
-                .angle();
+        const auto [miss_m, miss_rad] = miss_of(stage, filmed, i);
         squares_m += miss_m * miss_m / 3;
         squares_rad += miss_rad * miss_rad / 3;
         EXPECT_LT(miss_m, 3 * stage.rigs[i].translation_sigma_m) << i;
