@@ -8,13 +8,10 @@
 #ifndef VALID
 #define VALID 16
 #endif
-// 1: leaves a cost of 0..MOST for every disparity, the sum divided by the pixel's weight, for passes that follow; in
+// 1: leaves a cost of a byte for every disparity, the sum divided by the pixel's weight, for passes that follow; in
 // place of winners.
 #ifndef KEEP
 #define KEEP 0
-#endif
-#ifndef MOST
-#define MOST 48
 #endif
 
 layout(local_size_x = LANES) in;
@@ -23,7 +20,7 @@ layout(std430, binding = 1) readonly buffer Volume { uvec4 volume[]; };
 layout(std430, binding = 2) buffer Down { uvec4 down[]; };
 #if KEEP
 layout(std430, binding = 3) writeonly buffer Costs { uvec4 costs[]; };  // a byte each, slab after slab
-layout(std430, binding = 4) readonly buffer Weight { uint weight[]; };
+layout(std430, binding = 4) readonly buffer Scale { uint scale[]; };
 uniform int plane;  // pixels of a slab of costs
 #else
 layout(std430, binding = 3) buffer Winners { uvec2 winners[]; };  // see winner_takes_all.glsl
@@ -33,12 +30,11 @@ uniform int stride;
 uniform int first_disparity;
 
 #if KEEP
-// Sums come to 26 / 16 of the weight at most.
-#define CODE(i, sum) (i < VALID ? min(uint(int(float(int(sum)) * factor)), uint(MOST)) : uint(MOST))
-#define CODES(i, p, q) \
-    CODE(i, p & 0xffffu) | (CODE(i + 1, p >> 16) << 8) | (CODE(i + 2, q & 0xffffu) << 16) | (CODE(i + 3, q >> 16) << 24)
-uvec4 codes_of(uvec4 a, uvec4 b, float factor) {
-    return uvec4(CODES(0, a.x, a.y), CODES(4, a.z, a.w), CODES(8, b.x, b.y), CODES(12, b.z, b.w));
+// Sums shifted to 8 bits times a factor of the pixel, see perm_weight.comp, in pairs; then four bytes a word.
+uvec2 codes_of(uvec4 sums, uint scale) {
+    uvec4 codes = ((((sums >> (scale >> 16)) & low_bytes) * (scale & 0xffffu)) >> 8) & low_bytes;
+    codes = (codes | (codes >> 8)) & 0xffffu;
+    return codes.xz | (codes.yw << 16);
 }
 #endif
 
@@ -72,8 +68,8 @@ void main() {
         down_b = above_b;
 
 #if KEEP
-        float factor = float(MOST) * 16.0 / 26.0 / float(max(weight[y * stride + x], 1u));
-        costs[(first_disparity >> 4) * plane + at] = codes_of(sum_a, sum_b, factor);
+        uint by = scale[y * stride + x];
+        costs[(first_disparity >> 4) * plane + at] = uvec4(codes_of(sum_a, by), codes_of(sum_b, by));
 #else
         no_winner_yet();
         if (first_disparity > 0) resume_winner(winners[at]);

@@ -1,7 +1,12 @@
 // The sum that a cost of 16 everywhere would have: what a pixel's aggregated costs must be divided by before they
-// are compared with another pixel's. ALONG 0 walks rows and fills the buffer, ALONG 1 then walks columns.
+// are compared with another pixel's. ALONG 0 walks rows and fills the buffer, ALONG 1 then walks columns. With MOST, ALONG 1
+// leaves in place of a weight how sums become costs of about MOST where every cost is the largest: shift << 16 | factor,
+// cost = (sum >> shift) * factor >> 8.
 #include "stereo_common.glsl"
 
+#ifndef MOST
+#define MOST 0
+#endif
 #ifndef ALONG
 #define ALONG 0
 #endif
@@ -55,7 +60,15 @@ void main() {
     for (int y = size.y - 1; y >= 0; --y) {
         int at = y * stride + x;
         uint mu = permeability[at] >> 4, above = weight[max(at - stride, 0)];
+#if MOST
+        // A sum comes to little more than twice its weight.
+        uint sum = a + back, shift = 0u;
+        shift += uint(sum >= 128u) + uint(sum >= 256u) + uint(sum >= 512u) + uint(sum >= 1024u);
+        float factor = float(MOST) * 256.0 * 16.0 / 26.0 * float(1 << int(shift)) / float(max(int(sum), 1));
+        weight[at] = (shift << 16) | uint(int(factor));
+#else
         weight[at] = a + back;
+#endif
         back = ((back + a - ((above * mu) >> 4)) * mu) >> 4;
         a = above;
     }

@@ -10,9 +10,7 @@ namespace vantage {
 namespace {
 
 ShaderDefines column_defines(PermOutput output, int valid) {
-    return {{"KEEP", output == PermOutput::costs ? "1" : "0"},
-            {"MOST", std::to_string(most_perm_code)},
-            {"VALID", std::to_string(valid)}};
+    return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
 }
 
 }  // namespace
@@ -28,7 +26,10 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
       last_columns_(Program::compute(library, "perm_columns.comp",
                                      column_defines(output, valid_in_last_slab(disparities)))),
       weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
-      weight_columns_(Program::compute(library, "perm_weight.comp", {{"ALONG", "1"}})),
+      weight_columns_(Program::compute(
+          library, "perm_weight.comp",
+          {{"ALONG", "1"},
+           {"MOST", output == PermOutput::costs ? std::to_string(most_perm_code) : "0"}})),
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
       down_(layout.block_pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
       output_(layout.block_pixels() *

@@ -14,7 +14,7 @@ namespace vantage {
 /// What PermPass leaves.
 enum class PermOutput {
     winners,  ///< the best disparity; the cost volume is only ever a slab of 16 disparities
-    costs,    ///< a cost of 0..48 a disparity, divided by the pixel's weight, for SgmPass
+    costs,    ///< a cost of a byte a disparity, divided by the pixel's weight, for SgmPass
 };
 
 /// Cost, permeability aggregation and winner takes all over the whole search range. Aggregation
@@ -32,7 +32,8 @@ class PermPass {
     const Buffer& winners() const { return output_; }
     /// 16 bytes a pixel, pixels in blocks, slab after slab; of PermOutput::costs.
     const Buffer& costs() const { return output_; }
-    /// uint a pixel: what a pixel's sums are divided by before pixels are compared.
+    /// uint a pixel: what a pixel's sums are divided by before pixels are compared; of
+    /// PermOutput::winners.
     const Buffer& weight() const { return weight_; }
     std::size_t volume_bytes() const;
     std::size_t gpu_bytes() const;

@@ -100,6 +100,18 @@ cv::Mat1i perm_sums(const cv::Mat1i& left, const cv::Mat1i& right, const cv::Mat
     return costs;
 }
 
+/// How a sum becomes a cost of about most_perm_code where every cost is the largest.
+struct CostScale {
+    int shift, factor;
+};
+
+CostScale scale_of(int weight) {
+    const int shift = (weight >= 128) + (weight >= 256) + (weight >= 512) + (weight >= 1024);
+    const float factor = static_cast<float>(most_perm_code) * 256.0f * 16.0f / 26.0f *
+                         static_cast<float>(1 << shift) / static_cast<float>(std::max(weight, 1));
+    return {shift, static_cast<int>(factor)};
+}
+
 }  // namespace
 
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
@@ -122,10 +134,9 @@ std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1
         cv::Mat1b& codes = costs.emplace_back(sums.size());
         for (int y = 0; y < sums.rows; ++y)
             for (int x = 0; x < sums.cols; ++x) {
-                const float factor = static_cast<float>(most_perm_code) * 16.0f / 26.0f /
-                                     static_cast<float>(std::max(weight(y, x), 1));
-                codes(y, x) = static_cast<unsigned char>(std::min(
-                    static_cast<int>(static_cast<float>(sums(y, x)) * factor), most_perm_code));
+                const CostScale by = scale_of(weight(y, x));
+                codes(y, x) =
+                    static_cast<unsigned char>(((sums(y, x) >> by.shift) * by.factor) >> 8);
             }
     }
     return costs;

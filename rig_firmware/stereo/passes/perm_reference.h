@@ -24,10 +24,11 @@ void consider_disparity(Winners& winners, cv::Mat1i& last, const cv::Mat1i& cost
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities);
 
-/// The largest cost that PermPass leaves for passes that follow.
+/// What PermPass leaves for passes that follow where every cost is the largest; rounding may make
+/// it a quarter more.
 inline constexpr int most_perm_code = 48;
 
-/// CPU form of PermPass with PermOutput::costs: a picture a disparity, 0..most_perm_code.
+/// CPU form of PermPass with PermOutput::costs: a picture a disparity.
 std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                   const cv::Mat1b& permeability, int disparities);
 
