@@ -35,6 +35,8 @@ class PermPass {
     /// uint a pixel: what a pixel's sums are divided by before pixels are compared; of
     /// PermOutput::winners.
     const Buffer& weight() const { return weight_; }
+    /// Of no worth once run() is done: others may use it until the next run.
+    const Buffer& scratch() const { return down_; }
     std::size_t volume_bytes() const;
     std::size_t gpu_bytes() const;
 

@@ -7,7 +7,7 @@ namespace vantage {
 namespace {
 
 /// Rows whose sums lie in memory at once where only rows are walked.
-constexpr int band_rows = 256;
+constexpr int band_rows = 192;
 
 std::size_t volume_size(const StereoLayout& layout, int disparities) {
     return layout.block_pixels() *
@@ -53,6 +53,14 @@ void SgmCostPass::run(PassProfiler& profiler, const FeaturePass& features) {
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
                  const SgmSettings& settings)
+    : SgmPass(library, layout, disparities, settings, nullptr) {}
+
+SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                 const SgmSettings& settings, const Buffer& scratch)
+    : SgmPass(library, layout, disparities, settings, &scratch) {}
+
+SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                 const SgmSettings& settings, const Buffer* scratch)
     : layout_(layout),
       disparities_(disparities),
       settings_(settings),
@@ -65,8 +73,11 @@ SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int d
       columns_(Program::compute(library, "sgm_path.comp",
                                 path_defines(disparities, settings) +
                                     ShaderDefines{{"ALONG", "1"}, {"ADD", "0"}, {"DECIDE", "0"}})),
-      sums_(volume_size({layout.width_px, sum_rows_}, disparities), GL_DYNAMIC_COPY),
-      winners_(layout.block_pixels() * 8, GL_DYNAMIC_COPY) {}
+      scratch_(scratch),
+      winners_(layout.block_pixels() * 8, GL_DYNAMIC_COPY) {
+    const std::size_t bytes = volume_size({layout.width_px, sum_rows_}, disparities);
+    if (!scratch_ || scratch_->bytes() < bytes) own_sums_.emplace(bytes, GL_DYNAMIC_COPY);
+}
 
 void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
     const auto run_paths = [&](Program& program, int lines, int first_row) {
@@ -76,7 +87,7 @@ void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
         program.set("first_row", first_row);
         program.set("sum_rows", sum_rows_);
         costs.bind_storage(0);
-        sums_.bind_storage(1);
+        (own_sums_ ? *own_sums_ : *scratch_).bind_storage(1);
         winners_.bind_storage(2);
         program.dispatch_over(lines, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/gl/buffer.h"
 #include "common/gl/program.h"
 #include "rig_firmware/stereo/pass_profiler.h"
@@ -34,23 +36,32 @@ class SgmPass {
   public:
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
             const SgmSettings& settings);
+    /// Keeps its sums in `scratch` if they fit: a buffer that outlives this and holds nothing of
+    /// worth while run() works.
+    SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+            const SgmSettings& settings, const Buffer& scratch);
 
     /// costs: bytes in SgmCostPass's form, at most SgmSettings::most_cost().
     void run(PassProfiler& profiler, const Buffer& costs);
 
     /// In PermPass's form; costs of all pixels compare as they are.
     const Buffer& winners() const { return winners_; }
-    std::size_t volume_bytes() const { return sums_.bytes(); }
-    std::size_t gpu_bytes() const { return sums_.bytes() + winners_.bytes(); }
+    std::size_t volume_bytes() const { return own_sums_ ? own_sums_->bytes() : 0U; }
+    std::size_t gpu_bytes() const { return volume_bytes() + winners_.bytes(); }
 
   private:
+    SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+            const SgmSettings& settings, const Buffer* scratch);
+
     StereoLayout layout_;
     int disparities_;
     SgmSettings settings_;
     int sum_rows_;
     Program rows_;
     Program columns_;
-    Buffer sums_, winners_;
+    std::optional<Buffer> own_sums_;
+    const Buffer* scratch_;
+    Buffer winners_;
 };
 
 }  // namespace vantage

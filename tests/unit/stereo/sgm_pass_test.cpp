@@ -55,9 +55,13 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
         left_words_, right_words_, permeability_of(guide_of(left_luma_), permeability_table(9)),
         GetParam().disparities);
     expect_equal_costs(perm.costs(), layout_, costs);
+    const Winners winners = sgm_winners(costs, settings);
     SgmPass paths(library_, layout_, GetParam().disparities, settings);
     paths.run(profiler_, perm.costs());
-    expect_winners(paths.winners(), sgm_winners(costs, settings));
+    expect_winners(paths.winners(), winners);
+    SgmPass in_scratch(library_, layout_, GetParam().disparities, settings, perm.scratch());
+    in_scratch.run(profiler_, perm.costs());
+    expect_winners(in_scratch.winners(), winners);
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, SgmPassTest,
