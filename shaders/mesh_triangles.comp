@@ -1,5 +1,8 @@
 // The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces. Each
 // invocation writes the six indices of one quad; a triangle that is left out is written as a point.
+#ifndef STEP
+#define STEP 1  // px of the depth map that a quad spans
+#endif
 #ifndef STEEPEST
 #define STEEPEST 3.0  // times the tolerance: a slope that is never spanned
 #endif
@@ -30,19 +33,22 @@ bool joined(float before, float a, float b, float after) {
 
 void main() {
     ivec2 size = textureSize(depth_map, 0);
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= size.x - 1 || at.y >= size.y - 1) return;
+    ivec2 quad = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 quads = (size - 1) / STEP;
+    if (quad.x >= quads.x || quad.y >= quads.y) return;
+    ivec2 at = STEP * quad;
     float a = inverse_depth(at, size);
-    float b = inverse_depth(at + ivec2(1, 0), size);
-    float c = inverse_depth(at + ivec2(0, 1), size);
-    float d = inverse_depth(at + ivec2(1, 1), size);
-    bool ab = joined(inverse_depth(at + ivec2(-1, 0), size), a, b, inverse_depth(at + ivec2(2, 0), size));
-    bool cd = joined(inverse_depth(at + ivec2(-1, 1), size), c, d, inverse_depth(at + ivec2(2, 1), size));
-    bool ac = joined(inverse_depth(at + ivec2(0, -1), size), a, c, inverse_depth(at + ivec2(0, 2), size));
-    bool bd = joined(inverse_depth(at + ivec2(1, -1), size), b, d, inverse_depth(at + ivec2(1, 2), size));
+    float b = inverse_depth(at + STEP * ivec2(1, 0), size);
+    float c = inverse_depth(at + STEP * ivec2(0, 1), size);
+    float d = inverse_depth(at + STEP * ivec2(1, 1), size);
+    bool ab = joined(inverse_depth(at + STEP * ivec2(-1, 0), size), a, b, inverse_depth(at + STEP * ivec2(2, 0), size));
+    bool cd = joined(inverse_depth(at + STEP * ivec2(-1, 1), size), c, d, inverse_depth(at + STEP * ivec2(2, 1), size));
+    bool ac = joined(inverse_depth(at + STEP * ivec2(0, -1), size), a, c, inverse_depth(at + STEP * ivec2(0, 2), size));
+    bool bd = joined(inverse_depth(at + STEP * ivec2(1, -1), size), b, d, inverse_depth(at + STEP * ivec2(1, 2), size));
 
     uint first = uint(at.y * size.x + at.x);
-    uvec4 corner = uvec4(first, first + 1u, first + uint(size.x), first + uint(size.x) + 1u);
+    uint down = uint(STEP * size.x), across = uint(STEP);
+    uvec4 corner = uvec4(first, first + across, first + down, first + down + across);
     uvec3 one = uvec3(first), two = uvec3(first);
     if (ab && ac && bd && cd) {
         // The diagonal along which the surface bends less.
@@ -62,7 +68,7 @@ void main() {
     } else if (ac && cd) {
         one = corner.xwz;
     }
-    uint base = 6u * uint(at.y * (size.x - 1) + at.x);
+    uint base = 6u * uint(quad.y * quads.x + quad.x);
     indices[base] = one.x;
     indices[base + 1u] = one.y;
     indices[base + 2u] = one.z;

@@ -20,9 +20,12 @@ void GpuView::upload(const DepthView& view) {
                         true);
     if (!depth_ || depth_->size() != view.depth_m.size()) {
         depth_.emplace(TextureFormat::r32f, view.depth_m.cols, view.depth_m.rows);
-        triangles_.emplace(std::max<std::size_t>(static_cast<std::size_t>(triangle_indices()), 1) *
-                               sizeof(std::uint32_t),
-                           GL_DYNAMIC_DRAW);
+        const auto make = [&](QuadGrid grid, std::optional<Buffer>& triangles) {
+            const auto indices = static_cast<std::size_t>(std::max(triangle_indices(grid), 1));
+            triangles.emplace(indices * sizeof(std::uint32_t), GL_DYNAMIC_DRAW);
+        };
+        make(QuadGrid::fine, triangles_);
+        make(QuadGrid::coarse, coarse_triangles_);
     }
     if (view.colour_correction.is_identity()) {
         colour_->upload(view.colour);
@@ -62,8 +65,9 @@ Eigen::Matrix3d GpuView::K_depth() const {
                              static_cast<double>(depth_->height_px()) / colour_->height_px());
 }
 
-int GpuView::triangle_indices() const {
-    return 6 * (depth_->width_px() - 1) * (depth_->height_px() - 1);
+int GpuView::triangle_indices(QuadGrid grid) const {
+    const int step = static_cast<int>(grid);
+    return 6 * ((depth_->width_px() - 1) / step) * ((depth_->height_px() - 1) / step);
 }
 
 void upload_views(std::span<const DepthView> views, std::vector<std::unique_ptr<GpuView>>& on_gpu) {

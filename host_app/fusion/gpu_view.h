@@ -15,6 +15,9 @@
 
 namespace vantage {
 
+/// How many pixels of a depth map a quad of its grid spans.
+enum class QuadGrid { fine = 1, coarse = 2 };
+
 /// One depth view on the GPU. Textures stay while the sizes stay.
 class GpuView {
   public:
@@ -54,10 +57,12 @@ class GpuView {
     float presence() const { return presence_; }
     void set_presence(float presence) { presence_ = presence; }
 
-    /// Index buffer of the depth map's triangles: two a quad of four neighbouring pixels.
-    const Buffer& triangles() const { return *triangles_; }
+    /// Index buffer of the depth map's triangles: two a quad of the grid.
+    const Buffer& triangles(QuadGrid grid = QuadGrid::fine) const {
+        return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
+    }
     Eigen::Matrix3d K_depth() const;
-    int triangle_indices() const;
+    int triangle_indices(QuadGrid grid = QuadGrid::fine) const;
 
     /// A few known surface points in world coordinates, evenly over the picture.
     std::span<const Eigen::Vector3d> sample_points_m() const { return samples_.points_m; }
@@ -74,7 +79,7 @@ class GpuView {
     std::size_t steady_now_ = 0;
     bool has_steady_ = false, is_prepared_ = false;
     float presence_ = 1;
-    std::optional<Buffer> triangles_;
+    std::optional<Buffer> triangles_, coarse_triangles_;
     SurfaceSamples samples_;
 };
 

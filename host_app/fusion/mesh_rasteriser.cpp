@@ -16,27 +16,34 @@ constexpr double smallest_step = 0.0075;
 
 MeshRasteriser::MeshRasteriser(const ShaderLibrary& library)
     : build_(Program::compute(library, "mesh_triangles.comp")),
+      build_coarse_(
+          Program::compute(library, "mesh_triangles.comp",
+                           {{"STEP", std::to_string(static_cast<int>(QuadGrid::coarse))}})),
       draw_(Program::render(library, "mesh_depth.vert", "depth_only.frag")) {}
 
-void MeshRasteriser::build_triangles(const GpuView& view) {
-    if (view.triangle_indices() == 0) return;
+void MeshRasteriser::build_triangles(const GpuView& view, QuadGrid grid) {
+    if (view.triangle_indices(grid) == 0) return;
+    const int step = static_cast<int>(grid);
     const double f_px = view.K_depth()(0, 0);
-    build_.use();
-    build_.set("depth_map", 0);
-    build_.set("tolerance", static_cast<float>(std::max(steepest_slope / f_px, smallest_step)));
+    Program& build = grid == QuadGrid::fine ? build_ : build_coarse_;
+    build.use();
+    build.set("depth_map", 0);
+    // The same for both: a coarse quad that a fine one would not span is left out.
+    build.set("tolerance", static_cast<float>(std::max(steepest_slope / f_px, smallest_step)));
     view.surface().bind(0);
-    view.triangles().bind_storage(0);
-    build_.dispatch_over(view.depth().width_px() - 1, view.depth().height_px() - 1);
+    view.triangles(grid).bind_storage(0);
+    build.dispatch_over((view.depth().width_px() - 1) / step,
+                        (view.depth().height_px() - 1) / step);
     glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
 }
 
 void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, double near_m,
-                                const Framebuffer& depth_only) {
+                                const Framebuffer& depth_only, QuadGrid grid) {
     depth_only.bind();
     glDepthMask(GL_TRUE);
     glClearDepthf(1.0f);
     glClear(GL_DEPTH_BUFFER_BIT);
-    if (view.triangle_indices() == 0) return;
+    if (view.triangle_indices(grid) == 0) return;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
@@ -52,8 +59,8 @@ void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, 
                             .cast<float>()));
     view.surface().bind(0);
     vertices_.bind();
-    view.triangles().bind(GL_ELEMENT_ARRAY_BUFFER);
-    glDrawElements(GL_TRIANGLES, view.triangle_indices(), GL_UNSIGNED_INT, nullptr);
+    view.triangles(grid).bind(GL_ELEMENT_ARRAY_BUFFER);
+    glDrawElements(GL_TRIANGLES, view.triangle_indices(grid), GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
 }

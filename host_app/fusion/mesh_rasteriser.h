@@ -16,15 +16,15 @@ class MeshRasteriser {
     explicit MeshRasteriser(const ShaderLibrary& library);
 
     /// Runs the edge filter over the view's depth and writes its triangles. Once an upload.
-    void build_triangles(const GpuView& view);
+    void build_triangles(const GpuView& view, QuadGrid grid = QuadGrid::fine);
 
     /// Draws the view's surface into a depth-only framebuffer of the target's size: 1 - near / z, 1
     /// where there is nothing. Surfaces seen from behind are left out. Clears before.
     void draw_depth(const GpuView& view, const VirtualView& target, double near_m,
-                    const Framebuffer& depth_only);
+                    const Framebuffer& depth_only, QuadGrid grid = QuadGrid::fine);
 
   private:
-    Program build_, draw_;
+    Program build_, build_coarse_, draw_;
     VertexArray vertices_;
 };
 

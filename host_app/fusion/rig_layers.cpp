@@ -24,7 +24,8 @@ float depth_spread(const DepthView& camera) {
 RigLayers::Layer::Layer(cv::Size size)
     : depth(TextureFormat::depth24, size.width, size.height), target({}, &depth) {}
 
-void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& target) {
+void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& target,
+                     std::size_t fine) {
     assert(views.size() <= max_layers);
     used_.assign(views.begin(), views.end());
     target_ = target;
@@ -33,7 +34,8 @@ void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& t
     if (!layers_.empty() && layers_.front()->depth.size() != size) layers_.clear();
     while (layers_.size() < views.size()) layers_.push_back(std::make_unique<Layer>(size));
     for (std::size_t i = 0; i < views.size(); ++i)
-        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i]->target);
+        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i]->target,
+                               i < fine ? QuadGrid::fine : QuadGrid::coarse);
 }
 
 void RigLayers::bind(Program& program) const {

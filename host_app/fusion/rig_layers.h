@@ -25,8 +25,10 @@ class RigLayers {
 
     MeshRasteriser& rasteriser() { return rasteriser_; }
 
-    /// Draws the views' surfaces. Precondition: at most max_layers, none null.
-    void draw(std::span<const GpuView* const> views, const VirtualView& target);
+    /// Draws the views' surfaces, those after the first `fine` ones by their coarse grids.
+    /// Preconditions: at most max_layers, none null; the grids' triangles have been built.
+    void draw(std::span<const GpuView* const> views, const VirtualView& target,
+              std::size_t fine = max_layers);
 
     /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
     /// and sets the uniforms of rig_layers.glsl. The program must be in use.

@@ -20,6 +20,9 @@ namespace {
 constexpr float softness = 0.005f;
 /// Depths that differ by more than this ratio lie on two surfaces.
 constexpr float edge_ratio = 1.03f;
+/// Where there are more rigs than a picture takes, the surfaces of so many are drawn by every
+/// pixel: the others mostly fill what these leave, and a quarter of the quads does for that.
+constexpr std::size_t finely_drawn = 2;
 
 /// The best that is done live: the rigs' depth maps are bettered by each other and closed, the
 /// surfaces that they agree on are found for every pixel, each rig that sees a surface gives its
@@ -47,7 +50,8 @@ class FusedSynthesiser final : public Synthesiser {
         for (const auto& one : views_)
             if (!one->is_prepared() && std::find(used.begin(), used.end(), one.get()) != used.end())
                 prepare(*one);
-        layers.draw(used, view);
+        layers.draw(used, view,
+                    views_.size() > RigLayers::max_layers ? finely_drawn : RigLayers::max_layers);
         fused_depth_.resize({view.width_px, view.height_px});
         if (!layers.used().empty()) find_depth();
         return blender_.blend(view, [&](Program& colour, int unit) {
@@ -70,7 +74,8 @@ class FusedSynthesiser final : public Synthesiser {
         const Framebuffer& surface = view.surface_target();
         closer_.close(consensus_.better(view, views_), surface);
         edge_trust_.judge(view);
-        blender_.layers().rasteriser().build_triangles(view);
+        for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})
+            blender_.layers().rasteriser().build_triangles(view, grid);
         view.set_prepared();
     }
 

@@ -183,6 +183,23 @@ INSTANTIATE_TEST_SUITE_P(RealViews, HeldOutViewTest,
                                          HeldOut{"fused", "aloe_half", "view0", 32.1},
                                          HeldOut{"fused", "teddy", "im4", 30.3}));
 
+TEST(FusedSynthesiser, IsNoWorseWithMoreRigsThanAPictureTakes) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    std::vector<DepthView> views;
+    for (const double x_m : {-0.2, 0.2, -0.4, 0.4}) views.push_back(wall_and_square(x_m, 121, 91));
+    const DepthView truth = wall_and_square(0.03, 121, 91);
+    ColourImage pictures[2];
+    for (ColourImage& picture : pictures) {
+        const auto synthesiser = make_synthesiser("fused", shaders);
+        synthesiser->set_views(views);
+        picture = synthesiser->render(target_of(truth)).download();
+        views.push_back(wall_and_square(0.6, 121, 91));
+    }
+    EXPECT_GT(psnr_db(pictures[1], truth.colour), psnr_db(pictures[0], truth.colour) - 0.5);
+    EXPECT_GT(coverage(pictures[1]), coverage(pictures[0]) - 0.005);
+}
+
 TEST(MakeSynthesiser, NamesTheKnownOnesWhenAskedForAnother) {
     const EglContext context;
     const ShaderLibrary shaders;
