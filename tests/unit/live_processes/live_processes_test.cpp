@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/colour/colour_file.h"
 #include "common/image/image_file.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -129,6 +130,32 @@ TEST_F(LiveProcesses, EndWithASentenceWhenNoRigComes) {
         << host->err();
     EXPECT_EQ(host->out(), "");
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
+}
+
+TEST_F(LiveProcesses, ShowEveryRigThroughTheColourCorrectionThatTheStageNames) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const auto flown = [&](const std::string& picture) {
+        const auto host =
+            start_host({"--frames", "3", "--snapshot", file(picture), "--wait", "60"});
+        EXPECT_EQ(host->wait().status, 0) << host->err() << rigs_[0]->err();
+        return cv::mean(read_colour_image(file(picture)));
+    };
+    const cv::Scalar plain = flown("plain.png");
+    ASSERT_GT(plain[1], 10);
+    // Of the green, which a plain picture has as much of as of the red, nothing is left.
+    ColourCorrection only_red_and_blue;
+    only_red_and_blue.matrix(1, 1) = 0;
+    save_colour(file("left.colour.toml"), only_red_and_blue, {});
+    save_colour(file("right.colour.toml"), only_red_and_blue, {});
+    std::ofstream(file("stage.toml")) << "version = 1\nrate_hz = 5\nlatency_budget_ms = 5000\n"
+                                         "[view]\nwidth_px = 128\nheight_px = 72\n"
+                                      << stage_entry("left") << "colour = \"left.colour.toml\"\n"
+                                      << stage_entry("right") << "colour = \"right.colour.toml\"\n";
+    const cv::Scalar corrected = flown("corrected.png");
+    EXPECT_LT(corrected[1], 0.4 * plain[1]);
+    EXPECT_GT(corrected[0], 0.6 * plain[0]);
+    EXPECT_GT(corrected[2], 0.6 * plain[2]);
 }
 
 TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigComes) {
