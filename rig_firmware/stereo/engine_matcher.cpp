@@ -21,8 +21,8 @@ const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& winners,
                                 const Buffer* weight) {
     check_.run(profiler, winners, weight);
     if (!fills_) return check_.disparity();
-    fill_.run(profiler, check_.disparity());
-    return fill_.filled();
+    fill_.run(profiler, check_.disparity(), check_.scratch());
+    return check_.scratch();
 }
 
 }  // namespace vantage

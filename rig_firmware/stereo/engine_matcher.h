@@ -47,7 +47,7 @@ class CheckAndFill {
         : fills_(fill), check_(library, layout), fill_(library, layout) {}
 
     const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
-    std::size_t gpu_bytes() const { return check_.gpu_bytes() + fill_.gpu_bytes(); }
+    std::size_t gpu_bytes() const { return check_.gpu_bytes(); }
 
   private:
     bool fills_;

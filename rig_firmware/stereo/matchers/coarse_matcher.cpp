@@ -21,7 +21,8 @@ class CoarseMatcher : public EngineMatcher {
           perm_(library, halved_layout(settings), (settings.disparities + 1) / 2,
                 PermOutput::costs),
           paths_(library, halved_layout(settings), (settings.disparities + 1) / 2,
-                 {.p1 = 4, .p2 = 20, .columns = false}, perm_.scratch()),
+                 {.p1 = 4, .p2 = 20, .columns = false}, perm_.large_scratch(),
+                 perm_.small_scratch()),
           check_(library, halved_layout(settings), settings.fill),
           upsample_(library, halved_layout(settings), layout_of(settings)) {}
 

@@ -14,7 +14,8 @@ class PermSgmMatcher : public EngineMatcher {
           features_(library, layout_of(settings), sigma, settings.disparities),
           perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
           paths_(library, layout_of(settings), settings.disparities,
-                 {.p1 = 4, .p2 = 30, .columns = false}, perm_.scratch()),
+                 {.p1 = 4, .p2 = 30, .columns = false}, perm_.large_scratch(),
+                 perm_.small_scratch()),
           check_(library, layout_of(settings), settings.fill) {}
 
     std::size_t cost_volume_bytes() const override {

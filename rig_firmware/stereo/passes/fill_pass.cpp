@@ -3,18 +3,16 @@
 namespace vantage {
 
 FillPass::FillPass(const ShaderLibrary& library, const StereoLayout& layout)
-    : layout_(layout),
-      program_(Program::compute(library, "fill_rows.comp")),
-      filled_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
+    : layout_(layout), program_(Program::compute(library, "fill_rows.comp")) {}
 
-void FillPass::run(PassProfiler& profiler, const Buffer& disparity) {
+void FillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
     const std::size_t pixels = layout_.pixels();
     profiler.run("fill", {pixels * 12, static_cast<double>(pixels) * 12}, [&] {
         program_.use();
         program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         program_.set("stride", layout_.stride_px());
         disparity.bind_storage(0);
-        filled_.bind_storage(1);
+        filled.bind_storage(1);
         program_.dispatch_over(layout_.height_px, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });

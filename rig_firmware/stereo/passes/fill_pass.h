@@ -12,16 +12,12 @@ class FillPass {
   public:
     FillPass(const ShaderLibrary& library, const StereoLayout& layout);
 
-    /// disparity in LeftRightPass's form; the result has it too.
-    void run(PassProfiler& profiler, const Buffer& disparity);
-
-    const Buffer& filled() const { return filled_; }
-    std::size_t gpu_bytes() const { return filled_.bytes(); }
+    /// Both in LeftRightPass's form.
+    void run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled);
 
   private:
     StereoLayout layout_;
     Program program_;
-    Buffer filled_;
 };
 
 }  // namespace vantage

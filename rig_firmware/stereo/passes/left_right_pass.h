@@ -20,6 +20,9 @@ class LeftRightPass {
 
     /// uint a pixel: disparity in 1/32 px (0 = unknown) | confidence << 16.
     const Buffer& disparity() const { return disparity_; }
+    /// As large as disparity() and of no worth once run() is done: others may use it until the
+    /// next.
+    const Buffer& scratch() const { return claims_; }
     std::size_t gpu_bytes() const { return claims_.bytes() + disparity_.bytes(); }
 
   private:

@@ -53,14 +53,14 @@ void SgmCostPass::run(PassProfiler& profiler, const FeaturePass& features) {
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
                  const SgmSettings& settings)
-    : SgmPass(library, layout, disparities, settings, nullptr) {}
+    : SgmPass(library, layout, disparities, settings, nullptr, nullptr) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings, const Buffer& scratch)
-    : SgmPass(library, layout, disparities, settings, &scratch) {}
+                 const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners)
+    : SgmPass(library, layout, disparities, settings, &scratch, &for_winners) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings, const Buffer* scratch)
+                 const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners)
     : layout_(layout),
       disparities_(disparities),
       settings_(settings),
@@ -74,9 +74,12 @@ SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int d
                                 path_defines(disparities, settings) +
                                     ShaderDefines{{"ALONG", "1"}, {"ADD", "0"}, {"DECIDE", "0"}})),
       scratch_(scratch),
-      winners_(layout.block_pixels() * 8, GL_DYNAMIC_COPY) {
+      for_winners_(for_winners) {
     const std::size_t bytes = volume_size({layout.width_px, sum_rows_}, disparities);
     if (!scratch_ || scratch_->bytes() < bytes) own_sums_.emplace(bytes, GL_DYNAMIC_COPY);
+    const std::size_t winner_bytes = layout.block_pixels() * 8;
+    if (!for_winners_ || for_winners_->bytes() < winner_bytes)
+        own_winners_.emplace(winner_bytes, GL_DYNAMIC_COPY);
 }
 
 void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
@@ -88,7 +91,7 @@ void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
         program.set("sum_rows", sum_rows_);
         costs.bind_storage(0);
         (own_sums_ ? *own_sums_ : *scratch_).bind_storage(1);
-        winners_.bind_storage(2);
+        winners().bind_storage(2);
         program.dispatch_over(lines, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };

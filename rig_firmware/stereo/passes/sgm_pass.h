@@ -36,22 +36,24 @@ class SgmPass {
   public:
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
             const SgmSettings& settings);
-    /// Keeps its sums in `scratch` if they fit: a buffer that outlives this and holds nothing of
-    /// worth while run() works.
+    /// Keeps its sums in `scratch` and its winners in `for_winners` if they fit: buffers that
+    /// outlive this and hold nothing of worth from run() on, until the winners were read.
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings, const Buffer& scratch);
+            const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners);
 
     /// costs: bytes in SgmCostPass's form, at most SgmSettings::most_cost().
     void run(PassProfiler& profiler, const Buffer& costs);
 
     /// In PermPass's form; costs of all pixels compare as they are.
-    const Buffer& winners() const { return winners_; }
+    const Buffer& winners() const { return own_winners_ ? *own_winners_ : *for_winners_; }
     std::size_t volume_bytes() const { return own_sums_ ? own_sums_->bytes() : 0U; }
-    std::size_t gpu_bytes() const { return volume_bytes() + winners_.bytes(); }
+    std::size_t gpu_bytes() const {
+        return volume_bytes() + (own_winners_ ? own_winners_->bytes() : 0U);
+    }
 
   private:
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings, const Buffer* scratch);
+            const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners);
 
     StereoLayout layout_;
     int disparities_;
@@ -59,9 +61,8 @@ class SgmPass {
     int sum_rows_;
     Program rows_;
     Program columns_;
-    std::optional<Buffer> own_sums_;
-    const Buffer* scratch_;
-    Buffer winners_;
+    std::optional<Buffer> own_sums_, own_winners_;
+    const Buffer *scratch_, *for_winners_;
 };
 
 }  // namespace vantage

@@ -62,19 +62,19 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(upper_half(words), as_int(checked.confidence), "confidence");
 
     FillPass fill(library_, layout_);
-    fill.run(profiler_, check.disparity());
+    fill.run(profiler_, check.disparity(), check.scratch());
     const DisparityImage filled = filled_from_background(checked.disparity);
-    expect_equal(lower_half(channel_of(fill.filled(), layout_, 1, 0)), as_int(filled), "filled");
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled), "filled");
 
     SmoothPass smooth(library_, layout_);
-    smooth.run(profiler_, fill.filled());
-    const cv::Mat1i smooth_words = channel_of(fill.filled(), layout_, 1, 0);
+    smooth.run(profiler_, check.scratch());
+    const cv::Mat1i smooth_words = channel_of(check.scratch(), layout_, 1, 0);
     const DisparityImage smoothed = smoothed_where_near(filled);
     expect_equal(lower_half(smooth_words), as_int(smoothed), "smoothed");
     EXPECT_GT(cv::norm(smoothed, filled, cv::NORM_L1), 0) << "nothing was there to be smoothed";
 
     ResultPass result(library_, layout_);
-    expect_equal(as_int(result.run(profiler_, fill.filled()).download()),
+    expect_equal(as_int(result.run(profiler_, check.scratch()).download()),
                  as_int(median_of_known(smoothed)), "dense result");
     expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
                  as_int(median_of_known(checked.disparity)), "result with unknowns");

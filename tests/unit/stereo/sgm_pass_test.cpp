@@ -59,7 +59,8 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
     SgmPass paths(library_, layout_, GetParam().disparities, settings);
     paths.run(profiler_, perm.costs());
     expect_winners(paths.winners(), winners);
-    SgmPass in_scratch(library_, layout_, GetParam().disparities, settings, perm.scratch());
+    SgmPass in_scratch(library_, layout_, GetParam().disparities, settings, perm.large_scratch(),
+                       perm.small_scratch());
     in_scratch.run(profiler_, perm.costs());
     expect_winners(in_scratch.winners(), winners);
 }
