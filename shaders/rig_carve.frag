@@ -1,26 +1,30 @@
 // A rig's depth as the other rigs leave it: carved away where they see through it, that is, where none of them has a
-// surface and one sees a farther one. With MOVES 1 it first goes along with its half-size map, which was refined.
+// surface and one sees a farther one. With MOVES 0, where the others stand no farther apart than this rig's own cameras,
+// what none of them confirms is taken for unmatched too, if the map is faulty. With MOVES 1 it first goes along with its half-size map, which was refined.
 #ifndef MOVES
 #define MOVES 1
 #endif
 #include "rig_others.glsl"
 
-uniform float softness;  // relative depth within which two surfaces are one
+uniform float softness;       // relative depth within which two surfaces are one
+uniform sampler2D agreement;  // from rig_agreement.frag
 
 layout(location = 0) out float carved;
+
+// Share of a map that others see through from which on it needs their support: measured depth has a tenth of it, that
+// of a stereo matcher, whose guesses behind depth edges are as likely wrong as right, thrice.
+const float faulty = 0.005;
 
 #if MOVES
 uniform sampler2D half_before;  // metres: the half-size map before it was refined, and after; 0 = unknown
 uniform sampler2D half_after;
-uniform sampler2D agreement;    // from rig_agreement.frag
 uniform float edge_ratio;       // two depths whose ratio is larger lie on two surfaces
 uniform float least_change;     // of inverse depth, relative: less is not worth losing detail for
 
 const float agreed = 0.7;  // share of a map that is exact where nothing is to be gained
 
 // Moves a depth by what the four half-size pixels around it were moved by, those on its surface.
-float moved(ivec2 at, float z) {
-    vec4 share = textureLod(agreement, vec2(0.5), 16.0);
+float moved(ivec2 at, float z, vec4 share) {
     if (share.r > agreed * share.a) return z;
     ivec2 last = textureSize(half_before, 0) - 1;
     ivec2 low = (at + 1) / 2 - 1;
@@ -40,12 +44,13 @@ float moved(ivec2 at, float z) {
 }
 #endif
 
-void examine(int i, sampler2D map, vec2 pixel, float z, inout float support, inout float through) {
+void examine(int i, sampler2D map, vec2 pixel, float z, inout float support, inout float through, inout float looks) {
     vec4 q = other_from_pixel[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / other_size[i];
     vec2 inside = min(uv, 1.0 - uv);
     if (min(inside.x, inside.y) < 0.0) return;
+    looks += 1.0;
     vec4 there = textureGather(map, uv);
     vec4 off = there / q.z - 1.0;
     float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
@@ -57,11 +62,15 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     carved = texelFetch(depth_map, at, 0).r;
     if (carved <= 0.0) return;
+    vec4 share = textureLod(agreement, vec2(0.5), 16.0);  // of the whole map
 #if MOVES
-    carved = moved(at, carved);
+    carved = moved(at, carved, share);
 #endif
-    float support = 0.0, through = 0.0;
-#define EXAMINE(i) examine(i, other_depth[i], vec2(at), carved, support, through);
+    float support = 0.0, through = 0.0, looks = 0.0;
+#define EXAMINE(i) examine(i, other_depth[i], vec2(at), carved, support, through, looks);
     FOR_OTHERS(EXAMINE)
     if (through > support) carved = 0.0;
+#if !MOVES
+    if (looks > 0.0 && support == 0.0 && share.g > faulty * share.b) carved = 0.0;
+#endif
 }

@@ -139,7 +139,6 @@ void RigConsensus::refine(const GpuView& view, double parallax_px) {
     const Texture& depth_m = view.steady_depth();
     const cv::Size half((depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2);
     half_before_.resize(half);
-    agreement_.resize(half);
     for (DrawnTexture& map : half_) map.resize(half);
     if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
 
@@ -149,12 +148,16 @@ void RigConsensus::refine(const GpuView& view, double parallax_px) {
     smooth(smooth_, now().texture(), view, next().target());
     now_ = 1 - now_;
     sweep(view, fine_step_px / parallax_px);
+}
 
-    FullscreenPass& agreeing = agreement_pass_[others_.size() - 1];
-    Program& agreement = agreeing.use();
-    bind_others(agreement, half_before_.texture(), view);
-    agreement.set("exact", static_cast<float>(exact_px / parallax_px));
-    agreeing.draw(agreement_.target());
+void RigConsensus::compare(const GpuView& view, double parallax_px) {
+    const Texture& depth_m = view.steady_depth();
+    agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
+    FullscreenPass& comparing = agreement_pass_[others_.size() - 1];
+    Program& agreement = comparing.use();
+    bind_others(agreement, depth_m, view);
+    agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
+    comparing.draw(agreement_.target());
     agreement_.generate_mipmaps();
 }
 
@@ -170,19 +173,20 @@ const Texture& RigConsensus::better(const GpuView& view,
 
     const double own_px = own_parallax_px(view), parallax = parallax_px(view);
     const bool moves = own_px > 0 && parallax > least_news * own_px;
+    compare(view, parallax);
     if (moves) refine(view, parallax);
     FullscreenPass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];
     Program& carve = carving.use();
     const int unit = bind_others(carve, depth_m, view);
     carve.set("softness", softness);
+    carve.set("agreement", unit);
+    agreement_.texture().bind(unit);
     if (moves) {
-        carve.set("half_before", unit);
-        carve.set("half_after", unit + 1);
-        carve.set("agreement", unit + 2);
+        carve.set("half_before", unit + 1);
+        carve.set("half_after", unit + 2);
         carve.set("least_change", static_cast<float>(least_change_px / parallax));
-        half_before_.texture().bind(unit);
-        now().texture().bind(unit + 1);
-        agreement_.texture().bind(unit + 2);
+        half_before_.texture().bind(unit + 1);
+        now().texture().bind(unit + 2);
     }
     carving.draw(result_.target());
     return result_.texture();

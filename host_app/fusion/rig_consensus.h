@@ -42,7 +42,8 @@ class RigConsensus {
     /// How far the view's middle moves in the others' pictures, at most, if its inverse depth
     /// changes by all of itself; px of its depth map.
     double parallax_px(const GpuView& view) const;
-    /// Fills half_before_, half_ and agreement_.
+    void compare(const GpuView& view, double parallax_px);
+    /// Fills half_before_ and half_.
     void refine(const GpuView& view, double parallax_px);
     void sweep(const GpuView& view, double relative_step);
     void smooth(FullscreenPass& pass, const Texture& depth_m, const GpuView& view,
@@ -56,7 +57,7 @@ class RigConsensus {
     std::vector<const GpuView*> others_;
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
-    DrawnTexture agreement_{TextureFormat::rgba8, Filter::linear, true};
+    DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
     std::array<DrawnTexture, 2> half_{DrawnTexture(TextureFormat::r32f),
                                       DrawnTexture(TextureFormat::r32f)};
     std::size_t now_ = 0;
