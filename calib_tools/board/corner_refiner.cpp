@@ -20,13 +20,22 @@ struct Sample {
     double x, y, value, weight;
 };
 
-double evaluate(const Parameters& p, const Sample& s, Parameters* gradient) {
+/// What all samples share under one set of parameters.
+struct Edges {
+    explicit Edges(const Parameters& p)
+        : c1(std::cos(p[angle1])),
+          s1(std::sin(p[angle1])),
+          c2(std::cos(p[angle2])),
+          s2(std::sin(p[angle2])),
+          scale(1 / (std::numbers::sqrt2 * p[blur])) {}
+    double c1, s1, c2, s2, scale;
+};
+
+double evaluate(const Parameters& p, const Edges& edges, const Sample& s, Parameters* gradient) {
     const double dx = s.x - p[px], dy = s.y - p[py];
-    const double c1 = std::cos(p[angle1]), s1 = std::sin(p[angle1]);
-    const double c2 = std::cos(p[angle2]), s2 = std::sin(p[angle2]);
+    const auto [c1, s1, c2, s2, scale] = edges;
     // Signed distances from the edges, whose directions are (c, s).
     const double d1 = -s1 * dx + c1 * dy, d2 = -s2 * dx + c2 * dy;
-    const double scale = 1 / (std::numbers::sqrt2 * p[blur]);
     const double e1 = std::erf(d1 * scale), e2 = std::erf(d2 * scale);
     const double value = p[mean] + p[slope_x] * dx + p[slope_y] * dy + p[contrast] * e1 * e2;
     if (gradient) {
@@ -48,9 +57,10 @@ double evaluate(const Parameters& p, const Sample& s, Parameters* gradient) {
 }
 
 double cost_of(const Parameters& p, const std::vector<Sample>& samples) {
+    const Edges edges(p);
     double cost = 0;
     for (const Sample& s : samples) {
-        const double r = evaluate(p, s, nullptr) - s.value;
+        const double r = evaluate(p, edges, s, nullptr) - s.value;
         cost += s.weight * r * r;
     }
     return cost;
@@ -93,9 +103,10 @@ std::optional<CornerFit> fit_corner(const GreyImage& picture, const Eigen::Vecto
     p[contrast] = 0;
     // The sign tells which pair of opposite squares is black.
     double product = 0, norm = 0;
+    p[contrast] = 1;
+    const Edges start_edges(p);
     for (const Sample& s : samples) {
-        p[contrast] = 1;
-        const double shape = evaluate(p, s, nullptr) - p[mean];
+        const double shape = evaluate(p, start_edges, s, nullptr) - p[mean];
         product += s.weight * shape * (s.value - p[mean]);
         norm += s.weight * shape * shape;
     }
@@ -106,8 +117,9 @@ std::optional<CornerFit> fit_corner(const GreyImage& picture, const Eigen::Vecto
     for (int iteration = 0; iteration < 30; ++iteration) {
         NormalMatrix normal = NormalMatrix::Zero();
         Parameters right = Parameters::Zero(), gradient;
+        const Edges edges(p);
         for (const Sample& s : samples) {
-            const double r = evaluate(p, s, &gradient) - s.value;
+            const double r = evaluate(p, edges, s, &gradient) - s.value;
             normal.selfadjointView<Eigen::Lower>().rankUpdate(gradient, s.weight);
             right -= s.weight * r * gradient;
         }
