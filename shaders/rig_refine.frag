@@ -24,10 +24,10 @@ void main() {
     vec3 colour = textureLod(picture, (vec2(at) + 0.5) * texel, 0.0).rgb;
     vec4 a = vec4(0.0), b = a, c = a, d = a;
     float weights = 0.0;
-    ivec2 low = max(at - REACH, ivec2(0)), high = min(at + REACH, size - 1);
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
-            ivec2 there = ivec2(x, y);
+    // Every other pixel says nearly what all of them do.
+    for (int y = -REACH; y <= REACH; y += 2)
+        for (int x = -REACH; x <= REACH; x += 2) {
+            ivec2 there = clamp(at + ivec2(x, y), ivec2(0), size - 1);
             float z = texelFetch(depth_map, there, 0).r;
             if (max(z, own) > min(z, own) * edge_ratio) continue;
             vec3 off = abs(textureLod(picture, (vec2(there) + 0.5) * texel, 0.0).rgb - colour);

@@ -28,8 +28,9 @@ void main() {
     vec3 colour = textureLod(picture, middle * texel, 0.0).rgb;
     float sum = 0.0, weights = 0.0;
     ivec2 low = max(at - REACH, ivec2(0)), high = min(at + REACH + SCALE - 1, size - 1);
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
+    // Every other pixel says nearly what all of them do.
+    for (int y = low.y; y <= high.y; y += 2)
+        for (int x = low.x; x <= high.x; x += 2) {
             float z = texelFetch(depth_map, ivec2(x, y), 0).r;
             if (max(z, own) > min(z, own) * edge_ratio) continue;
             vec3 unlike = abs(textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb - colour);

@@ -19,8 +19,8 @@ bool sees(int i, sampler2D map, vec2 pixel, float z) {
     return any(lessThan(abs(there - 1.0), vec4(same_place)));
 }
 
-void look(int i, sampler2D colours, vec2 pixel, float z, vec3 own, inout vec2 sum) {
-    vec4 q = other_from_pixel[i] * vec4(pixel * z, z, 1.0);
+void look(int i, sampler2D colours, vec3 along, float z, vec3 own, inout vec2 sum) {
+    vec3 q = along * z + other_from_pixel[i][3].xyz;
     vec3 d = abs(textureLod(colours, (q.xy / q.z + 0.5) / other_size[i], lod).rgb - own);
     sum += vec2(min(dot(d, vec3(1.0 / 3.0)) / most, 1.0), 1.0);
 }
@@ -32,7 +32,9 @@ void main() {
     unlike[0] = unlike[1] = unlike[2] = unlike[3] = vec4(0.0);
     if (own <= 0.0) return;
     bool seen[OTHERS], any_seen = false;
-#define SEES(i) seen[i] = sees(i, other_depth[i], pixel, own); any_seen = any_seen || seen[i];
+    vec3 along[OTHERS];  // the pixel's ray, as the other rig sees it
+#define SEES(i) seen[i] = sees(i, other_depth[i], pixel, own); any_seen = any_seen || seen[i]; \
+    along[i] = (other_from_pixel[i] * vec4(pixel, 1.0, 0.0)).xyz;
     FOR_OTHERS(SEES)
     if (!any_seen) return;
     vec3 colour = textureLod(picture, (pixel + 0.5) / vec2(textureSize(depth_map, 0)), lod).rgb;
@@ -40,7 +42,7 @@ void main() {
     for (int h = 0; h < 16; ++h) {
         float z = own / (1.0 + float(h - 7) * relative_step);
         vec2 sum = vec2(0.0);
-#define LOOK(i) if (seen[i]) look(i, other_colour[i], pixel, z, colour, sum);
+#define LOOK(i) if (seen[i]) look(i, other_colour[i], along[i], z, colour, sum);
         FOR_OTHERS(LOOK)
         cost[h] = sum.x / sum.y;
     }
