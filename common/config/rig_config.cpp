@@ -27,6 +27,7 @@ void read_source(TomlTable& table, RigConfig::Source& source) {
     table.read("pixel_format", source.pixel_format);
     if (!source.pixel_format.empty() && source.pixel_format.size() != 4)
         table.refuse("pixel_format", "must be a code of four characters such as 'GREY' or 'MJPG'");
+    table.read_choice("buffers", source.buffers, {"auto", "import", "copy"});
     table.read("controls", source.controls);
     constexpr double largest_gain = 64;
     table.read("exposure_us", source.exposure_us, {1, 1e6});

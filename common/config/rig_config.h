@@ -29,6 +29,7 @@ struct RigConfig {
         // v4l2
         std::string left_device = "", right_device = "";  ///< right empty: one side-by-side device
         std::string pixel_format = "";             ///< fourcc, empty: the best of those known
+        std::string buffers = "auto";              ///< auto | import | copy, into the GPU
         std::map<std::string, int> controls = {};  ///< by the driver's control name
         // libcamera, which takes the keys of v4l2 above too, but for the controls
         double exposure_us = 5000, analogue_gain = 1, red_gain = 1, blue_gain = 1;

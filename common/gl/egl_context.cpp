@@ -14,6 +14,19 @@
 namespace vantage {
 namespace {
 
+bool lists_extension(const char* extensions, const char* wanted) {
+    if (!extensions) return false;
+    const std::size_t length = std::strlen(wanted);
+    for (const char* at = extensions; (at = std::strstr(at, wanted)); at += length) {
+        const bool starts = at == extensions || at[-1] == ' ';
+        const bool ends = at[length] == ' ' || at[length] == '\0';
+        if (starts && ends) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 std::string egl_error_name() {
     switch (const EGLint code = eglGetError()) {
         case EGL_SUCCESS:
@@ -36,19 +49,6 @@ std::string egl_error_name() {
             return fmt::format("EGL error 0x{:x}", code);
     }
 }
-
-bool lists_extension(const char* extensions, const char* wanted) {
-    if (!extensions) return false;
-    const std::size_t length = std::strlen(wanted);
-    for (const char* at = extensions; (at = std::strstr(at, wanted)); at += length) {
-        const bool starts = at == extensions || at[-1] == ' ';
-        const bool ends = at[length] == ' ' || at[length] == '\0';
-        if (starts && ends) return true;
-    }
-    return false;
-}
-
-}  // namespace
 
 EglContext::EglContext() {
     try_platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");

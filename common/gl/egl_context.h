@@ -7,6 +7,9 @@
 
 namespace vantage {
 
+/// The name of the last EGL error of this thread, and takes it back.
+std::string egl_error_name();
+
 /// One way that was tried to reach a GPU without a display, and how it went.
 struct EglAttempt {
     std::string platform;  ///< "surfaceless", "device 0", "gbm /dev/dri/renderD128"

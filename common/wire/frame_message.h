@@ -35,7 +35,7 @@ struct RigSync {
     bool ready = false;                ///< stands and waits for the first pulse, or is past it
     std::uint64_t first_pulse = 0;     ///< from which on it has pulses; 0: none announced
     std::uint64_t pulses = 0;          ///< lead: sent; follow: seen
-    std::uint64_t skipped = 0;         ///< lead: would have been too late
+    std::uint64_t skipped = 0;         ///< lead: would have been too late; follow: no edge came
     std::uint64_t unsynchronized = 0;  ///< frames without a pulse of their own
     float lateness_p50_us = 0, lateness_p99_us = 0, lateness_max_us = 0;
     double clock_ppm = 0;  ///< of the sensors' clock over the stage's

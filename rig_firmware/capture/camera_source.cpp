@@ -57,6 +57,25 @@ class CameraSource final : public StereoSource {
 
     void use(RigTrigger* trigger) override { trigger_ = trigger; }
 
+    std::vector<LentPicture> specimens() const override {
+        std::vector<LentPicture> specimens;
+        for (const auto& camera : cameras_) {
+            std::optional<LentPicture> specimen = camera->specimen();
+            if (!specimen) return {};
+            specimens.push_back(std::move(*specimen));
+        }
+        if (specimens.size() == 1) {
+            specimens.push_back(specimens[0]);
+            halve(specimens[0].view, specimens[1].view);
+        }
+        return specimens;
+    }
+
+    void lend() override {
+        lends_ = true;
+        for (const auto& camera : cameras_) camera->lend();
+    }
+
     cv::Size size() const override { return {config_.width_px, config_.height_px}; }
 
     std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
@@ -98,7 +117,7 @@ class CameraSource final : public StereoSource {
                 {"surplus", numberer_.surplus()},
                 {"damaged", damaged},
                 {"reopened", reopened_},
-                {"copied_pictures", copied_},
+                {copied_pictures, copied_},
                 {"clock_steps", clocks_.state().steps}};
     }
 
@@ -107,7 +126,7 @@ class CameraSource final : public StereoSource {
   private:
     struct Joined {
         MonotonicTime time{};
-        StereoPair pictures;
+        SensorPicture left, right;
     };
 
     void open() {
@@ -116,6 +135,7 @@ class CameraSource final : public StereoSource {
         cameras.push_back(opener_(config_.left_device, side_by_side));
         if (!side_by_side) cameras.push_back(opener_(config_.right_device, false));
         cameras_ = std::move(cameras);
+        if (lends_) lend();
         last_picture_ = MonotonicClock::now();
         if (lost_because_.empty()) return;
         ++reopened_;
@@ -158,8 +178,10 @@ class CameraSource final : public StereoSource {
         read_clocks();
         const TaiTime stamp = clocks_.to_tai(joined.time);
         StereoFrame frame;
-        frame.left = std::move(joined.pictures.left);
-        frame.right = std::move(joined.pictures.right);
+        frame.left = std::move(joined.left.colour);
+        frame.right = std::move(joined.right.colour);
+        frame.lent_left = std::move(joined.left.lent);
+        frame.lent_right = std::move(joined.right.lent);
         if (trigger_) {
             const std::optional<std::uint64_t> index = trigger_->index_of(stamp);
             frame.synchronized = index.has_value();
@@ -198,21 +220,39 @@ class CameraSource final : public StereoSource {
         if (cameras_.size() == 1) {
             std::optional<SensorPicture> both = take(0);
             if (!both) return std::nullopt;
-            return Joined{both->time, split_side_by_side(both->colour, config_.left_device)};
+            return split(*both);
         }
-        if (auto left = take(0)) pairer_.push_left(left->time, std::move(left->colour));
-        if (auto right = take(1)) pairer_.push_right(right->time, std::move(right->colour));
+        if (auto left = take(0)) pairer_.push_left(left->time, std::move(*left));
+        if (auto right = take(1)) pairer_.push_right(right->time, std::move(*right));
         auto pair = pairer_.pop();
         if (!pair) return std::nullopt;
         return Joined{pair->left.time + (pair->right.time - pair->left.time) / 2,
-                      {std::move(pair->left.picture), std::move(pair->right.picture)}};
+                      std::move(pair->left.picture), std::move(pair->right.picture)};
+    }
+
+    /// The halves of one picture that holds both sides.
+    Joined split(const SensorPicture& both) const {
+        Joined joined{both.time, both, both};
+        if (both.lent) {
+            halve(joined.left.lent->view, joined.right.lent->view);
+            return joined;
+        }
+        StereoPair pair = split_side_by_side(both.colour, config_.left_device);
+        joined.left.colour = std::move(pair.left);
+        joined.right.colour = std::move(pair.right);
+        return joined;
+    }
+    static void halve(cv::Rect& left, cv::Rect& right) {
+        left.width /= 2;
+        right.width = left.width;
+        right.x = left.x + left.width;
     }
 
     std::optional<SensorPicture> take(std::size_t side) {
         std::optional<SensorPicture> picture = cameras_[side]->take();
         if (!picture) return std::nullopt;
         gaps_[side].see(picture->sequence);
-        ++copied_;
+        if (!picture->lent) ++copied_;
         return picture;
     }
 
@@ -223,11 +263,12 @@ class CameraSource final : public StereoSource {
     ClockModel clocks_;
     MonotonicTime clocks_read_{};
     PulseNumberer numberer_;
-    FramePairer<ColourImage> pairer_;
+    FramePairer<SensorPicture> pairer_;
     std::vector<std::unique_ptr<SensorCamera>>
         cameras_;  ///< left, right or both in one; none: lost
     std::array<SequenceGaps, 2> gaps_;
     bool begun_ = false;
+    bool lends_ = false;
     MonotonicTime last_picture_{};  ///< of both sides
     std::string lost_because_;
     std::uint64_t reopened_ = 0, damaged_before_ = 0, copied_ = 0;

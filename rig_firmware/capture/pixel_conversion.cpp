@@ -42,12 +42,10 @@ std::size_t least_bytes(PixelFormat format, int height_px, std::size_t packed, s
     return stride * (lines - 1) + packed;
 }
 
-}  // namespace
-
-ColourImage to_colour(const RawPicture& picture) {
+/// The stride of a picture that is no JPEG. Throws Error if its bytes are too few or its sides odd
+/// where pixels come in pairs.
+std::size_t checked_bytes_per_line(const RawPicture& picture) {
     const int width = picture.width_px, height = picture.height_px;
-    if (picture.format == PixelFormat::mjpg)
-        return JpegDecoder().decode(picture.bytes, width, height);
     const std::size_t packed = packed_bytes_per_line(picture.format, width);
     const std::size_t stride = picture.bytes_per_line ? picture.bytes_per_line : packed;
     if (width < 1 || height < 1 || stride < packed ||
@@ -60,6 +58,37 @@ ColourImage to_colour(const RawPicture& picture) {
         (width % 2 != 0 || (picture.format == PixelFormat::nv12 && height % 2 != 0)))
         fail("a camera picture of {}x{} in {} must have even sides", width, height,
              fourcc_text(fourcc_of(picture.format)));
+    return stride;
+}
+
+}  // namespace
+
+std::vector<PicturePlane> planes_of(const RawPicture& picture) {
+    const int width = picture.width_px, height = picture.height_px;
+    if (picture.format == PixelFormat::mjpg) fail("a compressed picture has no planes");
+    const std::size_t stride = checked_bytes_per_line(picture);
+    switch (picture.format) {
+        case PixelFormat::yuyv:
+            return {{TextureFormat::rgba8, width / 2, height, 0, stride}};
+        case PixelFormat::nv12:
+            return {{TextureFormat::r8, width, height, 0, stride},
+                    {TextureFormat::rg8, width / 2, height / 2,
+                     stride * static_cast<std::size_t>(height), stride}};
+        case PixelFormat::y10:
+        case PixelFormat::y16:
+            return {{TextureFormat::rg8, width, height, 0, stride}};
+        case PixelFormat::grey:
+        case PixelFormat::mjpg:
+            break;
+    }
+    return {{TextureFormat::r8, width, height, 0, stride}};
+}
+
+ColourImage to_colour(const RawPicture& picture) {
+    const int width = picture.width_px, height = picture.height_px;
+    if (picture.format == PixelFormat::mjpg)
+        return JpegDecoder().decode(picture.bytes, width, height);
+    const std::size_t stride = checked_bytes_per_line(picture);
     ColourImage colour;
     switch (picture.format) {
         case PixelFormat::yuyv:

@@ -9,6 +9,7 @@
 
 #include "common/base/time.h"
 #include "common/image/image.h"
+#include "rig_firmware/capture/lent_picture.h"
 
 namespace vantage {
 
@@ -16,7 +17,8 @@ namespace vantage {
 struct SensorPicture {
     std::uint32_t sequence = 0;  ///< the driver's running count
     MonotonicTime time{};        ///< the kernel's time stamp
-    ColourImage colour;
+    ColourImage colour;          ///< empty where the picture is lent
+    std::optional<LentPicture> lent = {};
 };
 
 /// A camera that streams by itself or on pulses, whatever interface it has. Throws DeviceLost when
@@ -29,6 +31,11 @@ class SensorCamera {
     virtual int fd() const = 0;
     /// The next picture if one is there.
     virtual std::optional<SensorPicture> take() = 0;
+    /// A buffer such as its pictures would be lent in, whole and without a lease; empty where it
+    /// cannot lend: compressed pictures, or too few buffers.
+    virtual std::optional<LentPicture> specimen() const = 0;
+    /// From now on pictures come lent, where there is a specimen.
+    virtual void lend() = 0;
     /// Pictures that came marked as faulty or could not be decoded.
     virtual std::uint64_t damaged() const = 0;
     /// Lines for the start-up report: device and mode; what is fixed, and what is automatic and

@@ -10,6 +10,7 @@
 
 #include "common/base/time.h"
 #include "common/image/image.h"
+#include "rig_firmware/capture/lent_picture.h"
 #include "rig_firmware/clock/clock_model.h"
 
 namespace vantage {
@@ -20,9 +21,12 @@ class RigTrigger;
 /// One instant seen by both sensors, not yet rectified.
 struct StereoFrame {
     std::uint64_t trigger_index = 0;
-    bool synchronized = false;       ///< trigger_index is a pulse of the stage
-    TaiTime exposure{};              ///< centre of exposure
-    ColourImage left, right;         ///< same size; grey sensors deliver equal channels
+    bool synchronized = false;  ///< trigger_index is a pulse of the stage
+    TaiTime exposure{};         ///< centre of exposure
+    ColourImage left, right;    ///< same size; grey sensors deliver equal channels
+    /// The pictures in the cameras' own buffers, in place of `left` and `right`, which are empty
+    /// then. Only from a source that was told to lend.
+    std::optional<LentPicture> lent_left = {}, lent_right = {};
     DisparityImage exact_disparity;  ///< of the RECTIFIED left picture; only from the virtual
                                      ///< source for the matcher "exact", else empty
 };
@@ -32,6 +36,9 @@ struct SourceCounter {
     std::string name;
     std::uint64_t count = 0;
 };
+
+/// The counter of camera pictures that were copied on their way to the GPU.
+inline constexpr const char* copied_pictures = "copied_pictures";
 
 /// Where a rig's pictures come from: the virtual stage, files, V4L2, libcamera. Made, used and
 /// destroyed on one thread.
@@ -57,6 +64,13 @@ class StereoSource {
     /// Pulses since the first frame for which none came (late, sequence gaps, unplugged).
     virtual std::uint64_t missed() const = 0;
     virtual std::vector<SourceCounter> counters() const { return {}; }
+
+    /// Left and right, buffers such as its pictures would be lent in; empty where it cannot lend.
+    /// What they show is no picture.
+    virtual std::vector<LentPicture> specimens() const { return {}; }
+    /// From now on pictures come lent as far as possible: no copy is made of them here. They have
+    /// to be let go soon, for cameras have few buffers.
+    virtual void lend() {}
 
     /// Sensors on a trigger ask it which pulse exposed a frame. It outlives the source; set before
     /// the first next().

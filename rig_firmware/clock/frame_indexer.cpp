@@ -28,6 +28,7 @@ bool FrameIndexer::seen(TaiTime edge) {
         ++stray_edges_;
         return false;
     }
+    if (!pulses_.empty() && index > pulses_.back()) missing_edges_ += index - pulses_.back() - 1;
     sent(index);
     return true;
 }

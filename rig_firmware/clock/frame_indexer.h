@@ -29,6 +29,8 @@ class FrameIndexer {
     std::uint64_t unsynchronized() const { return unsynchronized_; }
     std::uint64_t duplicates() const { return duplicates_; }
     std::uint64_t stray_edges() const { return stray_edges_; }
+    /// Pulses of the stage between two edges that were seen, without one of their own.
+    std::uint64_t missing_edges() const { return missing_edges_; }
     /// Pulses of the stage since the first frame for which no frame came, or that were not sent.
     std::uint64_t missed() const { return missed_; }
 
@@ -37,7 +39,8 @@ class FrameIndexer {
     std::chrono::nanoseconds delay_;
     std::deque<std::uint64_t> pulses_;
     std::optional<std::uint64_t> last_;  ///< given to a frame
-    std::uint64_t unsynchronized_ = 0, duplicates_ = 0, stray_edges_ = 0, missed_ = 0;
+    std::uint64_t unsynchronized_ = 0, duplicates_ = 0, stray_edges_ = 0, missing_edges_ = 0,
+                  missed_ = 0;
 };
 
 }  // namespace vantage

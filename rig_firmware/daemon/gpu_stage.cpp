@@ -34,28 +34,59 @@ std::unique_ptr<Matcher> chosen(const std::string& name, const RigConfig& config
 
 }  // namespace
 
-GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration)
+GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration,
+                   std::span<const LentPicture> specimens)
     : info_(GlInfo::query()),
       calibration_(calibration),
       matcher_name_(chosen_matcher(config)),
       disparities_(config.match.disparities),
       rectified_already_(is_identity(calibration, Side::left)),
-      left_raw_(TextureFormat::rgba8, calibration.left.width_px, calibration.left.height_px),
-      right_raw_(TextureFormat::rgba8, calibration.right.width_px, calibration.right.height_px),
+      left_intake_(context_, shaders_, {calibration.left.width_px, calibration.left.height_px}),
+      right_intake_(context_, shaders_, {calibration.right.width_px, calibration.right.height_px}),
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
+    prepare_intakes(config.source.buffers, specimens);
     if (matcher_ && config.match.steady)
         steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
     if (rectified_already_ && !matcher_) return;
     // Drivers finish their programs at the first drawing: seconds, where the processor draws, in
     // which real frames would be lost.
     StereoFrame dark;
-    dark.left = ColourImage(left_raw_.size(), cv::Vec4b(0, 0, 0, 255));
-    dark.right = ColourImage(right_raw_.size(), cv::Vec4b(0, 0, 0, 255));
+    const cv::Vec4b black(0, 0, 0, 255);
+    dark.left = ColourImage(calibration.left.height_px, calibration.left.width_px, black);
+    dark.right = ColourImage(calibration.right.height_px, calibration.right.width_px, black);
     RigFrame unused;
     rectify_and_match(dark, unused);
+}
+
+void GpuStage::prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens) {
+    std::string reason = "the cameras do not lend their buffers";
+    std::string why_not;
+    if (buffers == "copy") why_not = "as configured";
+    // Mesa's drawing by the processor names the extension wherever there is a display driver, and
+    // falls over memory that is not that driver's own.
+    else if (info_.is_software)
+        why_not = "OpenGL ES is drawn by the processor, which reads no other driver's buffers";
+    if (specimens.size() == 2) {
+        left_intake_.prepare(specimens[0], why_not);
+        right_intake_.prepare(specimens[1], why_not);
+        reason = left_intake_.imports() ? right_intake_.reason() : left_intake_.reason();
+        intake_report_ = reason.empty()
+                             ? "the GPU reads the cameras' buffers (dma-buf): no picture is copied"
+                             : fmt::format("every picture is copied to the GPU: {}", reason);
+    }
+    if (buffers == "import" && !reason.empty())
+        fail(
+            "'buffers = \"import\"' in [source] is not possible here: {}; \"auto\" copies pictures "
+            "to the GPU instead",
+            reason);
+}
+
+CameraIntake::Counts GpuStage::lent_pictures() const {
+    const CameraIntake::Counts &left = left_intake_.counts(), &right = right_intake_.counts();
+    return {.imported = left.imported + right.imported, .copied = left.copied + right.copied};
 }
 
 RigFrame GpuStage::process(StereoFrame frame) {
@@ -86,18 +117,20 @@ RigFrame GpuStage::process(StereoFrame frame) {
 
 void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     rectify_timer_.begin();
-    left_raw_.upload(frame.left);
-    const Texture& left = rectify_left_.rectify(left_raw_);
+    const auto bring = [](CameraIntake& intake, const ColourImage& picture,
+                          const std::optional<LentPicture>& lent) -> const Texture& {
+        return lent ? intake.bring(*lent) : intake.bring(picture);
+    };
+    const Texture& left = rectify_left_.rectify(bring(left_intake_, frame.left, frame.lent_left));
     const Texture* right = nullptr;
-    if (matcher_) {
-        right_raw_.upload(frame.right);
-        right = &rectify_right_.rectify(right_raw_);
-    }
+    if (matcher_)
+        right = &rectify_right_.rectify(bring(right_intake_, frame.right, frame.lent_right));
     rectify_timer_.end();
     const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
     if (disparity && steady_) disparity = &steady_->run(*disparity, left);
     // Everything is under way before the first read waits for the GPU.
-    result.colour = rectified_already_ ? frame.left : ColourImage(left.download());
+    const bool has_colour = rectified_already_ && !frame.lent_left;
+    result.colour = has_colour ? frame.left : ColourImage(left.download());
     if (disparity) result.disparity = disparity->download();
     result.times.rectify_ms = static_cast<float>(rectify_timer_.wait_ms());
 }
@@ -107,6 +140,7 @@ std::vector<std::string> GpuStage::report() const {
     for (const EglAttempt& attempt : context_.attempts())
         lines.push_back(fmt::format("EGL {}: {}", attempt.platform, attempt.outcome));
     lines.push_back(fmt::format("GPU: {}, {}", info_.renderer, info_.version));
+    if (!intake_report_.empty()) lines.push_back(intake_report_);
     lines.push_back(rectified_already_ ? "the pictures are rectified already"
                                        : "rectifying on the GPU");
     lines.push_back(

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "common/gl/shader_library.h"
 #include "common/rectification/rectify_pass.h"
 #include "common/wire/frame_message.h"
+#include "rig_firmware/capture/camera_intake.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/passes/temporal_pass.h"
@@ -22,18 +24,25 @@ namespace vantage {
 /// and destroyed on one thread.
 class GpuStage {
   public:
-    /// Throws Error if there is no OpenGL ES, or the config's matcher or calibration does not fit.
-    GpuStage(const RigConfig& config, const StereoCalibration& calibration);
+    /// `specimens`: buffers such as the source lends its pictures in, left and right; none: it
+    /// lends none. Throws Error if there is no OpenGL ES, the config's matcher or calibration does
+    /// not fit, or it asks for an import that is not possible.
+    GpuStage(const RigConfig& config, const StereoCalibration& calibration,
+             std::span<const LentPicture> specimens = {});
 
     /// Rectifies and matches one instant. Fills picture, disparity, geometry, pose and two of the
     /// times.
     RigFrame process(StereoFrame frame);
+
+    /// Lent pictures of both sides so far.
+    CameraIntake::Counts lent_pictures() const;
 
     /// Lines for the start-up report: how the context was had, the renderer, the matcher.
     std::vector<std::string> report() const;
 
   private:
     void rectify_and_match(const StereoFrame& frame, RigFrame& result);
+    void prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens);
 
     EglContext context_;
     GlInfo info_;
@@ -42,7 +51,8 @@ class GpuStage {
     std::string matcher_name_;
     int disparities_;
     bool rectified_already_;
-    Texture left_raw_, right_raw_;
+    CameraIntake left_intake_, right_intake_;
+    std::string intake_report_;  ///< empty: the source lends no pictures
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_;
     std::optional<TemporalPass> steady_;

@@ -27,6 +27,12 @@ namespace {
 // How often a waiting thread looks whether it is to end.
 constexpr std::chrono::milliseconds wait_slice(100);
 
+/// What the parts after the source have to know of it.
+struct SourceFacts {
+    cv::Size size;
+    std::vector<LentPicture> specimens;
+};
+
 struct CapturedFrame {
     StereoFrame frame;
     float capture_ms = 0;
@@ -57,10 +63,10 @@ RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id
     pair.trigger_index = frame.trigger_index;
     pair.exposure = frame.exposure;
     pair.calibration_id = calibration_id;
-    pair.geometry.width_px = frame.left.cols;
-    pair.geometry.height_px = frame.left.rows;
-    pair.colour = frame.left;
-    pair.raw_right = frame.right;
+    pair.colour = frame.lent_left ? to_colour(*frame.lent_left) : frame.left;
+    pair.raw_right = frame.lent_right ? to_colour(*frame.lent_right) : frame.right;
+    pair.geometry.width_px = pair.colour.cols;
+    pair.geometry.height_px = pair.colour.rows;
     return pair;
 }
 
@@ -74,9 +80,10 @@ struct RigDaemon::Impl {
           trigger(RigTrigger::make(rig_config)) {}
 
     void start();
-    void capture(std::promise<cv::Size> ready, const std::future<void>& go);
+    void capture(std::promise<SourceFacts> ready, const std::future<void>& go);
     void capture_one(StereoSource& source);
-    void run_gpu(const std::optional<StereoCalibration>& calibration, std::promise<void> ready);
+    void run_gpu(const std::optional<StereoCalibration>& calibration,
+                 const std::vector<LentPicture>& specimens, std::promise<void> ready);
     void publish();
     void keep_in_step(const RigHealth& facts);
     RigSync sync_now(const std::optional<PtpState>& ptp) const;
@@ -118,6 +125,7 @@ struct RigDaemon::Impl {
     mutable std::mutex mutex;
     RigCounters counters;
     std::vector<SourceCounter> source_counters;
+    CameraIntake::Counts lent_pictures;
     std::optional<ClockModel::State> sensor_clock;
     RigSync sync;
     PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
@@ -130,15 +138,15 @@ struct RigDaemon::Impl {
 };
 
 void RigDaemon::Impl::start() {
-    std::promise<cv::Size> source_ready;
-    std::future<cv::Size> size = source_ready.get_future();
+    std::promise<SourceFacts> source_ready;
+    std::future<SourceFacts> source = source_ready.get_future();
     std::promise<void> all_stand;
     capture_thread =
         std::thread([this, p = std::move(source_ready), go = all_stand.get_future()]() mutable {
             guarded("capture", [&] { capture(std::move(p), go); });
             captured.close();
         });
-    const cv::Size picture_size = size.get();
+    SourceFacts source_facts = source.get();
     std::optional<StereoCalibration> calibration;
     if (config.uncalibrated)
         publisher.serve_raw_pairs_only(fmt::format(
@@ -146,11 +154,12 @@ void RigDaemon::Impl::start() {
             "make one with: vantage-calib stereo --live",
             config.name));
     else
-        calibration = rig_calibration(config, picture_size);
+        calibration = rig_calibration(config, source_facts.size);
     std::promise<void> gpu_ready;
     std::future<void> gpu = gpu_ready.get_future();
-    gpu_thread = std::thread([this, calibration, p = std::move(gpu_ready)]() mutable {
-        guarded("gpu", [&] { run_gpu(calibration, std::move(p)); });
+    gpu_thread = std::thread([this, calibration, specimens = std::move(source_facts.specimens),
+                              p = std::move(gpu_ready)]() mutable {
+        guarded("gpu", [&] { run_gpu(calibration, specimens, std::move(p)); });
         matched.close();
     });
     gpu.get();
@@ -164,18 +173,20 @@ void RigDaemon::Impl::start() {
     });
 }
 
-void RigDaemon::Impl::capture(std::promise<cv::Size> ready, const std::future<void>& go) {
+void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future<void>& go) {
     std::unique_ptr<StereoSource> source;
     try {
         source = make_source(config);
         source->use(trigger.get());
+        // Raw pairs are wanted as pictures.
+        if (!config.uncalibrated) source->lend();
         const std::lock_guard lock(mutex);
         source_report = source->report();
     } catch (...) {
         ready.set_exception(std::current_exception());
         return;
     }
-    ready.set_value(source->size());
+    ready.set_value({source->size(), source->specimens()});
     // Frames from before the GPU's programs are built would only be thrown away.
     while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) {
     }
@@ -261,10 +272,10 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp) const {
 }
 
 void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibration,
-                              std::promise<void> ready) {
+                              const std::vector<LentPicture>& specimens, std::promise<void> ready) {
     std::optional<GpuStage> gpu;
     try {
-        if (calibration) gpu.emplace(config, *calibration);
+        if (calibration) gpu.emplace(config, *calibration, specimens);
         const std::lock_guard lock(mutex);
         gpu_report = gpu ? gpu->report()
                          : std::vector<std::string>{
@@ -281,7 +292,11 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
         Instant instant;
         if (!gpu || publisher.wants_raw_pair(next->frame.trigger_index))
             instant.raw_pair = raw_pair_of(next->frame, calibration ? calibration->id : "");
-        if (gpu) instant.view = gpu->process(std::move(next->frame));
+        if (gpu) {
+            instant.view = gpu->process(std::move(next->frame));
+            const std::lock_guard lock(mutex);
+            lent_pictures = gpu->lent_pictures();
+        }
         for (std::optional<RigFrame>* frame : {&instant.view, &instant.raw_pair})
             if (*frame) (*frame)->times.capture_ms = next->capture_ms;
         if (matched.push(std::move(instant))) count([](RigCounters& c) { ++c.late; });
@@ -369,6 +384,9 @@ DaemonStatus RigDaemon::status() const {
     shown.missed = own.missed;
     shown.late = own.late;
     status.source_counters = impl_->source_counters;
+    for (SourceCounter& counter : status.source_counters)
+        if (counter.name == copied_pictures) counter.count += impl_->lent_pictures.copied;
+    status.source_counters.push_back({"imported_pictures", impl_->lent_pictures.imported});
     status.sync = impl_->sync;
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();

@@ -103,6 +103,7 @@ class FollowingTrigger final : public IndexingTrigger {
         const std::lock_guard lock(mutex_);
         TriggerStatus status = status_;
         status.is_armed = true;
+        status.skipped = indexer_.missing_edges();
         status.stray_edges = indexer_.stray_edges();
         status.unsynchronized = indexer_.unsynchronized();
         status.lateness_us = lateness_us_.summary();

@@ -17,7 +17,7 @@ struct TriggerStatus {
     bool is_armed = false;          ///< lead and follow: the line is held
     std::uint64_t first_pulse = 0;  ///< from which on pulses are sent; 0: not announced yet
     std::uint64_t pulses = 0;       ///< lead: sent; follow: seen
-    std::uint64_t skipped = 0;      ///< lead: would have been too late
+    std::uint64_t skipped = 0;      ///< lead: would have been too late; follow: had no edge
     std::uint64_t clock_steps = 0;
     std::uint64_t stray_edges = 0;     ///< follow: edges that belong to no pulse of the stage
     std::uint64_t unsynchronized = 0;  ///< frames without a pulse of their own

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The device tests in the virtual machine: real drivers, and the very programs that were built. Two USB cameras, which
 # are processes of this computer, are plugged into it.
-#   devices.sh WORK TEST_PROGRAM USB_CAMERA_PROGRAM
+#   devices.sh WORK TEST_PROGRAM USB_CAMERA_PROGRAM CAPTURE_TEST_PROGRAM
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-work=$1 program=$2 usb_camera=$3
+work=$1 program=$2 usb_camera=$3 capture_test=$4
 data=${VANTAGE_DATA:-$here/../../../shared/data}
 "$here/prepare.sh" "$work"
 
@@ -27,5 +27,5 @@ if [ -d "$data/middlebury2003/teddy" ]; then
     port=$((port + 1))
   done
 fi
-HIL_QEMU=$qemu "$here/boot.sh" "$work" devices "HIL_TEST=$program" "HIL_RULES=$(realpath "$here/../../udev")" \
+HIL_QEMU=$qemu "$here/boot.sh" "$work" devices "HIL_TEST=$program" "HIL_CAPTURE_TEST=$capture_test" "HIL_RULES=$(realpath "$here/../../udev")" \
   "GTEST_FILTER=${GTEST_FILTER:-*}" "VANTAGE_DATA=$data"

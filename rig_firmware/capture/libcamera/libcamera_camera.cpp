@@ -12,21 +12,19 @@
 
 #include <fnmatch.h>
 #include <libcamera/libcamera.h>
-#include <linux/dma-buf.h>
-#include <sys/ioctl.h>
 #include <sys/mman.h>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
 #include "common/wire/wake_event.h"
+#include "rig_firmware/capture/buffer_lender.h"
 #include "rig_firmware/capture/device_lost.h"
+#include "rig_firmware/capture/dma_buf_access.h"
 #include "rig_firmware/capture/pixel_conversion.h"
 
 namespace vantage {
 namespace {
-
-constexpr unsigned wanted_buffers = 4;
 
 /// libcamera's names of the forms that Vantage takes, in the order of preference.
 struct KnownFormat {
@@ -69,22 +67,6 @@ std::shared_ptr<libcamera::Camera> find_camera(const libcamera::CameraManager& m
          fitting.size(), listed);
 }
 
-/// Reads of a buffer that a device writes stand between these two.
-class BufferAccess {
-  public:
-    explicit BufferAccess(int fd) : fd_(fd) { sync(DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ); }
-    ~BufferAccess() { sync(DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ); }
-    BufferAccess(const BufferAccess&) = delete;
-    BufferAccess& operator=(const BufferAccess&) = delete;
-
-  private:
-    void sync(std::uint64_t flags) const {
-        dma_buf_sync request{.flags = flags};
-        ::ioctl(fd_, DMA_BUF_IOCTL_SYNC, &request);  // buffers of some drivers need and know none
-    }
-    int fd_;
-};
-
 /// The planes of one buffer, mapped as one piece.
 class MappedBuffer {
   public:
@@ -110,6 +92,7 @@ class MappedBuffer {
     MappedBuffer& operator=(const MappedBuffer&) = delete;
 
     int fd() const { return fd_; }
+    std::size_t begin() const { return begin_; }
     std::span<const std::byte> bytes() const { return {start_ + begin_, length_ - begin_}; }
 
   private:
@@ -122,7 +105,9 @@ class LibcameraCamera final : public SensorCamera {
   public:
     LibcameraCamera(std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
                     const RigConfig::Source& wish, bool side_by_side)
-        : manager_(std::move(manager)), camera_(find_camera(*manager_, pattern)) {
+        : manager_(std::move(manager)),
+          camera_(find_camera(*manager_, pattern)),
+          lender_([this](unsigned index) { take_back(index); }) {
         if (camera_->acquire() != 0)
             throw DeviceLost(fmt::format(
                 "camera '{}' is in use by another program: end that program", camera_->id()));
@@ -152,11 +137,20 @@ class LibcameraCamera final : public SensorCamera {
             completed_.pop_front();
         }
         std::optional<SensorPicture> picture = picture_of(*request);
+        if (picture && picture->lent) return picture;
         request->reuse(libcamera::Request::ReuseBuffers);
         if (camera_->queueRequest(request) != 0)
             throw DeviceLost(fmt::format("camera '{}' takes no more buffers", camera_->id()));
         return picture;
     }
+
+    std::optional<LentPicture> specimen() const override {
+        if (format_ == PixelFormat::mjpg || requests_.size() < BufferLender::least_buffers)
+            return std::nullopt;
+        return lent(0, buffer_of(*requests_[0]).bytes());
+    }
+
+    void lend() override { lends_ = specimen().has_value(); }
 
     std::uint64_t damaged() const override { return damaged_; }
     std::vector<std::string> report() const override { return report_; }
@@ -177,7 +171,7 @@ class LibcameraCamera final : public SensorCamera {
             stream.pixelFormat = known.theirs;
             stream.size = size;
             stream.stride = 0;
-            stream.bufferCount = wanted_buffers;
+            stream.bufferCount = BufferLender::wanted_buffers;
             if (configuration_->validate() == libcamera::CameraConfiguration::Invalid ||
                 stream.pixelFormat != known.theirs || stream.size != size)
                 continue;
@@ -202,9 +196,8 @@ class LibcameraCamera final : public SensorCamera {
         if (allocator_->allocate(stream) <= 0)
             fail("camera '{}' has no memory for its pictures", camera_->id());
         for (const std::unique_ptr<libcamera::FrameBuffer>& buffer : allocator_->buffers(stream)) {
-            mappings_.emplace(std::piecewise_construct, std::forward_as_tuple(buffer.get()),
-                              std::forward_as_tuple(*buffer));
-            std::unique_ptr<libcamera::Request> request = camera_->createRequest();
+            mappings_.emplace(buffer.get(), std::make_shared<const MappedBuffer>(*buffer));
+            std::unique_ptr<libcamera::Request> request = camera_->createRequest(requests_.size());
             if (!request || request->addBuffer(stream, buffer.get()) != 0)
                 fail("camera '{}' takes no buffers", camera_->id());
             requests_.push_back(std::move(request));
@@ -219,11 +212,11 @@ class LibcameraCamera final : public SensorCamera {
             if (camera_->queueRequest(request.get()) != 0)
                 throw DeviceLost(fmt::format("camera '{}' takes no requests", camera_->id()));
         const libcamera::StreamConfiguration& mode = configuration_->at(0);
-        report_.insert(report_.begin(),
-                       fmt::format("camera '{}' ({}): {} in lines of {} bytes, {} buffers; every "
-                                   "picture is copied once on its way to the GPU",
-                                   camera_->id(), model_of(*camera_), mode.toString(), mode.stride,
-                                   requests_.size()));
+        report_.insert(
+            report_.begin(),
+            fmt::format("camera '{}' ({}): {} in lines of {} bytes, {} buffers{}", camera_->id(),
+                        model_of(*camera_), mode.toString(), mode.stride, requests_.size(),
+                        specimen() ? "" : ", every picture is converted on the processor"));
     }
 
     /// Exposure, gain and white balance as configured; what the camera has no control for is said.
@@ -283,32 +276,69 @@ class LibcameraCamera final : public SensorCamera {
             ++damaged_;
             return std::nullopt;
         }
-        const MappedBuffer& mapping = mappings_.at(&buffer);
-        const libcamera::StreamConfiguration& mode = configuration_->at(0);
-        std::span<const std::byte> bytes = mapping.bytes();
+        const std::shared_ptr<const MappedBuffer>& mapping = mappings_.at(&buffer);
+        std::span<const std::byte> bytes = mapping->bytes();
         if (format_ == PixelFormat::mjpg)
             bytes =
                 bytes.first(std::min<std::size_t>(bytes.size(), metadata.planes()[0].bytesused));
-        const BufferAccess access(mapping.fd());
         // The sensor's own time where the pipeline knows it, else the driver's of the buffer.
         const auto sensor_time = request.metadata().get(libcamera::controls::SensorTimestamp);
         try {
-            return SensorPicture{
-                .sequence = metadata.sequence,
-                .time = monotonic_from_ns(
-                    sensor_time.value_or(static_cast<std::int64_t>(metadata.timestamp))),
-                .colour = to_colour({.format = format_,
-                                     .width_px = static_cast<int>(mode.size.width),
-                                     .height_px = static_cast<int>(mode.size.height),
-                                     .bytes_per_line = mode.stride,
-                                     .bytes = bytes})};
+            SensorPicture picture{.sequence = metadata.sequence,
+                                  .time = monotonic_from_ns(sensor_time.value_or(
+                                      static_cast<std::int64_t>(metadata.timestamp))),
+                                  .colour = {},
+                                  .lent = {}};
+            const auto index = static_cast<unsigned>(request.cookie());
+            LentPicture whole = lent(index, bytes);
+            if (lends_) {
+                (void)planes_of(whole.raw);
+                whole.lease = lender_.lend(index, mapping);
+                picture.lent = std::move(whole);
+                return picture;
+            }
+            const DmaBufAccess access(mapping->fd());
+            picture.colour = to_colour(whole.raw);
+            return picture;
         } catch (const Error&) {
             ++damaged_;
             return std::nullopt;
         }
     }
 
+    const MappedBuffer& buffer_of(const libcamera::Request& request) const {
+        return *mappings_.at(request.buffers().begin()->second);
+    }
+
+    LentPicture lent(unsigned index, std::span<const std::byte> bytes) const {
+        const libcamera::StreamConfiguration& mode = configuration_->at(0);
+        const int width = static_cast<int>(mode.size.width);
+        const int height = static_cast<int>(mode.size.height);
+        const MappedBuffer& mapping = buffer_of(*requests_.at(index));
+        return {.raw = {.format = format_,
+                        .width_px = width,
+                        .height_px = height,
+                        .bytes_per_line = mode.stride,
+                        .bytes = bytes},
+                .view = {0, 0, width, height},
+                .dma_buf = mapping.fd(),
+                .offset = mapping.begin(),
+                .camera = lender_.identity(),
+                .index = index,
+                .lease = {}};
+    }
+
+    /// On any thread; libcamera's queue is safe for that.
+    void take_back(unsigned index) noexcept {
+        libcamera::Request* request = requests_[index].get();
+        request->reuse(libcamera::Request::ReuseBuffers);
+        if (camera_->queueRequest(request) == 0) return;
+        lost_ = true;
+        ready_.notify();
+    }
+
     void shut() {
+        lender_.close();
         camera_->requestCompleted.disconnect(this);
         camera_->disconnected.disconnect(this);
         if (started_) camera_->stop();
@@ -323,7 +353,7 @@ class LibcameraCamera final : public SensorCamera {
     std::unique_ptr<libcamera::CameraConfiguration> configuration_;
     PixelFormat format_ = PixelFormat::grey;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
-    std::map<const libcamera::FrameBuffer*, MappedBuffer> mappings_;
+    std::map<const libcamera::FrameBuffer*, std::shared_ptr<const MappedBuffer>> mappings_;
     std::vector<std::unique_ptr<libcamera::Request>> requests_;
     bool started_ = false;
     std::uint64_t damaged_ = 0;
@@ -333,6 +363,8 @@ class LibcameraCamera final : public SensorCamera {
     std::mutex mutex_;
     std::deque<libcamera::Request*> completed_;  ///< as many as there are requests at most
     std::atomic<bool> lost_ = false;
+    bool lends_ = false;
+    BufferLender lender_;  ///< last: what comes back uses what stands above
 };
 
 }  // namespace

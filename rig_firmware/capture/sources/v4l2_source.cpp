@@ -15,7 +15,8 @@ SourceEntry v4l2_source_entry() {
                                      .height_px = source.height_px,
                                      .rate_hz = PulseGrid(source.rate_hz).rate_hz(),
                                      .pixel_format = source.pixel_format,
-                                     .controls = source.controls});
+                                     .controls = source.controls,
+                                     .share_buffers = source.buffers != "copy"});
                     });
             }};
 }

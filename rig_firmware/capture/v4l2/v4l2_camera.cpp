@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/mman.h>
 
@@ -17,8 +18,6 @@
 
 namespace vantage {
 namespace {
-
-constexpr std::uint32_t wanted_buffers = 4;
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -78,10 +77,8 @@ V4l2Camera::Mapping::~Mapping() {
     if (start_) ::munmap(start_, length_);
 }
 
-V4l2Camera::Mapping::Mapping(Mapping&& other) noexcept
-    : start_(std::exchange(other.start_, nullptr)), length_(other.length_) {}
-
-V4l2Camera::V4l2Camera(const V4l2Wish& wish) : device_(wish.path) {
+V4l2Camera::V4l2Camera(const V4l2Wish& wish)
+    : device_(wish.path), lender_([this](unsigned index) { take_back(index); }) {
     if (!device_.captures())
         fail(
             "{} ('{}') delivers no pictures: it is another kind of video node, and `vantage-rig "
@@ -94,12 +91,13 @@ V4l2Camera::V4l2Camera(const V4l2Wish& wish) : device_(wish.path) {
     choose_format(wish);
     set_rate(wish.rate_hz);
     set_controls(wish.controls);
-    map_buffers();
+    map_buffers(wish.share_buffers);
     std::uint32_t type = device_.buffer_type();
     device_.request(VIDIOC_STREAMON, &type, "to start");
 }
 
 V4l2Camera::~V4l2Camera() {
+    lender_.close();
     try {
         std::uint32_t type = device_.buffer_type();
         device_.try_request(VIDIOC_STREAMOFF, &type);
@@ -214,9 +212,9 @@ void V4l2Camera::set_controls(const std::map<std::string, int>& wishes) {
     for (const auto& [control, value] : again) device_.set_control(control, value);
 }
 
-void V4l2Camera::map_buffers() {
+void V4l2Camera::map_buffers(bool share_them) {
     v4l2_requestbuffers wanted{};
-    wanted.count = wanted_buffers;
+    wanted.count = BufferLender::wanted_buffers;
     wanted.type = device_.buffer_type();
     wanted.memory = V4L2_MEMORY_MMAP;
     device_.request(VIDIOC_REQBUFS, &wanted, "buffers to map");
@@ -226,11 +224,53 @@ void V4l2Camera::map_buffers() {
     for (std::uint32_t i = 0; i < wanted.count; ++i) {
         BufferRequest request(device_, i);
         device_.request(VIDIOC_QUERYBUF, &request.buffer, "to describe a buffer");
-        buffers_.emplace_back(device_.fd(), request.length(), request.offset());
-        if (!buffers_.back().is_mapped())
+        const auto mapping =
+            std::make_shared<Mapping>(device_.fd(), request.length(), request.offset());
+        if (!mapping->is_mapped())
             fail("a buffer of {} bytes of the camera {} cannot be mapped: {}", request.length(),
                  device_.path().string(), std::strerror(errno));
+        if (share_them) mapping->dma_buf = share(i);
+        buffers_.push_back(mapping);
         queue(i);
+    }
+}
+
+UniqueFd V4l2Camera::share(std::uint32_t index) const {
+    v4l2_exportbuffer request{};
+    request.type = device_.buffer_type();
+    request.index = index;
+    request.flags = O_RDWR | O_CLOEXEC;
+    return device_.try_request(VIDIOC_EXPBUF, &request) ? UniqueFd(request.fd) : UniqueFd();
+}
+
+std::optional<LentPicture> V4l2Camera::specimen() const {
+    if (mode_.format == PixelFormat::mjpg || buffers_.size() < BufferLender::least_buffers)
+        return std::nullopt;
+    return lent(0, buffers_[0]->bytes());
+}
+
+void V4l2Camera::lend() { lends_ = specimen().has_value(); }
+
+LentPicture V4l2Camera::lent(std::uint32_t index, std::span<const std::byte> bytes) const {
+    return {.raw = {.format = mode_.format,
+                    .width_px = mode_.width_px,
+                    .height_px = mode_.height_px,
+                    .bytes_per_line = mode_.bytes_per_line,
+                    .bytes = bytes},
+            .view = {0, 0, mode_.width_px, mode_.height_px},
+            .dma_buf = buffers_.at(index)->dma_buf.get(),
+            .offset = 0,
+            .camera = lender_.identity(),
+            .index = index,
+            .lease = {}};
+}
+
+void V4l2Camera::take_back(std::uint32_t index) noexcept {
+    try {
+        queue(index);
+    } catch (const std::exception& error) {
+        // Nobody waits here: the next take() meets the same fault.
+        log_debug("{}", error.what());
     }
 }
 
@@ -253,17 +293,22 @@ std::optional<SensorPicture> V4l2Camera::take() {
         SensorPicture picture{
             .sequence = buffer.sequence,
             .time = is_monotonic ? to_monotonic(buffer.timestamp) : MonotonicClock::now(),
-            .colour = {}};
-        const std::span<const std::byte> all = buffers_.at(buffer.index).bytes();
+            .colour = {},
+            .lent = {}};
+        const std::span<const std::byte> all = buffers_.at(buffer.index)->bytes();
         const bool is_faulty = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
         try {
-            if (!is_faulty)
-                picture.colour =
-                    to_colour({.format = mode_.format,
-                               .width_px = mode_.width_px,
-                               .height_px = mode_.height_px,
-                               .bytes_per_line = mode_.bytes_per_line,
-                               .bytes = all.first(std::min(request.bytes_used(), all.size()))});
+            if (!is_faulty) {
+                LentPicture whole =
+                    lent(buffer.index, all.first(std::min(request.bytes_used(), all.size())));
+                if (lends_) {
+                    (void)planes_of(whole.raw);
+                    whole.lease = lender_.lend(buffer.index, buffers_[buffer.index]);
+                    picture.lent = std::move(whole);
+                    return picture;
+                }
+                picture.colour = to_colour(whole.raw);
+            }
         } catch (const Error& error) {
             // One damaged picture is the camera's or the cable's fault and no reason to stop.
             log_debug("{}: {}", device_.path().string(), error.what());
@@ -278,9 +323,12 @@ std::vector<std::string> V4l2Camera::report() const {
     const std::string rate = mode_.rate_hz > 0 ? fmt::format("{:.4g} Hz", mode_.rate_hz)
                                                : std::string("a rate the driver does not tell");
     std::vector<std::string> lines = {
-        fmt::format("{} ('{}' on {}): {}x{} {} at {}, {} mapped buffers, converted on the CPU",
+        fmt::format("{} ('{}' on {}): {}x{} {} at {}, {} mapped buffers, {}",
                     device_.path().string(), device_.card(), device_.bus(), mode_.width_px,
-                    mode_.height_px, fourcc_text(fourcc_of(mode_.format)), rate, buffers_.size())};
+                    mode_.height_px, fourcc_text(fourcc_of(mode_.format)), rate, buffers_.size(),
+                    !specimen()            ? "every picture is converted on the processor"
+                    : buffers_[0]->dma_buf ? "shared as dma-bufs"
+                                           : "not shared")};
     const std::vector<V4l2Control> controls = device_.controls();
     for (const Automatic& automatic : automatics)
         for (const V4l2Control& control : controls)

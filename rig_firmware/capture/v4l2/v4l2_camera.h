@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/base/time.h"
+#include "common/base/unique_fd.h"
 #include "common/image/image.h"
+#include "rig_firmware/capture/buffer_lender.h"
 #include "rig_firmware/capture/pixel_conversion.h"
 #include "rig_firmware/capture/sensor_camera.h"
 #include "rig_firmware/capture/v4l2/v4l2_device.h"
@@ -23,10 +26,12 @@ struct V4l2Wish {
     std::string
         pixel_format;  ///< four characters, or empty: the first that is known and has the size
     std::map<std::string, int> controls;  ///< by the driver's name, upper and lower case alike
+    bool share_buffers = true;            ///< as dma-bufs, where the driver can
 };
 
-/// A V4L2 camera that streams into mapped buffers; pictures are converted and their buffers go back
-/// to the driver at once. Throws as V4l2Device does.
+/// A V4L2 camera that streams into mapped buffers, which the driver shares as dma-bufs where it can
+/// (VIDIOC_EXPBUF). Pictures are lent, or converted, in which case their buffers go back to the
+/// driver at once. Throws as V4l2Device does.
 class V4l2Camera final : public SensorCamera {
   public:
     /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
@@ -40,6 +45,8 @@ class V4l2Camera final : public SensorCamera {
     cv::Size size() const { return {mode_.width_px, mode_.height_px}; }
 
     std::optional<SensorPicture> take() override;
+    std::optional<LentPicture> specimen() const override;
+    void lend() override;
     std::uint64_t damaged() const override { return damaged_; }
     std::vector<std::string> report() const override;
 
@@ -56,10 +63,12 @@ class V4l2Camera final : public SensorCamera {
       public:
         Mapping(int fd, std::size_t length, std::int64_t offset);
         ~Mapping();
-        Mapping(Mapping&& other) noexcept;
-        Mapping& operator=(Mapping&&) = delete;
+        Mapping(const Mapping&) = delete;
+        Mapping& operator=(const Mapping&) = delete;
         bool is_mapped() const { return start_ != nullptr; }
         std::span<const std::byte> bytes() const { return {start_, length_}; }
+
+        UniqueFd dma_buf;  ///< none: the driver does not share it
 
       private:
         std::byte* start_ = nullptr;
@@ -70,13 +79,18 @@ class V4l2Camera final : public SensorCamera {
     bool set_format(PixelFormat format, const V4l2Wish& wish, bool only_try, cv::Size& offered);
     void set_rate(double rate_hz);
     void set_controls(const std::map<std::string, int>& wishes);
-    void map_buffers();
+    void map_buffers(bool share_them);
+    UniqueFd share(std::uint32_t index) const;
     void queue(std::uint32_t index);
+    void take_back(std::uint32_t index) noexcept;
+    LentPicture lent(std::uint32_t index, std::span<const std::byte> bytes) const;
 
     V4l2Device device_;
     Mode mode_;
-    std::vector<Mapping> buffers_;
+    std::vector<std::shared_ptr<const Mapping>> buffers_;
     std::uint64_t damaged_ = 0;
+    bool lends_ = false;
+    BufferLender lender_;  ///< last: what comes back uses what stands above
 };
 
 }  // namespace vantage

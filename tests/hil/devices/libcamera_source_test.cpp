@@ -91,7 +91,10 @@ TEST_F(TeddyOnUsb, HasTheDisparityThatTheFilesHave) {
     EXPECT_GT(cv::countNonZero(from_files), static_cast<int>(from_files.total() / 4));
     RigProcess rig(parts(cameras_source()));
     EXPECT_EQ(cv::norm(rig.next_frame()->disparity, from_files, cv::NORM_L1), 0);
-    EXPECT_THAT(rig.log(), HasSubstr("copied once on its way to the GPU"));
+    // With few buffers a camera keeps them.
+    EXPECT_THAT(rig.log(),
+                testing::AnyOf(HasSubstr("every picture is copied to the GPU"),
+                               HasSubstr("every picture is converted on the processor")));
 
     // Unplugged and plugged in again: the same daemon goes on by itself.
     const auto session = rig.next_frame()->session;

@@ -1,5 +1,6 @@
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -14,6 +15,8 @@
 
 namespace vantage {
 namespace {
+
+using testing::HasSubstr;
 
 const cv::Size sensor_size(640, 480);
 
@@ -74,6 +77,10 @@ TEST_F(TeddyOnVivid, HasTheDisparityThatTheFilesHave) {
     EXPECT_EQ(cv::norm(frame->disparity, from_files, cv::NORM_L1), 0);
     const nlohmann::json summary = nlohmann::json::parse(rig.stop());
     EXPECT_EQ(summary["source"]["damaged"], 0) << summary;
+    EXPECT_THAT(rig.log(), HasSubstr("shared as dma-bufs"));
+    EXPECT_THAT(rig.log(), HasSubstr("every picture is copied to the GPU: OpenGL ES is drawn by"));
+    EXPECT_GT(summary["source"]["copied_pictures"], 1) << summary;
+    EXPECT_EQ(summary["source"]["imported_pictures"], 0) << summary;
 }
 
 }  // namespace

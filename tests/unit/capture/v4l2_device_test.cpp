@@ -40,7 +40,8 @@ TEST(V4l2Camera, DeliversPicturesOfTheModeItWasAskedFor) {
                                .height_px = size.height_px,
                                .rate_hz = size.rates_hz.empty() ? 25 : size.rates_hz.front(),
                                .pixel_format = {},
-                               .controls = {}});
+                               .controls = {},
+                               .share_buffers = true});
             std::optional<SensorPicture> picture;
             const MonotonicTime deadline = MonotonicClock::now() + std::chrono::seconds(10);
             while (!picture && MonotonicClock::now() < deadline) picture = camera.take();

@@ -108,5 +108,13 @@ TEST_F(FrameIndexerTest, HoldsForADayWithAClockThatRuns100PpmFast) {
     EXPECT_EQ(model.state().steps, 0u);
 }
 
+TEST_F(FrameIndexerTest, CountsPulsesOfTheStageWhoseEdgeDidNotCome) {
+    for (const std::uint64_t i : {0u, 1u, 4u, 4u, 5u})
+        EXPECT_TRUE(indexer_.seen(grid_.time_of(k0 + i)));
+    EXPECT_FALSE(indexer_.seen(grid_.time_of(k0 + 6) + grid_.period() / 2));
+    EXPECT_EQ(indexer_.missing_edges(), 2u);
+    EXPECT_EQ(indexer_.stray_edges(), 1u);
+}
+
 }  // namespace
 }  // namespace vantage
