@@ -1,7 +1,9 @@
 #include "common/base/pulse_grid.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace vantage {
 namespace {
@@ -26,7 +28,8 @@ PulseGrid::PulseGrid(double rate_hz) {
 
 TaiTime PulseGrid::time_of(std::uint64_t index) const {
     const Wide ns = static_cast<Wide>(index) * seconds_ * nanoseconds_per_second / pulses_;
-    return tai_from_ns(static_cast<std::int64_t>(ns));
+    constexpr Wide last_ns = std::numeric_limits<std::int64_t>::max();
+    return tai_from_ns(static_cast<std::int64_t>(std::min(ns, last_ns)));
 }
 
 std::uint64_t PulseGrid::index_at_or_before(TaiTime time) const {

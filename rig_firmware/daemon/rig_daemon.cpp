@@ -13,6 +13,7 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/ptp4l_client.h"
@@ -86,6 +87,7 @@ struct RigDaemon::Impl {
                  const std::vector<LentPicture>& specimens, std::promise<void> ready);
     void publish();
     void keep_in_step(const RigHealth& facts);
+    void announce(std::uint64_t first_pulse);
     RigSync sync_now(const std::optional<PtpState>& ptp) const;
     void stop();
 
@@ -131,6 +133,8 @@ struct RigDaemon::Impl {
     PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
     std::vector<std::string> source_report, gpu_report;
     std::exception_ptr failure;
+
+    std::uint64_t refused_pulse = 0;  ///< only the thread that keeps in step uses it
 
     std::atomic<bool> stopping = false;
     std::atomic<bool> finished = false;
@@ -228,7 +232,7 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
         }
         if (trigger) {
             trigger->rethrow_failure();
-            if (const std::uint64_t first = publisher.announced_pulse()) trigger->announce(first);
+            announce(publisher.announced_pulse());
         }
         const RigSync now = sync_now(ptp);
         publisher.report(now);
@@ -237,6 +241,17 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
             sync = now;
         }
         std::this_thread::sleep_for(look_every);
+    }
+}
+
+/// 0: no host announced one. What a host announces wrongly is its fault, and no reason to end.
+void RigDaemon::Impl::announce(std::uint64_t first_pulse) {
+    if (first_pulse == 0 || first_pulse == refused_pulse) return;
+    try {
+        trigger->announce(first_pulse);
+    } catch (const Error& error) {
+        log_error("{}: {}", config.name, error.what());
+        refused_pulse = first_pulse;
     }
 }
 

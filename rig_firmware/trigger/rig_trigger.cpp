@@ -40,6 +40,18 @@ class IndexingTrigger : public RigTrigger {
     }
 
   protected:
+    void check_announced(std::uint64_t first_pulse) const {
+        constexpr std::chrono::hours farthest(1);
+        const auto ahead = grid_.time_of(first_pulse) - TaiClock::now();
+        if (ahead > farthest)
+            fail(
+                "the host announced pulse {} as the first of the take, and at this rig's {:g} Hz "
+                "that is {} hours ahead: give rate_hz in stage.toml and in [source] of rig.toml "
+                "the same value",
+                first_pulse, grid_.rate_hz(),
+                std::chrono::duration_cast<std::chrono::hours>(ahead).count());
+    }
+
     const SensorTiming timing_;
     const PulseGrid grid_;
     mutable std::mutex mutex_;
@@ -59,6 +71,7 @@ class LeadingTrigger final : public IndexingTrigger {
     }
 
     void announce(std::uint64_t first_pulse) override {
+        check_announced(first_pulse);
         if (first_pulse_.exchange(first_pulse) != first_pulse) sender_.start(first_pulse);
     }
 
@@ -95,6 +108,7 @@ class FollowingTrigger final : public IndexingTrigger {
     }
 
     void announce(std::uint64_t first_pulse) override {
+        check_announced(first_pulse);
         const std::lock_guard lock(mutex_);
         status_.first_pulse = first_pulse;
     }

@@ -33,7 +33,8 @@ class RigTrigger {
     static std::unique_ptr<RigTrigger> make(const RigConfig& config);
     virtual ~RigTrigger() = default;
 
-    /// The host's word: pulses begin with this one, or with the next where it has passed.
+    /// The host's word: pulses begin with this one, or with the next where it has passed. Throws
+    /// Error, and leaves all as it is, for one so far ahead that the host counts at another rate.
     virtual void announce(std::uint64_t first_pulse) = 0;
 
     /// The pulse of the frame with this time stamp; empty: unsynchronized.

@@ -29,6 +29,10 @@ TEST(PulseGrid, KnowsBroadcastRates) {
     EXPECT_EQ(PulseGrid(0.01).time_of(1), TaiTime(seconds(100)));
 }
 
+TEST(PulseGrid, PulsesBeyondTheEndOfTimeAreAtItsEnd) {
+    EXPECT_EQ(PulseGrid(0.5).time_of(53'000'000'000), TaiTime::max());
+}
+
 TEST(PulseGrid, FindsThePulseOfATime) {
     for (const double rate_hz : {30.0, 29.97, 5.0, 119.88, 1000.0, 0.1}) {
         const PulseGrid grid(rate_hz);
