@@ -107,13 +107,10 @@ struct RigDaemon::Impl {
 
     template <class Change>
     void count(Change change) {
-        RigCounters now;
-        {
-            const std::lock_guard lock(mutex);
-            change(counters);
-            now = counters;
-        }
-        publisher.report(now);
+        const std::lock_guard lock(mutex);
+        change(counters);
+        // Within the lock, so that no older count comes after a newer one.
+        publisher.report(counters);
     }
 
     const RigConfig config;
@@ -200,22 +197,19 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
 void RigDaemon::Impl::capture_one(StereoSource& source) {
     if (source.works_on_demand() && !captured.wait_for_room(wait_slice)) return;
     std::optional<StereoFrame> frame = source.next(wait_slice);
-    const std::uint64_t missed = source.missed();
-    bool made_room = false;
-    const bool has_frame = frame.has_value();
+    // Counted before it is handed on: what is published has been captured at any moment.
+    count([&](RigCounters& c) {
+        c.missed = source.missed();
+        c.captured += frame.has_value();
+        source_counters = source.counters();
+        sensor_clock = source.clock();
+    });
     if (frame) {
         const auto age = TaiClock::now() - frame->exposure;
         // Some drivers stamp a picture with the end of its period, which is still to come.
         const float age_ms = std::max(0.0f, std::chrono::duration<float, std::milli>(age).count());
-        made_room = captured.push({std::move(*frame), age_ms}).has_value();
+        if (captured.push({std::move(*frame), age_ms})) count([](RigCounters& c) { ++c.late; });
     }
-    count([&](RigCounters& c) {
-        c.missed = missed;
-        c.captured += has_frame;
-        c.late += made_room;
-        source_counters = source.counters();
-        sensor_clock = source.clock();
-    });
 }
 
 /// Hands the host's first pulse to the trigger, and the state of pulses, clocks and computer to
