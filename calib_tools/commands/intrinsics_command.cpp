@@ -25,8 +25,8 @@ namespace {
 struct Options {
     BoardOptions board;
     LensOption lens;
-    LiveOption live;
-    std::string rig, side = "left";
+    LiveRigOption live;
+    std::string side = "left";
     std::string pictures, output;
     std::string html;
     bool json = false;
@@ -58,11 +58,10 @@ std::vector<SeenPicture> look(const Options& options, const BoardPattern& patter
         if (options.pictures.empty()) fail("which pictures? give --images, or --live and --rig");
         return look_at_pictures(expand_pictures(options.pictures), pattern);
     }
-    if (options.rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
-    const std::vector<RigFolder> rig = parse_rig_folders({options.rig});
-    LiveRigs rigs = options.live.connect(rig);
+    const RigFolder rig = options.live.folder();
+    LiveRigs rigs = options.live.connect({rig});
     BoardFilm film =
-        film_board(rigs, {{0, options.side == "left", options.side, rig[0].folder}}, pattern,
+        film_board(rigs, {{0, options.side == "left", options.side, rig.folder}}, pattern,
                    options.live.most_views(), all_see_board, lens_advice({options.side}));
     return std::move(film.pictures[0]);
 }
@@ -97,9 +96,6 @@ CommandEntry intrinsics_command_entry() {
         options->lens.add_to(*command);
         command->add_option("--images", options->pictures, "pictures: 'PATTERN' or folder");
         options->live.add_to(*command);
-        command->add_option("--rig", options->rig,
-                            "live: NAME=FOLDER, the rig of the stage and the folder that keeps its "
-                            "pictures");
         command->add_option("--side", options->side, "live: which of its cameras")
             ->check(CLI::IsMember({"left", "right"}))
             ->capture_default_str();

@@ -1,5 +1,7 @@
 #include "calib_tools/commands/live_option.h"
 
+#include "common/base/error.h"
+
 namespace vantage {
 
 void LiveOption::add_to(CLI::App& command) {
@@ -14,6 +16,18 @@ void LiveOption::add_to(CLI::App& command) {
         ->check(CLI::Range(1, 3600))
         ->capture_default_str()
         ->needs(live);
+}
+
+void LiveRigOption::add_to(CLI::App& command) {
+    LiveOption::add_to(command);
+    command.add_option(
+        "--rig", rig,
+        "live: NAME=FOLDER, the rig of the stage and the folder that keeps its pictures");
+}
+
+RigFolder LiveRigOption::folder() const {
+    if (rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
+    return parse_rig_folders({rig}).front();
 }
 
 LiveRigs LiveOption::connect(const std::vector<RigFolder>& rigs) const {

@@ -23,4 +23,13 @@ struct LiveOption {
     LiveRigs connect(const std::vector<RigFolder>& rigs) const;
 };
 
+/// The same for commands that film one rig only, whose --rig goes with --live.
+struct LiveRigOption : LiveOption {
+    std::string rig;
+
+    void add_to(CLI::App& command);
+    /// Throws Error if no rig was named, and as parse_rig_folders does.
+    RigFolder folder() const;
+};
+
 }  // namespace vantage

@@ -21,8 +21,7 @@ namespace {
 struct Options {
     BoardOptions board;
     LensOption lens;
-    LiveOption live;
-    std::string rig;
+    LiveRigOption live;
     std::string left, right, output;
     double alpha = 0;
     std::vector<int> rectified_size;
@@ -49,12 +48,11 @@ SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) 
 }
 
 SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
-    if (options.rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
-    const std::vector<RigFolder> rig = parse_rig_folders({options.rig});
-    LiveRigs rigs = options.live.connect(rig);
-    BoardFilm film = film_board(
-        rigs, {{0, true, "left", rig[0].folder}, {0, false, "right", rig[0].folder}}, pattern,
-        options.live.most_views(), all_see_board, lens_advice({"left", "right"}));
+    const RigFolder rig = options.live.folder();
+    LiveRigs rigs = options.live.connect({rig});
+    BoardFilm film =
+        film_board(rigs, {{0, true, "left", rig.folder}, {0, false, "right", rig.folder}}, pattern,
+                   options.live.most_views(), all_see_board, lens_advice({"left", "right"}));
     return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}};
 }
 
@@ -107,9 +105,6 @@ CommandEntry stereo_command_entry() {
         command->add_option("--left", options->left, "left pictures: 'PATTERN' or folder");
         command->add_option("--right", options->right, "right pictures: 'PATTERN' or folder");
         options->live.add_to(*command);
-        command->add_option("--rig", options->rig,
-                            "live: NAME=FOLDER, the rig of the stage and the folder that keeps its "
-                            "pictures");
         command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
             ->required();
         command

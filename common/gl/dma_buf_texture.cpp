@@ -1,6 +1,5 @@
 #include "common/gl/dma_buf_texture.h"
 
-#include <array>
 #include <utility>
 #include <vector>
 

@@ -291,9 +291,8 @@ std::string clock_text(const RigStatus& rig) {
         return fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", rig.sync.ptp_state,
                            rig.sync.ptp_offset_ns, rig.sync.ptp_path_delay_ns);
     return rig.sync.ptp_state.empty()
-               ? std::string("clocks not disciplined: skew unknown (no ptp4l at the rig)")
-               : fmt::format("clocks not disciplined: skew unknown (ptp4l is {})",
-                             rig.sync.ptp_state);
+               ? fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined)
+               : fmt::format("{} (ptp4l is {})", clocks_not_disciplined, rig.sync.ptp_state);
 }
 
 StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose)

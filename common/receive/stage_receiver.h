@@ -54,8 +54,10 @@ struct ReceiverStatus {
         0;  ///< closed and not taken by next() before newer ones pushed them out
 };
 
-/// How far the rig's clock may be from the stage's, in words: PTP's offset and path delay, or that
-/// it is not known.
+inline constexpr const char* clocks_not_disciplined = "clocks not disciplined: skew unknown";
+
+/// How far the rig's clock may be from the stage's, in words: PTP's offset and path delay, or
+/// clocks_not_disciplined and why.
 std::string clock_text(const RigStatus& rig);
 
 /// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them by

@@ -79,15 +79,28 @@ std::string rig_tables(const LiveReport& report) {
     return text;
 }
 
+/// Heat and supply; nothing of a rig that is away, for what it said last may not hold any more.
+std::vector<std::string> computer_worries_of(const RigStatus& status) {
+    // A Raspberry Pi's processors slow down from here on.
+    constexpr float hot_c = 80;
+    std::vector<std::string> worries;
+    if (!status.connected) return worries;
+    if (status.health.temperature_c.value_or(0) >= hot_c)
+        worries.push_back(fmt::format("{:.0f} C, it slows down from {:.0f}",
+                                      *status.health.temperature_c, hot_c));
+    if (status.health.under_voltage) worries.emplace_back("its supply sags");
+    return worries;
+}
+
 /// What a person must know of a rig beyond its numbers.
 std::string rig_remarks(const LiveReport& report) {
     std::string text;
     for (const RigAccount& rig : report.rigs) {
         if (!rig.status.connected)
             text += fmt::format("{} is {}\n", rig.status.rig, state_of(rig.status));
-        else if (!rig.status.same_clock && rig.status.sync.disciplined)
+        else if (!rig.status.same_clock)
             text += fmt::format("{}: {}\n", rig.status.rig, clock_text(rig.status));
-        for (const std::string& worry : worries_of(rig.status))
+        for (const std::string& worry : computer_worries_of(rig.status))
             text += fmt::format("{}: {}\n", rig.status.rig, worry);
         if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
             text += fmt::format("{}: {}\n", rig.status.rig, pulses);
@@ -106,16 +119,9 @@ std::string state_of(const RigStatus& status) {
 }
 
 std::vector<std::string> worries_of(const RigStatus& status) {
-    // A Raspberry Pi's processors slow down from here on.
-    constexpr float hot_c = 80;
-    std::vector<std::string> worries;
-    if (!status.connected) return worries;
-    if (status.health.temperature_c.value_or(0) >= hot_c)
-        worries.push_back(fmt::format("{:.0f} C, it slows down from {:.0f}",
-                                      *status.health.temperature_c, hot_c));
-    if (status.health.under_voltage) worries.emplace_back("its supply sags");
-    if (!status.same_clock && !status.sync.disciplined)
-        worries.emplace_back("clocks not disciplined: skew unknown");
+    std::vector<std::string> worries = computer_worries_of(status);
+    if (status.connected && !status.same_clock && !status.sync.disciplined)
+        worries.emplace_back(clocks_not_disciplined);
     return worries;
 }
 

@@ -25,7 +25,6 @@ struct Options {
 };
 
 nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& status) {
-    const RigCounters& c = status.publisher.counters;
     nlohmann::ordered_json hosts = nlohmann::ordered_json::array();
     for (const HostLinks::HostStatus& host : status.publisher.hosts)
         hosts.push_back({{"key", host.host_key},
@@ -37,20 +36,17 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
     nlohmann::ordered_json source = nlohmann::ordered_json::object();
     for (const SourceCounter& counter : status.source_counters)
         source[counter.name] = counter.count;
-    return {{"rig", rig},
-            {"captured", c.captured},
-            {"missed", c.missed},
-            {"late", c.late},
-            {"published", c.published},
-            {"send_dropped", c.send_dropped},
-            {"source", source},
-            {"sync", to_json(status.sync)},
-            {"hosts", hosts},
-            {"capture_ms", to_json(status.capture_ms)},
-            {"rectify_ms", to_json(status.rectify_ms)},
-            {"match_ms", to_json(status.match_ms)},
-            {"pack_ms", to_json(status.pack_ms)},
-            {"latency_ms", to_json(status.latency_ms)}};
+    nlohmann::ordered_json summary{{"rig", rig}};
+    summary.update(to_json(status.publisher.counters));
+    summary.update({{"source", source},
+                    {"sync", to_json(status.sync)},
+                    {"hosts", hosts},
+                    {"capture_ms", to_json(status.capture_ms)},
+                    {"rectify_ms", to_json(status.rectify_ms)},
+                    {"match_ms", to_json(status.match_ms)},
+                    {"pack_ms", to_json(status.pack_ms)},
+                    {"latency_ms", to_json(status.latency_ms)}});
+    return summary;
 }
 
 /// What became of the frames so far, with the rate since the last line.
