@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/base/error.h"
+#include "common/config/rig_config.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
 
@@ -13,8 +14,9 @@ namespace {
 
 constexpr std::chrono::seconds longest_wait{300};
 
-StageConfig stage_of(const std::string& endpoint) {
+StageConfig stage_of(const std::string& endpoint, double rate_hz) {
     StageConfig stage;
+    stage.rate_hz = rate_hz;
     stage.rigs.push_back({.name = "rig", .endpoint = endpoint, .public_key = {}});
     return stage;
 }
@@ -26,14 +28,22 @@ struct RigProcess::Receiver {
     StageReceiver stage_receiver;
 };
 
-RigProcess::RigProcess(const std::string& parts) : endpoint_("tcp://127.0.0.1:5690") {
-    const std::filesystem::path config = folder_.path() / "rig.toml";
-    std::ofstream(config) << "version = 1\nname = \"rig\"\n"
-                          << parts << "[stream]\nbind = \"" << endpoint_ << "\"\n";
+RigProcess::RigProcess(const std::string& parts) {
+    const std::string endpoint = "tcp://127.0.0.1:5690";
+    std::ofstream(config_file()) << "version = 1\nname = \"rig\"\n"
+                                 << parts << "[stream]\nbind = \"" << endpoint << "\"\n";
+    start();
+    receiver_ = std::make_shared<Receiver>(
+        stage_of(endpoint, load_rig_config(config_file()).source.rate_hz));
+}
+
+std::filesystem::path RigProcess::config_file() const { return folder_.path() / "rig.toml"; }
+
+void RigProcess::start() {
     program_ = std::make_unique<ChildProgram>(
-        VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", config.string(), "--json"},
+        VANTAGE_RIG_PROGRAM,
+        std::vector<std::string>{"run", "--config", config_file().string(), "--json"},
         folder_.path());
-    receiver_ = std::make_shared<Receiver>(stage_of(endpoint_));
 }
 
 std::shared_ptr<const RigFrame> RigProcess::next_frame() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -21,10 +22,13 @@ class RigProcess {
     std::string log() const { return program_->err(); }
     /// Ends it in order: its closing summary as JSON.
     std::string stop();
+    /// After stop(): runs it again for the same host, with a log of its own.
+    void start();
 
   private:
+    std::filesystem::path config_file() const;
+
     TemporaryFolder folder_;
-    std::string endpoint_;
     std::unique_ptr<ChildProgram> program_;
     struct Receiver;
     std::shared_ptr<Receiver> receiver_;
