@@ -185,8 +185,10 @@ class CameraSource final : public StereoSource {
         if (trigger_) {
             const std::optional<std::uint64_t> index = trigger_->index_of(stamp);
             frame.synchronized = index.has_value();
-            frame.trigger_index = index.value_or(grid_.nearest_index(stamp));
             frame.exposure = trigger_->exposure_centre(stamp);
+            // One of no pulse goes by the pulse before it, so that it never takes the place of a
+            // frame that is still to come.
+            frame.trigger_index = index.value_or(grid_.index_at_or_before(frame.exposure));
             return frame;
         }
         const std::optional<std::uint64_t> index = numberer_.number(stamp);
