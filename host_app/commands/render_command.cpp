@@ -25,6 +25,7 @@ constexpr int timed_renderings = 5;
 
 struct RenderOptions {
     std::string views, hold_out, pose, synthesiser = default_synthesiser, output, difference;
+    std::vector<std::string> earlier;
     bool novelty = false, json = false;
     StereoscopicOptions stereoscopic;
 };
@@ -32,8 +33,8 @@ struct RenderOptions {
 /// One camera, or two eyes beside each other; plain, or with the novelty overlay.
 class Rendering {
   public:
-    Rendering(const RenderOptions& options, const ViewSet& set, const VirtualView& target,
-              const ShaderLibrary& shaders)
+    Rendering(const RenderOptions& options, const std::vector<ViewSet>& earlier, const ViewSet& set,
+              const VirtualView& target, const ShaderLibrary& shaders)
         : synthesiser_(make_synthesiser(options.synthesiser, shaders)), overlay_(shaders) {
         eyes_ = {target};
         if (const auto asked = options.stereoscopic.stereoscopy()) {
@@ -47,6 +48,10 @@ class Rendering {
             synthesiser_->note_origins(false);
             for (const DepthView& view : set.views)
                 if (!view.depth_m.empty()) overlay_.name_rigs({view.name});
+        }
+        for (const ViewSet& instant : earlier) {
+            synthesiser_->set_views(instant.views);
+            synthesiser_->render(target);
         }
         synthesiser_->set_views(set.views);
     }
@@ -67,6 +72,7 @@ class Rendering {
             const auto eyes = static_cast<double>(eyes_.size());
             for (const auto& [rig, share] : shares.rigs) sum.rigs[rig] += share / eyes;
             sum.filled += shares.filled / eyes;
+            sum.remembered += shares.remembered / eyes;
             return overlay_.lay(eye, origins);
         });
         synthesiser_->note_origins(false);
@@ -96,6 +102,8 @@ class Rendering {
 
 void render(const RenderOptions& options) {
     ViewSet set = load_view_set(options.views);
+    std::vector<ViewSet> earlier;
+    for (const std::string& folder : options.earlier) earlier.push_back(load_view_set(folder));
     VirtualView target;
     ColourImage truth;
     if (!options.hold_out.empty()) {
@@ -105,6 +113,9 @@ void render(const RenderOptions& options) {
         truth = held_out->colour;
         target = {truth.cols, truth.rows, held_out->K, held_out->world_from_camera};
         set.views.erase(held_out);
+        for (ViewSet& instant : earlier)
+            std::erase_if(instant.views,
+                          [&](const DepthView& view) { return view.name == options.hold_out; });
     } else {
         target = load_virtual_view(options.pose);
     }
@@ -119,7 +130,7 @@ void render(const RenderOptions& options) {
     const GlInfo gl = GlInfo::query();
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
-    Rendering rendering(options, set, target, shaders);
+    Rendering rendering(options, earlier, set, target, shaders);
     const ColourImage picture = rendering.plain().download();
     const double gpu_ms = median_gpu_ms(timed_renderings, [&] { rendering.plain(); });
 
@@ -132,6 +143,7 @@ void render(const RenderOptions& options) {
         result["ssim"] = ssim(picture, truth);
     }
     result["coverage"] = coverage(picture);
+    result["remembered"] = remembered(picture);
     result["gpu_ms"] = gpu_ms;
     result["renderer"] = gl.renderer;
     if (const auto& eyes = rendering.stereoscopy()) result["stereoscopic"] = to_json(*eyes);
@@ -162,6 +174,9 @@ CommandEntry render_command_entry() {
             "Synthesisers:" +
             synthesisers);
         command->add_option("--views", options->views, "Folder with a views.json")->required();
+        command->add_option("--earlier", options->earlier,
+                            "Folders with the same rigs' views at instants before, oldest first: "
+                            "background that is hidden now is filled with what was seen");
         auto* target = command->add_option_group("camera", "which view to render");
         auto* hold_out = target->add_option(
             "--hold-out", options->hold_out,

@@ -5,12 +5,19 @@
 #include "host_app/fusion/projection.h"
 
 namespace vantage {
+
+int triangle_indices(cv::Size depth_size, QuadGrid grid) {
+    const int step = static_cast<int>(grid);
+    return 6 * ((depth_size.width - 1) / step) * ((depth_size.height - 1) / step);
+}
+
 void GpuView::upload(const DepthView& view) {
     const bool is_same_camera =
         colour_ && depth_ && colour_->size() == view.colour.size() &&
         depth_->size() == view.depth_m.size() && camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
     if (!is_same_camera || !is_prepared_) has_steady_ = false;
+    if (!is_same_camera) plate_->forget();
     is_prepared_ = false;
     camera_ = view;
     camera_.colour.release();
@@ -66,8 +73,7 @@ Eigen::Matrix3d GpuView::K_depth() const {
 }
 
 int GpuView::triangle_indices(QuadGrid grid) const {
-    const int step = static_cast<int>(grid);
-    return 6 * ((depth_->width_px() - 1) / step) * ((depth_->height_px() - 1) / step);
+    return vantage::triangle_indices(depth_->size(), grid);
 }
 
 void upload_views(std::span<const DepthView> views, std::vector<std::unique_ptr<GpuView>>& on_gpu) {

@@ -11,12 +11,16 @@
 #include "common/gl/texture.h"
 #include "host_app/fusion/depth_view.h"
 #include "host_app/fusion/drawn_texture.h"
+#include "host_app/fusion/learnt_plate.h"
 #include "host_app/fusion/surface_samples.h"
 
 namespace vantage {
 
 /// How many pixels of a depth map a quad of its grid spans.
 enum class QuadGrid { fine = 1, coarse = 2 };
+
+/// Two triangles a quad of the grid over a depth map of this size.
+int triangle_indices(cv::Size depth_size, QuadGrid grid);
 
 /// One depth view on the GPU. Textures stay while the sizes stay.
 class GpuView {
@@ -53,6 +57,9 @@ class GpuView {
     bool is_prepared() const { return is_prepared_; }
     void set_prepared() { is_prepared_ = true; }
 
+    /// What this rig has learnt of its background; another camera or size begins anew.
+    LearntPlate& plate() const { return *plate_; }
+
     /// How far this rig takes part, 0..1: it fades in when it comes and out when it is gone.
     float presence() const { return presence_; }
     void set_presence(float presence) { presence_ = presence; }
@@ -79,6 +86,7 @@ class GpuView {
     std::size_t steady_now_ = 0;
     bool has_steady_ = false, is_prepared_ = false;
     float presence_ = 1;
+    std::unique_ptr<LearntPlate> plate_ = std::make_unique<LearntPlate>();
     std::optional<Buffer> triangles_, coarse_triangles_;
     SurfaceSamples samples_;
 };

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "host_app/fusion/synthesiser.h"
+
 namespace vantage {
 namespace {
 
@@ -68,6 +70,12 @@ cv::Mat1b covered_mask(const ColourImage& rendered) {
     cv::Mat1b alpha;
     cv::extractChannel(rendered, alpha, 3);
     return alpha >= 128;
+}
+
+double remembered(const ColourImage& rendered) {
+    cv::Mat1b alpha;
+    cv::extractChannel(rendered, alpha, 3);
+    return cv::countNonZero(alpha == remembered_alpha) / static_cast<double>(rendered.total());
 }
 
 double coverage(const ColourImage& rendered) {

@@ -18,6 +18,8 @@ double ssim(const ColourImage& a, const ColourImage& b);
 
 /// The share of pixels that a rig saw: alpha of 128 and above (see Synthesiser).
 double coverage(const ColourImage& rendered);
+/// The share of pixels that no rig sees now, but one saw before (remembered_alpha).
+double remembered(const ColourImage& rendered);
 cv::Mat1b covered_mask(const ColourImage& rendered);
 
 /// Mean absolute difference of R, G and B, 0..255, over the pixels where `mask` is not zero; 0 if

@@ -28,7 +28,8 @@ FullscreenPass& LayerBlender::pass(std::size_t layers) {
     return *noting;
 }
 
-const Texture& LayerBlender::blend(const VirtualView& view, const MoreInputs& more) {
+const Texture& LayerBlender::blend(const VirtualView& view, const MoreInputs& more,
+                                   const BeforeFilling& before_filling) {
     blended_.resize({view.width_px, view.height_px}, notes_origins_);
     if (layers_.used().empty()) {
         blended_.clear();
@@ -45,7 +46,8 @@ const Texture& LayerBlender::blend(const VirtualView& view, const MoreInputs& mo
         origins_ = {blended_.shares(), {}};
         for (const GpuView* layer : layers_.used()) origins_->rigs.push_back(layer->camera().name);
     }
-    return filler_.fill(blended_.colour(), blended_.depth_m());
+    const DepthPicture& picture = before_filling ? before_filling(blended_) : blended_;
+    return filler_.fill(picture.colour(), picture.depth_m());
 }
 
 }  // namespace vantage

@@ -28,9 +28,12 @@ class LayerBlender {
 
     /// Sets more uniforms of the shader; texture units from the given one on are free.
     using MoreInputs = std::function<void(Program& program, int first_free_unit)>;
+    /// Adds to a picture before its holes are filled.
+    using BeforeFilling = std::function<const DepthPicture&(const DepthPicture& blended)>;
     /// The picture of the layers that were drawn last, of the view's size; valid until the next
     /// call.
-    const Texture& blend(const VirtualView& view, const MoreInputs& more = {});
+    const Texture& blend(const VirtualView& view, const MoreInputs& more = {},
+                         const BeforeFilling& before_filling = {});
 
     void note_origins(bool noted) { notes_origins_ = noted; }
     const PixelOrigins* origins() const { return origins_ ? &*origins_ : nullptr; }

@@ -12,6 +12,11 @@ constexpr double steepest_slope = 8.0;
 /// A step below this share of the depth never is (depth codes are quantised).
 constexpr double smallest_step = 0.0075;
 
+DepthGrid surface_of(const GpuView& view, QuadGrid grid) {
+    return {view.surface(), view.triangles(grid), view.K_depth(), view.camera().world_from_camera,
+            grid};
+}
+
 }  // namespace
 
 MeshRasteriser::MeshRasteriser(const ShaderLibrary& library)
@@ -22,28 +27,38 @@ MeshRasteriser::MeshRasteriser(const ShaderLibrary& library)
       draw_(Program::render(library, "mesh_depth.vert", "depth_only.frag")) {}
 
 void MeshRasteriser::build_triangles(const GpuView& view, QuadGrid grid) {
-    if (view.triangle_indices(grid) == 0) return;
-    const int step = static_cast<int>(grid);
-    const double f_px = view.K_depth()(0, 0);
-    Program& build = grid == QuadGrid::fine ? build_ : build_coarse_;
+    build_triangles(surface_of(view, grid));
+}
+
+void MeshRasteriser::build_triangles(const DepthGrid& grid) {
+    if (triangle_indices(grid.depth_m.size(), grid.grid) == 0) return;
+    const int step = static_cast<int>(grid.grid);
+    Program& build = grid.grid == QuadGrid::fine ? build_ : build_coarse_;
     build.use();
     build.set("depth_map", 0);
     // The same for both: a coarse quad that a fine one would not span is left out.
-    build.set("tolerance", static_cast<float>(std::max(steepest_slope / f_px, smallest_step)));
-    view.surface().bind(0);
-    view.triangles(grid).bind_storage(0);
-    build.dispatch_over((view.depth().width_px() - 1) / step,
-                        (view.depth().height_px() - 1) / step);
+    build.set("tolerance",
+              static_cast<float>(std::max(steepest_slope / grid.K(0, 0), smallest_step)));
+    grid.depth_m.bind(0);
+    grid.triangles.bind_storage(0);
+    build.dispatch_over((grid.depth_m.width_px() - 1) / step,
+                        (grid.depth_m.height_px() - 1) / step);
     glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
 }
 
 void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, double near_m,
                                 const Framebuffer& depth_only, QuadGrid grid) {
+    draw_depth(surface_of(view, grid), target, near_m, depth_only);
+}
+
+void MeshRasteriser::draw_depth(const DepthGrid& grid, const VirtualView& target, double near_m,
+                                const Framebuffer& depth_only) {
     depth_only.bind();
     glDepthMask(GL_TRUE);
     glClearDepthf(1.0f);
     glClear(GL_DEPTH_BUFFER_BIT);
-    if (view.triangle_indices(grid) == 0) return;
+    const int indices = triangle_indices(grid.depth_m.size(), grid.grid);
+    if (indices == 0) return;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
@@ -52,15 +67,14 @@ void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, 
     glDisable(GL_BLEND);
     draw_.use();
     draw_.set("depth_map", 0);
-    draw_.set(
-        "clip_from_pixel",
-        Eigen::Matrix4f((clip_from_target(target, near_m) *
-                         target_from_pixel(target, view.camera().world_from_camera, view.K_depth()))
-                            .cast<float>()));
-    view.surface().bind(0);
+    draw_.set("clip_from_pixel",
+              Eigen::Matrix4f((clip_from_target(target, near_m) *
+                               target_from_pixel(target, grid.world_from_camera, grid.K))
+                                  .cast<float>()));
+    grid.depth_m.bind(0);
     vertices_.bind();
-    view.triangles(grid).bind(GL_ELEMENT_ARRAY_BUFFER);
-    glDrawElements(GL_TRIANGLES, view.triangle_indices(grid), GL_UNSIGNED_INT, nullptr);
+    grid.triangles.bind(GL_ELEMENT_ARRAY_BUFFER);
+    glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
 }

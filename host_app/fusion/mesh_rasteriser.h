@@ -8,6 +8,15 @@
 
 namespace vantage {
 
+/// A depth map of a camera, as a grid of quads.
+struct DepthGrid {
+    const Texture& depth_m;   ///< r32f, 0 = unknown, negative = guessed
+    const Buffer& triangles;  ///< of triangle_indices() of the depth map's size and the grid
+    Eigen::Matrix3d K;        ///< of the depth map
+    Pose world_from_camera;
+    QuadGrid grid = QuadGrid::fine;
+};
+
 /// A depth map as a regular grid of quads, a vertex a pixel, displaced by depth. Where neighbouring
 /// pixels lie on different surfaces nothing is spanned between them: the edge filter, a high-pass
 /// of the inverse depth, keeps their triangles out.
@@ -17,11 +26,14 @@ class MeshRasteriser {
 
     /// Runs the edge filter over the view's depth and writes its triangles. Once an upload.
     void build_triangles(const GpuView& view, QuadGrid grid = QuadGrid::fine);
+    void build_triangles(const DepthGrid& grid);
 
     /// Draws the view's surface into a depth-only framebuffer of the target's size: 1 - near / z, 1
     /// where there is nothing. Surfaces seen from behind are left out. Clears before.
     void draw_depth(const GpuView& view, const VirtualView& target, double near_m,
                     const Framebuffer& depth_only, QuadGrid grid = QuadGrid::fine);
+    void draw_depth(const DepthGrid& grid, const VirtualView& target, double near_m,
+                    const Framebuffer& depth_only);
 
   private:
     Program build_, build_coarse_, draw_;

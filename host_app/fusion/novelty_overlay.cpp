@@ -37,7 +37,7 @@ cv::Vec3b novelty_colour(std::size_t rig) {
 }
 
 nlohmann::ordered_json to_json(const NoveltyShares& shares) {
-    return {{"rigs", shares.rigs}, {"filled", shares.filled}};
+    return {{"rigs", shares.rigs}, {"filled", shares.filled}, {"remembered", shares.remembered}};
 }
 
 NoveltyShares novelty_shares(const ColourImage& picture, const PixelOrigins& origins) {
@@ -51,6 +51,10 @@ NoveltyShares novelty_shares(const ColourImage& picture, const PixelOrigins& ori
         for (int x = 0; x < picture.cols; ++x) {
             const cv::Vec4b& share = shares(y, x);
             const double all = share[0] + share[1] + share[2] + share[3];
+            if (picture(y, x)[3] == remembered_alpha) {
+                result.remembered += 1 / pixels;
+                continue;
+            }
             if (picture(y, x)[3] < 128 || all == 0) {
                 result.filled += 1 / pixels;
                 continue;
@@ -92,6 +96,10 @@ const Texture& NoveltyOverlay::lay(const Texture& picture, const PixelOrigins& o
         program.set(fmt::format("rig_colour[{}]", i), as_float(colour_of(origins.rigs[i])));
     program.set("filled_colour", as_float({novelty_filled_colour[0], novelty_filled_colour[1],
                                            novelty_filled_colour[2]}));
+    program.set("remembered_colour",
+                as_float({novelty_remembered_colour[0], novelty_remembered_colour[1],
+                          novelty_remembered_colour[2]}));
+    program.set("remembered_alpha", remembered_alpha / 255.0f);
     picture.bind(0);
     origins.shares->bind(1);
     pass_.draw(overlaid_.target());

@@ -19,6 +19,9 @@ struct VirtualView {
     Pose world_from_camera = Pose::Identity();
 };
 
+/// Alpha of pixels that no rig sees now, but one saw before what hides them came.
+inline constexpr unsigned char remembered_alpha = 96;
+
 /// Which rigs a picture's pixels come from.
 struct PixelOrigins {
     static constexpr std::size_t max_rigs = 4;
@@ -39,9 +42,14 @@ class Synthesiser {
     /// one or none.
     virtual void set_views(std::span<const DepthView> views) = 0;
 
+    /// The next instant does not follow the last one (a cut, or time that is gone through): what
+    /// was learnt along time is not to be shown in it.
+    virtual void forget() {}
+
     /// Renders. The result is an rgba8 texture of the view's size, top row first, owned by the
     /// synthesiser and valid until the next call. Alpha is 255 where a rig saw the surface, and
-    /// below 128 where the pixel was filled in or stayed empty (this is what `coverage` counts).
+    /// below 128 where the pixel was filled in or stayed empty (this is what `coverage` counts):
+    /// remembered_alpha where a rig saw it at an instant before.
     virtual const Texture& render(const VirtualView& view) = 0;
 
     /// Lets render() note, or no longer note, which rigs its pixels come from. False: this one

@@ -212,7 +212,8 @@ std::string to_text(const LiveReport& report) {
         text += "pixels of the last picture by rig:";
         for (const auto& [rig, share] : report.novelty->rigs)
             text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
-        text += fmt::format(" filled {:.1f} %\n", 100 * report.novelty->filled);
+        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.novelty->filled,
+                            100 * report.novelty->remembered);
     }
     for (const DeckDevice& wheel : report.wheels)
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",

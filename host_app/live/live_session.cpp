@@ -130,7 +130,11 @@ std::vector<DepthView> LiveSession::views_of(const FrameSet& set) const {
     return views;
 }
 
-void LiveSession::give_to_synthesiser(std::vector<DepthView> views) {
+void LiveSession::give_to_synthesiser(std::vector<DepthView> views, std::uint64_t trigger_index) {
+    const auto pulses_of_cut = static_cast<std::uint64_t>(settings_.pulse_rate_hz) + 1;
+    if (shown_ && (trigger_index < shown_->trigger_index ||
+                   trigger_index > shown_->trigger_index + pulses_of_cut))
+        synthesiser_->forget();
     if (settings_.harmonise)
         for (DepthView& view : views) harmoniser_.apply(view);
     synthesiser_->set_views(views);
@@ -174,7 +178,7 @@ void LiveSession::show(FrameSet set) {
         harmoniser_.see(views, pulses / settings_.pulse_rate_hz);
         last_harmonised_ = set.trigger_index;
     }
-    give_to_synthesiser(std::move(views));
+    give_to_synthesiser(std::move(views), set.trigger_index);
     times_.add(Stage::upload, ms_since(start));
     count_frames(set, fused_);
     ++sets_fused_;
@@ -209,7 +213,7 @@ const Texture& LiveSession::make_picture(const OrbitView& view, std::chrono::nan
     if (past_pulse_) {
         std::optional<FrameSet> set = past_.at(*past_pulse_);
         if (set && set->trigger_index != shown_->trigger_index) {
-            give_to_synthesiser(views_of(*set));
+            give_to_synthesiser(views_of(*set), set->trigger_index);
             shown_ = std::move(set);
         }
     } else if (!frozen_) {
@@ -273,7 +277,7 @@ void LiveSession::next_synthesiser() {
     synthesiser_ = next.make(*shaders_);
     settings_.synthesiser = next.name;
     synthesiser_->note_origins(settings_.novelty);
-    if (shown_) give_to_synthesiser(views_of(*shown_));
+    if (shown_) give_to_synthesiser(views_of(*shown_), shown_->trigger_index);
 }
 
 void LiveSession::set_novelty(bool novelty) {

@@ -114,7 +114,7 @@ class LiveSession {
     const Texture& render_eye(const VirtualView& eye);
     const Texture& render(const VirtualView& target, double focus_m);
     std::vector<DepthView> views_of(const FrameSet& set) const;
-    void give_to_synthesiser(std::vector<DepthView> views);
+    void give_to_synthesiser(std::vector<DepthView> views, std::uint64_t trigger_index);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(const VirtualView& view);
     void keep_moment(const OrbitView& view, std::chrono::nanoseconds time,

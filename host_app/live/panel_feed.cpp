@@ -73,6 +73,8 @@ std::optional<PanelNovelty> PanelFeed::novelty_of(const LiveSession& session) {
     }
     const auto* filled = novelty_filled_colour;
     novelty.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, shares->filled});
+    const auto* known = novelty_remembered_colour;
+    novelty.rows.push_back({"remembered", {known[0], known[1], known[2]}, shares->remembered});
     return novelty;
 }
 

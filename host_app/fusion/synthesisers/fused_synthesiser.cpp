@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/gl/fullscreen_pass.h"
+#include "host_app/fusion/background_plate.h"
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_steadier.h"
 #include "host_app/fusion/edge_trust.h"
@@ -34,6 +35,7 @@ class FusedSynthesiser final : public Synthesiser {
           closer_(library),
           consensus_(library),
           edge_trust_(library),
+          plates_(library),
           blender_(library, "fused_colour.frag", softness) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
             depth_pass_.emplace_back(library, "fused_depth.frag",
@@ -41,7 +43,14 @@ class FusedSynthesiser final : public Synthesiser {
     }
 
     void set_views(std::span<const DepthView> views) override {
-        for (GpuView* view : upload_with_fades(views, views_)) steadier_.steady(*view);
+        for (GpuView* view : upload_with_fades(views, views_)) {
+            steadier_.steady(*view);
+            plates_.learn(*view);
+        }
+    }
+
+    void forget() override {
+        for (const auto& view : views_) view->plate().forget();
     }
 
     const Texture& render(const VirtualView& view) override {
@@ -54,11 +63,16 @@ class FusedSynthesiser final : public Synthesiser {
                     views_.size() > RigLayers::max_layers ? finely_drawn : RigLayers::max_layers);
         fused_depth_.resize({view.width_px, view.height_px});
         if (!layers.used().empty()) find_depth();
-        return blender_.blend(view, [&](Program& colour, int unit) {
-            colour.set("fused_depth", unit);
-            colour.set("edge_ratio", edge_ratio);
-            fused_depth_.texture().bind(unit);
-        });
+        return blender_.blend(
+            view,
+            [&](Program& colour, int unit) {
+                colour.set("fused_depth", unit);
+                colour.set("edge_ratio", edge_ratio);
+                fused_depth_.texture().bind(unit);
+            },
+            [&](const DepthPicture& blended) -> const DepthPicture& {
+                return plates_.show(blended, layers, view);
+            });
     }
 
     bool note_origins(bool noted) override {
@@ -92,6 +106,7 @@ class FusedSynthesiser final : public Synthesiser {
     DepthCloser closer_;
     RigConsensus consensus_;
     EdgeTrust edge_trust_;
+    BackgroundPlates plates_;
     LayerBlender blender_;
     std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers
     DrawnTexture fused_depth_{TextureFormat::r32f};
