@@ -77,7 +77,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
             run_line_pass(rows_, row_lanes, first);
         });
         profiler.run(
-            "columns and winners", {pixels * (16 + 2 * 32 + 8 + 16), evaluations * 15}, [&] {
+            "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 17}, [&] {
                 features.permeability().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);

@@ -5,6 +5,7 @@
 #include "common/gl/buffer.h"
 #include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
+#include "common/gl/program.h"
 #include "common/gl/texture.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/passes/stereo_layout.h"
@@ -23,11 +24,13 @@ class ResultPass {
     const Texture* confidence() const { return confidence_ ? &*confidence_ : nullptr; }
 
     std::size_t gpu_bytes() const {
-        return result_.bytes() + (confidence_ ? confidence_->bytes() : 0U);
+        return medians_.bytes() + result_.bytes() + (confidence_ ? confidence_->bytes() : 0U);
     }
 
   private:
     StereoLayout layout_;
+    Program median_;
+    Buffer medians_;
     FullscreenPass pass_;
     Texture result_;
     std::optional<Texture> confidence_;
