@@ -3,8 +3,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/timex.h>
 #include <time.h>
@@ -82,6 +85,11 @@ void add_ptp(ProbePart& part) {
         part.lines.push_back(
             fmt::format("ptp4l is {}, {:.0f} ns from its master, path delay {:.0f} ns",
                         state->port_state, state->offset_ns, state->path_delay_ns));
+        if (!state->is_disciplined())
+            part.unfit.push_back(
+                fmt::format("ptp4l is {} and follows no master: start ptp4l on the host, and let "
+                            "multicast through the switch",
+                            state->port_state));
     } else if (has_ptp4l) {
         part.unfit.push_back(
             fmt::format("ptp4l does not answer on {}: may this user write to it?", ptp4l_socket));
@@ -95,19 +103,35 @@ void add_ptp(ProbePart& part) {
             "ptp4l does not run (no socket {}): rigs will not share one time", ptp4l_socket));
 }
 
+/// Tried on a thread that ends with it: a limit, a capability or a container may each decide.
+bool can_have_realtime_priority() {
+    int refused = 0;
+    std::thread([&] {
+        const sched_param least{.sched_priority = ::sched_get_priority_min(SCHED_FIFO)};
+        refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &least);
+    }).join();
+    return refused == 0;
+}
+
 void add_scheduling(ProbePart& part) {
     const bool is_realtime_kernel = first_line("/sys/kernel/realtime") == "1";
     rlimit priority{}, memory{};
     ::getrlimit(RLIMIT_RTPRIO, &priority);
     ::getrlimit(RLIMIT_MEMLOCK, &memory);
     const bool may_lock_all = memory.rlim_cur == RLIM_INFINITY;
+    const bool may_be_realtime = can_have_realtime_priority();
     part.facts["scheduling"] = {{"realtime_kernel", is_realtime_kernel},
+                                {"may_have_realtime_priority", may_be_realtime},
                                 {"realtime_priority_limit", priority.rlim_cur},
                                 {"may_lock_all_memory", may_lock_all}};
+    const auto yes_or_no = [](bool value) { return value ? "yes" : "no"; };
     part.lines.push_back(fmt::format(
-        "real-time kernel: {}; highest real-time priority of this user: {}; may lock all memory: "
-        "{}",
-        is_realtime_kernel ? "yes" : "no", priority.rlim_cur, may_lock_all ? "yes" : "no"));
+        "real-time kernel: {}; real-time priority for this user: {}; may lock all memory: {}",
+        yes_or_no(is_realtime_kernel), yes_or_no(may_be_realtime), yes_or_no(may_lock_all)));
+    if (!may_be_realtime)
+        part.unfit.emplace_back(
+            "this user has no real-time priority, and pulses that it sends are late: start the rig "
+            "by its systemd unit, which has CAP_SYS_NICE, or raise the limit rtprio");
 }
 
 }  // namespace

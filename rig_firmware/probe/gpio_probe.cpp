@@ -51,7 +51,8 @@ ProbePart probe_gpio() {
             part.unfit.push_back(
                 forbidden
                     ? fmt::format("{} may not be opened by this user: put the user into the "
-                                  "group 'gpio', or install the udev rules of Vantage",
+                                  "group 'gpio', or install the udev rules of Vantage "
+                                  "(60-vantage-gpio.rules)",
                                   path.string())
                     : fmt::format("{} cannot be read: {}", path.string(), error.code().message()));
         }

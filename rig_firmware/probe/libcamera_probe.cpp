@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <libcamera/libcamera.h>
 
+#include "rig_firmware/capture/camera_access.h"
 #include "rig_firmware/probe/probe.h"
 
 namespace vantage {
@@ -59,6 +60,8 @@ ProbePart probe_libcamera() {
         part.facts.push_back(std::move(facts));
     }
     manager.stop();
+    if (const std::string forbidden = forbidden_camera(); part.facts.empty() && !forbidden.empty())
+        part.unfit.push_back("libcamera shows no camera, and " + forbidden);
     return part;
 }
 

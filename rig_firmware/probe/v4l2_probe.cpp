@@ -7,6 +7,13 @@
 namespace vantage {
 namespace {
 
+bool is_understood(const V4l2Format& format) {
+    const auto& known = known_pixel_formats();
+    return std::any_of(known.begin(), known.end(), [&](PixelFormat candidate) {
+        return fourcc_of(candidate) == format.fourcc;
+    });
+}
+
 nlohmann::json facts_of(const V4l2Format& format) {
     nlohmann::json sizes = nlohmann::json::array();
     for (const V4l2Size& size : format.sizes)
@@ -14,6 +21,7 @@ nlohmann::json facts_of(const V4l2Format& format) {
                          {"height_px", size.height_px},
                          {"rates_hz", size.rates_hz}});
     return {{"fourcc", fourcc_text(format.fourcc)},
+            {"is_understood", is_understood(format)},
             {"description", format.description},
             {"any_size_between", format.any_size_between},
             {"sizes", std::move(sizes)}};
@@ -31,13 +39,6 @@ std::string line_of(const V4l2Format& format) {
                        format.any_size_between ? ", any size between" : "", sizes);
 }
 
-bool is_understood(const V4l2Format& format) {
-    const auto& known = known_pixel_formats();
-    return std::any_of(known.begin(), known.end(), [&](PixelFormat candidate) {
-        return fourcc_of(candidate) == format.fourcc;
-    });
-}
-
 void add_camera(ProbePart& part, const V4l2Device& device) {
     const std::string node = device.path().string();
     const std::string stable = stable_video_path(device.path()).string();
@@ -45,10 +46,15 @@ void add_camera(ProbePart& part, const V4l2Device& device) {
     nlohmann::json format_facts = nlohmann::json::array(), controls = nlohmann::json::array();
     part.lines.push_back(fmt::format("{} '{}' on {}{}", node, device.card(), device.bus(),
                                      stable.empty() ? "" : ", always as " + stable));
+    std::string others;
     for (const V4l2Format& format : formats) {
         format_facts.push_back(facts_of(format));
-        part.lines.push_back(line_of(format));
+        if (is_understood(format))
+            part.lines.push_back(line_of(format));
+        else
+            others += fmt::format("{}'{}'", others.empty() ? "" : ", ", fourcc_text(format.fourcc));
     }
+    if (!others.empty()) part.lines.push_back("    of no use to Vantage: " + others);
     for (const V4l2Control& control : device.controls()) {
         controls.push_back({{"name", control.name},
                             {"least", control.least},
@@ -65,6 +71,12 @@ void add_camera(ProbePart& part, const V4l2Device& device) {
                           {"bus", device.bus()},
                           {"formats", std::move(format_facts)},
                           {"controls", std::move(controls)}});
+    for (const AutomaticControl& automatic : automatics_of(device))
+        if (!automatic.is_fixed)
+            part.unfit.push_back(fmt::format(
+                "{} ('{}'): {} is automatic, and the cameras of a stage will differ: set \"{}\" = "
+                "{} in [source.controls]",
+                node, device.card(), automatic.what, automatic.control, automatic.fixed_value));
     if (std::none_of(formats.begin(), formats.end(), is_understood))
         part.unfit.push_back(fmt::format(
             "{} ('{}') has no picture format that Vantage understands: it can only be used through "

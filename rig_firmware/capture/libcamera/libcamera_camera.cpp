@@ -19,6 +19,7 @@
 #include "common/base/pulse_grid.h"
 #include "common/wire/wake_event.h"
 #include "rig_firmware/capture/buffer_lender.h"
+#include "rig_firmware/capture/camera_access.h"
 #include "rig_firmware/capture/device_lost.h"
 #include "rig_firmware/capture/dma_buf_access.h"
 #include "rig_firmware/capture/pixel_conversion.h"
@@ -60,9 +61,12 @@ std::shared_ptr<libcamera::Camera> find_camera(const libcamera::CameraManager& m
             fitting.push_back(camera);
     }
     if (fitting.size() == 1) return fitting.front();
-    if (fitting.empty())
-        throw DeviceLost(fmt::format("libcamera has no camera '{}'; there {}", pattern,
-                                     listed.empty() ? "is none" : "are: " + listed));
+    if (fitting.empty()) {
+        const std::string forbidden = forbidden_camera();
+        throw DeviceLost(fmt::format("libcamera has no camera '{}'; there {}{}", pattern,
+                                     listed.empty() ? "is none" : "are: " + listed,
+                                     forbidden.empty() ? "" : "; and " + forbidden));
+    }
     fail("'{}' fits {} cameras of libcamera: name one more closely; there are: {}", pattern,
          fitting.size(), listed);
 }

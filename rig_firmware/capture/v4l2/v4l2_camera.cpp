@@ -1,7 +1,6 @@
 #include "rig_firmware/capture/v4l2/v4l2_camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -53,18 +52,6 @@ struct BufferRequest {
         return buffer.m.planes == &plane ? plane.bytesused : buffer.bytesused;
     }
 };
-
-/// Controls that must not move by themselves in a take, and the value that fixes each.
-struct Automatic {
-    std::uint32_t id;
-    std::int32_t fixed_value;
-    const char* what;
-};
-constexpr std::array<Automatic, 3> automatics = {{
-    {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, "exposure"},
-    {V4L2_CID_AUTOGAIN, 0, "gain"},
-    {V4L2_CID_AUTO_WHITE_BALANCE, 0, "white balance"},
-}};
 
 }  // namespace
 
@@ -329,17 +316,14 @@ std::vector<std::string> V4l2Camera::report() const {
                     !specimen()            ? "every picture is converted on the processor"
                     : buffers_[0]->dma_buf ? "shared as dma-bufs"
                                            : "not shared")};
-    const std::vector<V4l2Control> controls = device_.controls();
-    for (const Automatic& automatic : automatics)
-        for (const V4l2Control& control : controls)
-            if (control.id == automatic.id)
-                lines.push_back(
-                    control.value == automatic.fixed_value
-                        ? fmt::format("{}: {} is fixed", device_.path().string(), automatic.what)
-                        : fmt::format("{}: {} is AUTOMATIC and will differ between cameras: fix it "
-                                      "with \"{}\" = {} in [source.controls]",
-                                      device_.path().string(), automatic.what, control.name,
-                                      automatic.fixed_value));
+    for (const AutomaticControl& automatic : automatics_of(device_))
+        lines.push_back(
+            automatic.is_fixed
+                ? fmt::format("{}: {} is fixed", device_.path().string(), automatic.what)
+                : fmt::format("{}: {} is AUTOMATIC and will differ between cameras: fix it "
+                              "with \"{}\" = {} in [source.controls]",
+                              device_.path().string(), automatic.what, automatic.control,
+                              automatic.fixed_value));
     return lines;
 }
 

@@ -1,6 +1,7 @@
 #include "rig_firmware/capture/v4l2/v4l2_device.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -9,6 +10,8 @@
 #include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/ioctl.h>
+
+#include "rig_firmware/capture/camera_access.h"
 
 namespace vantage {
 namespace {
@@ -45,11 +48,7 @@ V4l2Device::V4l2Device(const std::filesystem::path& path) : path_(path) {
             throw DeviceLost(
                 fmt::format("there is no camera at {}: `vantage-rig probe` lists those there are",
                             path.string()));
-        if (reason == EACCES)
-            fail(
-                "{} may not be opened by this user: put the user into the group 'video', or "
-                "install the udev rules of Vantage",
-                path.string());
+        if (reason == EACCES) fail("{}", camera_access_sentence(path));
         fail("cannot open {}: {}", path.string(), std::strerror(reason));
     }
     v4l2_capability capability{};
@@ -177,6 +176,27 @@ void V4l2Device::set_control(const V4l2Control& control, std::int32_t value) con
     if (!try_request(VIDIOC_S_CTRL, &wanted))
         fail("the camera {} refuses {} for its control '{}': {}", path_.string(), value,
              control.name, std::strerror(errno));
+}
+
+std::vector<AutomaticControl> automatics_of(const V4l2Device& device) {
+    struct Known {
+        std::uint32_t id;
+        std::int32_t fixed_value;
+        const char* what;
+    };
+    constexpr std::array<Known, 3> known = {{
+        {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, "exposure"},
+        {V4L2_CID_AUTOGAIN, 0, "gain"},
+        {V4L2_CID_AUTO_WHITE_BALANCE, 0, "white balance"},
+    }};
+    std::vector<AutomaticControl> found;
+    const std::vector<V4l2Control> controls = device.controls();
+    for (const Known& each : known)
+        for (const V4l2Control& control : controls)
+            if (control.id == each.id)
+                found.push_back(
+                    {each.what, control.name, each.fixed_value, control.value == each.fixed_value});
+    return found;
 }
 
 std::vector<std::filesystem::path> list_video_nodes() {

@@ -66,6 +66,16 @@ class V4l2Device {
     std::uint32_t capabilities_ = 0;
 };
 
+/// A control by which a camera changes its picture by itself, which it must not in a take.
+struct AutomaticControl {
+    std::string what;     ///< "exposure"
+    std::string control;  ///< the driver's name
+    std::int32_t fixed_value = 0;
+    bool is_fixed = false;
+};
+/// Those of exposure, gain and white balance that the camera has.
+std::vector<AutomaticControl> automatics_of(const V4l2Device& device);
+
 /// Paths /dev/video*, by number.
 std::vector<std::filesystem::path> list_video_nodes();
 
