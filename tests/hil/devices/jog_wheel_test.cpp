@@ -86,6 +86,53 @@ TEST_F(JogWheel, ReportsComeThroughTheKernelAsEvents) {
     EXPECT_EQ(program->wait().status, 0);
 }
 
+TEST_F(JogWheel, AWheelOfEachHidFamilyIsPluggedInAndOutAndInAgain) {
+    struct Wheel {
+        UhidWheel::Kind kind;
+        std::vector<std::vector<std::uint8_t>> reports;
+        std::string event;
+    };
+    std::vector<std::uint8_t> xk68(36);
+    xk68[16] = 0xfe;
+    // A multi-axis controller with the reports 1 to 3 and the lamp's.
+    const std::vector<std::uint8_t> six_axes = {
+        0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0x15, 0x00, 0x26, 0xff, 0x00, 0x75,
+        0x08, 0x85, 0x01, 0x09, 0x01, 0x95, 0x06, 0x81, 0x02, 0x85, 0x02, 0x09,
+        0x01, 0x95, 0x06, 0x81, 0x02, 0x85, 0x03, 0x09, 0x01, 0x95, 0x02, 0x81,
+        0x02, 0x85, 0x04, 0x09, 0x01, 0x95, 0x01, 0x91, 0x02, 0xc0};
+    const std::vector<Wheel> wheels = {
+        {{0x0b33, 0x0030, "ShuttlePRO v2", UhidWheel::five_bytes(), {}, {}},
+         {{0, 10, 0, 0, 0}, {0, 12, 0, 0, 0}},
+         R"("control":"jog","value":2.0)"},
+        {{0x05f3, 0x0426, "XK-12", UhidWheel::input_of(12), {}, {}},
+         {{0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 9}},
+         R"("control":"jog","value":3.0)"},
+        {{0x05f3, 0x045a, "XK-68", UhidWheel::input_of(36), {}, {}},
+         {xk68},
+         R"("control":"jog","value":-2.0)"},
+        {{0x256f, 0xc635, "SpaceMouse Compact", six_axes, {}, {}},
+         {{1, 0x5e, 0x01, 0, 0, 0, 0}},
+         R"("control":"tx","value":1.0)"}};
+    for (const Wheel& wheel : wheels) {
+        const auto program = monitor({"--json"});
+        std::size_t read = 0;
+        const auto comes_next = [&](const std::string& part) {
+            return comes([&] {
+                const std::size_t found = program->out().find(part, read);
+                if (found != std::string::npos) read = found + part.size();
+                return found != std::string::npos;
+            });
+        };
+        for (int time = 0; time < 2; ++time) {
+            const UhidWheel plugged(wheel.kind);
+            ASSERT_TRUE(comes_next(R"("event":"plugged")")) << wheel.kind.name << program->err();
+            for (const auto& report : wheel.reports) plugged.send(report);
+            EXPECT_TRUE(comes_next(wheel.event)) << wheel.kind.name << program->out();
+        }
+        EXPECT_TRUE(comes_next(R"("event":"lost")")) << wheel.kind.name << program->out();
+    }
+}
+
 TEST_F(JogWheel, OneThatIsOnlyDescribedIsReadToo) {
     const UhidWheel wheel(unknown_wheel());
     const auto program = monitor({"--wheels", describe_unknown_wheel(), "--json"});

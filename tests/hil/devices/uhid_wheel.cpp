@@ -21,12 +21,12 @@ void write_event(int fd, const uhid_event& event) {
 
 }  // namespace
 
-std::vector<std::uint8_t> UhidWheel::five_bytes() {
-    return {0x06, 0x00, 0xff,                                      // usage page: vendor
-            0x09, 0x01,                                            // usage 1
-            0xa1, 0x01,                                            // collection: application
-            0x15, 0x00, 0x26, 0xff, 0x00, 0x75, 0x08, 0x95, 0x05,  // 5 x 8 bits, 0..255
-            0x09, 0x01, 0x81, 0x02,                                // input
+std::vector<std::uint8_t> UhidWheel::input_of(std::uint8_t bytes) {
+    return {0x06, 0x00, 0xff,                                       // usage page: vendor
+            0x09, 0x01,                                             // usage 1
+            0xa1, 0x01,                                             // collection: application
+            0x15, 0x00, 0x26, 0xff, 0x00, 0x75, 0x08, 0x95, bytes,  // bytes of 8 bits, 0..255
+            0x09, 0x01, 0x81, 0x02,                                 // input
             0xc0};
 }
 

@@ -24,8 +24,10 @@ class UhidWheel {
         std::function<std::vector<std::uint8_t>(std::uint8_t id)> get_feature;
         std::function<void(std::span<const std::uint8_t> report)> set_feature;
     };
-    /// Five bytes of input without a report id, as Contour's wheels have.
-    static std::vector<std::uint8_t> five_bytes();
+    /// The descriptor of input reports of so many bytes without an id.
+    static std::vector<std::uint8_t> input_of(std::uint8_t bytes);
+    /// As Contour's wheels have.
+    static std::vector<std::uint8_t> five_bytes() { return input_of(5); }
 
     /// Throws Error where there is no /dev/uhid.
     explicit UhidWheel(Kind kind);
