@@ -84,7 +84,7 @@ void main() {
 
     uvec4 a = uvec4(0u), b = uvec4(0u);
     for (int group = 0; group < groups; ++group) {
-        int first = group * group_rows, mark = (column + group * block_px) * 2;
+        int first = group * group_rows, mark = block_at(x, group, groups) * 2;
         marks[mark] = a;
         marks[mark + 1] = b;
         DOWN(0) DOWN(1) DOWN(2) DOWN(3)
@@ -92,7 +92,7 @@ void main() {
 
     uvec4 up_a = uvec4(0u), up_b = uvec4(0u);
     for (int group = groups - 1; group >= 0; --group) {
-        int first = group * group_rows, mark = (column + group * block_px) * 2;
+        int first = group * group_rows, mark = block_at(x, group, groups) * 2;
         a = marks[mark];
         b = marks[mark + 1];
         uint mu0, mu1, mu2, mu3;

@@ -9,6 +9,9 @@ namespace vantage {
 
 namespace {
 
+/// Rows of a column between which sums are kept, see perm_columns.comp.
+constexpr int group_rows = 4;
+
 ShaderDefines column_defines(PermOutput output, int valid) {
     return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
 }
@@ -31,7 +34,12 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
           {{"ALONG", "1"},
            {"MOST", output == PermOutput::costs ? std::to_string(most_perm_code) : "0"}})),
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
-      down_(layout.block_pixels() * 2 * slab_disparities, GL_DYNAMIC_COPY),
+      down_(output == PermOutput::costs
+                ? layout.block_pixels() * 2 * slab_disparities
+                : StereoLayout{layout.width_px, (layout.height_px + group_rows - 1) / group_rows}
+                          .block_pixels() *
+                      2 * slab_disparities,
+            GL_DYNAMIC_COPY),
       output_(layout.block_pixels() *
                   (output == PermOutput::costs
                        ? static_cast<std::size_t>(slabs_of(disparities) * slab_disparities)

@@ -35,7 +35,8 @@ class PermPass {
     /// uint a pixel: what a pixel's sums are divided by before pixels are compared; of
     /// PermOutput::winners.
     const Buffer& weight() const { return weight_; }
-    /// Of no worth once run() is done: others may use them until the next run. 32 and 16 bytes a
+    /// Of no worth once run() is done: others may use them until the next run. 32 (of
+    /// PermOutput::costs) and 16 bytes a
     /// pixel.
     const Buffer& large_scratch() const { return down_; }
     const Buffer& small_scratch() const { return volume_; }
