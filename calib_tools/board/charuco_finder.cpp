@@ -7,6 +7,7 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "calib_tools/board/burnt_out_share.h"
 #include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/board/marker_dictionary.h"
 #include "calib_tools/board/median.h"
@@ -34,6 +35,24 @@ void marker_corners_m(const BoardPattern& pattern, int id, std::vector<cv::Point
 Eigen::Vector2d apply(const cv::Matx33d& h, double x, double y) {
     const cv::Vec3d p = h * cv::Vec3d(x, y, 1);
     return {p[0] / p[2], p[1] / p[2]};
+}
+
+/// Of the board's area that its markers place in the picture, hidden parts included. Glare hides
+/// markers, so that it must not be looked for between those found.
+double burnt_out_share_of(const GreyImage& picture, const BoardPattern& pattern,
+                          const std::map<int, FoundMarker>& markers) {
+    std::vector<cv::Point2d> on_board, in_picture;
+    for (const auto& [id, marker] : markers) {
+        marker_corners_m(pattern, id, on_board);
+        for (const cv::Point2f& p : marker.corners) in_picture.emplace_back(p.x, p.y);
+    }
+    const cv::Mat homography = cv::findHomography(on_board, in_picture);
+    if (homography.empty()) return 0;
+    const cv::Matx33d h = homography;
+    const double right = pattern.columns * pattern.square_m, left = -pattern.square_m;
+    const double bottom = pattern.rows * pattern.square_m, top = -pattern.square_m;
+    return burnt_out_share(picture, {apply(h, left, top), apply(h, right, top),
+                                     apply(h, right, bottom), apply(h, left, bottom)});
 }
 
 }  // namespace
@@ -120,6 +139,7 @@ BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern
         sighting.corners.clear();
         return sighting;
     }
+    sighting.burnt_out_share = burnt_out_share_of(picture, pattern, markers);
     sighting.square_px = median(spacings);
     sighting.blur_px = median(blurs);
     sighting.contrast = median(contrasts);

@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calib_tools/board/burnt_out_share.h"
 #include "calib_tools/board/corner_grid.h"
 #include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/board/median.h"
@@ -131,22 +132,11 @@ std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& ro
     return refined;
 }
 
-/// Share of the pixels between the outer corners that are as bright as can be.
-double burnt_out_share(const GreyImage& picture, const CornerGrid& grid) {
+/// Of the area between the outer corners of the grid.
+double burnt_out_share_of(const GreyImage& picture, const CornerGrid& grid) {
     const int right = grid.columns - 1, bottom = grid.rows - 1;
-    std::vector<cv::Point> outline;
-    for (const Eigen::Vector2d& p :
-         {grid.at(0, 0), grid.at(right, 0), grid.at(right, bottom), grid.at(0, bottom)})
-        outline.emplace_back(static_cast<int>(std::lround(p.x())),
-                             static_cast<int>(std::lround(p.y())));
-    const cv::Rect box = cv::boundingRect(outline) & cv::Rect({0, 0}, picture.size());
-    if (box.empty()) return 0;
-    for (cv::Point& p : outline) p -= box.tl();
-    GreyImage inside(box.size(), uchar{0});
-    cv::fillConvexPoly(inside, outline, cv::Scalar(255));
-    const int pixels = cv::countNonZero(inside);
-    inside &= picture(box) >= 254;
-    return pixels > 0 ? cv::countNonZero(inside) / static_cast<double>(pixels) : 0;
+    return burnt_out_share(
+        picture, {grid.at(0, 0), grid.at(right, 0), grid.at(right, bottom), grid.at(0, bottom)});
 }
 
 }  // namespace
@@ -174,7 +164,7 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
     }
     const std::optional<RefinedGrid> refined = refine(picture, canonical(picture, *rough));
     if (!refined) {
-        const double burnt_out = burnt_out_share(picture, *rough);
+        const double burnt_out = burnt_out_share_of(picture, *rough);
         sighting.reason =
             "has corners of the board that are too small, blurred or hidden to be "
             "measured";
@@ -192,7 +182,7 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
         if (refined->measured[static_cast<std::size_t>(id)])
             sighting.corners.push_back(
                 {id, pattern.corner_m(id), refined->grid.pixels[static_cast<std::size_t>(id)]});
-    sighting.burnt_out_share = burnt_out_share(picture, refined->grid);
+    sighting.burnt_out_share = burnt_out_share_of(picture, refined->grid);
     sighting.square_px = refined->grid.median_spacing_px();
     sighting.blur_px = refined->blur_px;
     sighting.contrast = refined->contrast;

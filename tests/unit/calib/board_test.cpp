@@ -57,6 +57,18 @@ TEST(Board, drawn_as_charuco_is_found_where_it_was_drawn_even_half_hidden) {
     }
 }
 
+TEST(Board, drawn_as_charuco_tells_how_much_of_it_glare_hides) {
+    const BoardPattern pattern = charuco(8, 5);
+    GreyImage picture = draw_board(pattern, 40);
+    picture = picture * 0.8;
+    EXPECT_EQ(find_board(picture, pattern).burnt_out_share, 0);
+    // Three by two of the nine by six squares, which begin a square of margin from the border.
+    picture(cv::Rect(280, 40, 120, 80)).setTo(255);
+    const BoardSighting sighting = find_board(picture, pattern);
+    ASSERT_TRUE(sighting.found()) << sighting.reason;
+    EXPECT_NEAR(sighting.burnt_out_share, 6.0 / 54, 0.01);
+}
+
 TEST(Board, seen_in_a_mirror_is_named) {
     const BoardPattern pattern = charuco(8, 5);
     GreyImage mirrored;
