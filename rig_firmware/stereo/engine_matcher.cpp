@@ -21,6 +21,7 @@ const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& winners,
                                 const Buffer* weight) {
     check_.run(profiler, winners, weight);
     if (!fills_) return check_.disparity();
+    support_.run(profiler, check_.disparity(), check_.scratch());
     fill_.run(profiler, check_.disparity(), check_.scratch());
     return check_.scratch();
 }

@@ -10,6 +10,7 @@
 #include "rig_firmware/stereo/passes/luma_pass.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
 #include "rig_firmware/stereo/passes/smooth_pass.h"
+#include "rig_firmware/stereo/passes/support_pass.h"
 
 namespace vantage {
 
@@ -40,11 +41,15 @@ class EngineMatcher : public Matcher {
     ResultPass result_;
 };
 
-/// What follows a search at its own size: left-right check, then fill if `fill` is set.
+/// What follows a search at its own size: left-right check, then, if `fill` is set, a fill that
+/// does not spread what stands alone.
 class CheckAndFill {
   public:
     CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill)
-        : fills_(fill), check_(library, layout), fill_(library, layout) {}
+        : fills_(fill),
+          check_(library, layout),
+          support_(library, layout),
+          fill_(library, layout) {}
 
     const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
     std::size_t gpu_bytes() const { return check_.gpu_bytes(); }
@@ -52,6 +57,7 @@ class CheckAndFill {
   private:
     bool fills_;
     LeftRightPass check_;
+    SupportPass support_;
     FillPass fill_;
 };
 

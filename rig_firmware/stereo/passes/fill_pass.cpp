@@ -7,7 +7,7 @@ FillPass::FillPass(const ShaderLibrary& library, const StereoLayout& layout)
 
 void FillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("fill", {pixels * 12, static_cast<double>(pixels) * 12}, [&] {
+    profiler.run("fill", {pixels * 20, static_cast<double>(pixels) * 16}, [&] {
         program_.use();
         program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         program_.set("stride", layout_.stride_px());

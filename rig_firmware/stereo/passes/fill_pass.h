@@ -12,7 +12,8 @@ class FillPass {
   public:
     FillPass(const ShaderLibrary& library, const StereoLayout& layout);
 
-    /// Both in LeftRightPass's form.
+    /// Both in LeftRightPass's form. `filled` holds, before, those of the disparities that the fill
+    /// may spread (SupportPass), and after, every disparity and what the unknown ones became.
     void run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled);
 
   private:

@@ -12,6 +12,8 @@
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
 #include "rig_firmware/stereo/passes/smooth_pass.h"
+#include "rig_firmware/stereo/passes/support_pass.h"
+#include "rig_firmware/stereo/passes/support_reference.h"
 #include "rig_firmware/stereo/passes/upsample_pass.h"
 #include "rig_firmware/stereo/passes/upsample_reference.h"
 #include "tests/unit/stereo/engine_buffers.h"
@@ -61,9 +63,15 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(lower_half(words), as_int(checked.disparity), "checked disparity");
     expect_equal(upper_half(words), as_int(checked.confidence), "confidence");
 
+    const DisparityImage supported = supported_disparity(checked.disparity);
+    SupportPass support(library_, layout_);
+    support.run(profiler_, check.disparity(), check.scratch());
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(supported),
+                 "supported");
+
     FillPass fill(library_, layout_);
     fill.run(profiler_, check.disparity(), check.scratch());
-    const DisparityImage filled = filled_from_background(checked.disparity);
+    const DisparityImage filled = filled_from_background(checked.disparity, supported);
     expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled), "filled");
 
     SmoothPass smooth(library_, layout_);
@@ -82,6 +90,25 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     with_confidence.run(profiler_, check.disparity());
     expect_equal(as_int(with_confidence.confidence()->download()), as_int(checked.confidence),
                  "confidence of the result");
+}
+
+TEST(FillFromBackground, DoesNotSpreadWhatStandsAlone) {
+    DisparityImage disparity(31, 41, static_cast<unsigned short>(320));
+    disparity.colRange(10, 20) = 640;
+    disparity.colRange(20, 27) = 0;
+    disparity(cv::Rect(22, 15, 2, 2)) = 32;
+    const DisparityImage filled = filled_from_background(disparity, supported_disparity(disparity));
+    EXPECT_EQ(filled(15, 20), 320);
+    EXPECT_EQ(filled(15, 26), 320);
+    EXPECT_EQ(filled(15, 22), 32) << "what is known stays";
+}
+
+TEST(FillFromBackground, TakesWhatThereIsInARowThatHasNothingBetter) {
+    DisparityImage disparity(9, 41, static_cast<unsigned short>(0));
+    disparity(4, 7) = 64;
+    const DisparityImage filled = filled_from_background(disparity, supported_disparity(disparity));
+    EXPECT_EQ(cv::countNonZero(filled.row(4) == 64), 41);
+    EXPECT_EQ(cv::countNonZero(filled), 41);
 }
 
 TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
