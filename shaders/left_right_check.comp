@@ -1,7 +1,7 @@
-// Left-right check and sub-pixel position. An invocation walks a row three times: every right pixel has no claim yet;
-// it keeps the best of the left pixels that claim it, cost (normalised) << 16 | disparity; then a left pixel whose
-// claim lost to a disparity more than one off is unknown. Leaves disparity in 1/32 px (0 = unknown) and, in the upper
-// half of the word, a confidence of 0..255: how sharply the costs rise beside the minimum.
+// Left-right check and sub-pixel position. An invocation walks a row three times, four pixels a step: every right pixel
+// has no claim yet; it keeps the best of the left pixels that claim it, cost (normalised) << 16 | disparity; then a
+// left pixel whose claim lost to a disparity more than one off is unknown. Leaves disparity in 1/32 px (0 = unknown)
+// and, in the upper half of the word, a confidence of 0..255: how sharply the costs rise beside the minimum.
 #include "stereo_common.glsl"
 
 // Whether costs must be divided by a weight before those of different pixels are compared.
@@ -10,17 +10,27 @@
 #endif
 
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer Winners { uvec2 winners[]; };
+layout(std430, binding = 0) readonly buffer Winners { uvec4 winners[]; };  // two pixels
 #if WEIGHTED
-layout(std430, binding = 1) readonly buffer Weight { uint weight[]; };
-#define WEIGHT(at) float(max(weight[at], 1u))
+layout(std430, binding = 1) readonly buffer Weight { uvec4 weight[]; };
+#define WEIGHTS(at) vec4(max(weight[at], uvec4(1u)))
 #else
-#define WEIGHT(at) 16.0
+#define WEIGHTS(at) vec4(16.0)
 #endif
-layout(std430, binding = 2) buffer Claims { uint claims[]; };
-layout(std430, binding = 3) writeonly buffer Disparity { uint disparity[]; };
+layout(std430, binding = 2) buffer Claims { uvec4 claims[]; };
+layout(std430, binding = 3) writeonly buffer Disparity { uvec4 disparity[]; };
 uniform ivec2 size;
 uniform int stride;
+
+#define CLAIM_ON(x) claims[(x) >> 2][(x) & 3]
+
+void stake(int row, int x, uint winner, float weight) {
+    int d = int((winner >> 12) & 255u);
+    if (d > x || x >= size.x) return;
+    uint cost = uint(int(min(float(int(winner >> 20) << 12) / weight, 65535.0)));
+    uint before = CLAIM_ON(row + x - d);
+    CLAIM_ON(row + x - d) = min(before, (cost << 16) | uint(d));
+}
 
 // Floats where one would divide whole numbers: that is taken apart into scalar divisions on some GPUs.
 uint resolved(uvec2 winner, int d) {
@@ -37,23 +47,30 @@ uint resolved(uvec2 winner, int d) {
     return uint(max(position, 1)) | (uint(confidence) << 16);
 }
 
+uint checked(int row, int x, uvec2 winner) {
+    int d = int((winner.x >> 12) & 255u);
+    int claimed = int(CLAIM_ON(row + max(x - d, 0)) & 0xffffu);
+    return d <= x && abs(claimed - d) <= 1 ? resolved(winner, d) : 0u;
+}
+
 void main() {
     int y = int(gl_GlobalInvocationID.x);
     if (y >= size.y) return;
     int row = y * stride;
-    for (int x = 0; x < size.x; ++x) claims[row + x] = 0xffffffffu;
-    for (int x = 0; x < size.x; ++x) {
-        uint winner = winners[block_at(x, y, size.y)].x;
-        int d = int((winner >> 12) & 255u);
-        if (d > x) continue;
-        uint cost = uint(int(min(float(int(winner >> 20) << 12) / WEIGHT(row + x), 65535.0)));
-        claims[row + x - d] = min(claims[row + x - d], (cost << 16) | uint(d));
+    for (int x = 0; x < size.x; x += 4) claims[(row + x) >> 2] = uvec4(0xffffffffu);
+    for (int x = 0; x < size.x; x += 4) {
+        int at = block_at(x, y, size.y) >> 1;
+        uvec4 a = winners[at], b = winners[at + 1];
+        vec4 by = WEIGHTS((row + x) >> 2);
+        stake(row, x, a.x, by.x);
+        stake(row, x + 1, a.z, by.y);
+        stake(row, x + 2, b.x, by.z);
+        stake(row, x + 3, b.z, by.w);
     }
-    for (int x = 0; x < size.x; ++x) {
-        uvec2 winner = winners[block_at(x, y, size.y)];
-        int d = int((winner.x >> 12) & 255u);
-        int claimed = int(claims[row + max(x - d, 0)] & 0xffffu);
-        bool holds = d <= x && abs(claimed - d) <= 1;
-        disparity[row + x] = holds ? resolved(winner, d) : 0u;
+    for (int x = 0; x < size.x; x += 4) {
+        int at = block_at(x, y, size.y) >> 1;
+        uvec4 a = winners[at], b = winners[at + 1];
+        disparity[(row + x) >> 2] = uvec4(checked(row, x, a.xy), checked(row, x + 1, a.zw), checked(row, x + 2, b.xy),
+                                          checked(row, x + 3, b.zw));
     }
 }

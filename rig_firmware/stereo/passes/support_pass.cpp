@@ -1,23 +1,23 @@
 #include "rig_firmware/stereo/passes/support_pass.h"
 
+#include <string>
+
+#include "rig_firmware/stereo/passes/four_by_eight.h"
 #include "rig_firmware/stereo/passes/support_reference.h"
 
 namespace vantage {
 
 SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layout)
-    : layout_(layout), program_(Program::compute(library, "supported_disparity.comp")) {}
+    : layout_(layout),
+      program_(four_by_eight::program(library, "supported_disparity.comp",
+                                      {{"LEAST_VOTES", std::to_string(least_support_votes)}})) {}
 
 void SupportPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("support", {pixels * 26 * 4, static_cast<double>(pixels) * 25 * 5}, [&] {
-        program_.use();
-        program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        program_.set("stride", layout_.stride_px());
-        program_.set("least_votes", least_support_votes);
+    profiler.run("support", {pixels * 28, static_cast<double>(pixels) * 25 * 5}, [&] {
         disparity.bind_storage(0);
         supported.bind_storage(1);
-        program_.dispatch_over(layout_.width_px, layout_.height_px);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        four_by_eight::run(program_, layout_);
     });
 }
 
