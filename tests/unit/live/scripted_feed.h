@@ -18,7 +18,8 @@ class ScriptedFeed {
   public:
     explicit ScriptedFeed(std::vector<std::string> rigs) : rigs_(std::move(rigs)) {}
 
-    /// A set of pulse k with the rigs that are named; a rig shows a wall of `colour`, 2 m off.
+    /// A set of pulse k with the rigs that are named; a rig shows a wall, 2 m off, of `colour` in
+    /// the middle and black at the left and right.
     FrameSet set(std::uint64_t k, const std::vector<std::string>& present,
                  cv::Vec4b colour = {200, 100, 50, 255}) const {
         FrameSet made;
@@ -79,7 +80,8 @@ class ScriptedFeed {
         made->geometry.cy_px = 22.5;
         made->geometry.baseline_m = 0.1;
         made->world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
-        made->colour = ColourImage(46, 62, colour);
+        made->colour = ColourImage(46, 62, cv::Vec4b(0, 0, 0, 255));
+        made->colour.colRange(12, 50).setTo(colour);
         made->disparity = DisparityImage(46, 62, static_cast<unsigned short>(2 * 32));
         made->max_disparity_px = 32;
         made->times = {1, 2, 3, 4};
