@@ -68,12 +68,12 @@ void leave(int y, int x, int column, uvec4 sum_a, uvec4 sum_b) {
     int at = column + y * block_px;
 #if KEEP
     uint by = scale[y * stride + x];
-    costs[(first_disparity >> 4) * plane + at] = uvec4(codes_of(sum_a, by), codes_of(sum_b, by));
+    costs[(first_disparity >> 4) * plane + at] = whole(uvec4(codes_of(sum_a, by), codes_of(sum_b, by)));
 #else
     no_winner_yet();
     if (first_disparity > 0) resume_winner(winners[at]);
     consider_slab(first_disparity, sum_a, sum_b, VALID);
-    winners[at] = winner();
+    winners[at] = whole(winner());
 #endif
 }
 

@@ -1,15 +1,18 @@
 // Cost and horizontal permeability aggregation of one slab of 16 disparities. An invocation walks a row there and
-// back: A(x) = C(x) + mu(x) A(x - 1), likewise from the right, and leaves their sum, C(x) counted once, in 8 bits. The
-// matching cost never reaches memory: it is cheaper to find it again on the way back. Four pixels a step, so that
-// their words come by one load; what lies behind the picture has no permeability and does no harm.
+// back: A(x) = C(x) + mu(x) A(x - 1), likewise from the right, and leaves their sum, C(x) counted once, in 8 bits. Four
+// pixels a step, so that their words come by one load. Going there it leaves only what comes to each step; coming back
+// it makes the step's sums from that again. The matching cost never reaches memory: it is cheaper to find it twice.
+// What lies behind the picture has no permeability and does no harm.
 #include "perm_common.glsl"
 
 #if LANE_MAPPING == LANES_DISPARITIES
 #define SUMS uvec2  // half a slab an invocation
 #define REACH 8
+#define PARTS 1
 #else
 #define SUMS uvec4
 #define REACH 16
+#define PARTS 2
 #endif
 
 layout(local_size_x = LANES) in;
@@ -17,6 +20,7 @@ layout(std430, binding = 0) readonly buffer LeftFeatures { uvec4 left_features[]
 layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
 layout(std430, binding = 2) readonly buffer Permeability { uvec4 permeability[]; };
 layout(std430, binding = 3) buffer Volume { SUMS volume[]; };
+layout(std430, binding = 4) buffer Marks { uvec4 marks[]; };  // the sums from the left of a step
 uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
@@ -31,43 +35,41 @@ uvec4 r0, r1, r2, r3, r4;
 
 uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
 
-uvec4 a, b;
+uvec4 a, b, back_a, back_b;
 
-#if LANE_MAPPING == LANES_DISPARITIES
-#define FORTH(pixel, l, m)                   \
-    a = COSTS_A(l, pixel) + permeate(a, m);  \
-    volume[at + 2 * pixel] = bytes_of(a >> 1);
-#define BACK(pixel, l, m)                                                                   \
-    a = permeate(a, mu);                                                                    \
-    volume[at + 2 * pixel] = bytes_of(((pairs_of(volume[at + 2 * pixel]) << 1) + a) >> 3);  \
-    a += COSTS_A(l, pixel);                                                                 \
-    mu = m;
+#if PARTS == 1
+#define FORTH(pixel, l, m) a = COSTS_A(l, pixel) + permeate(a, m);
+#define FORTH_AGAIN(pixel, l, m, own_a, own_b, sum_a, sum_b) \
+    own_a = COSTS_A(l, pixel);                               \
+    sum_a = a = own_a + permeate(a, m);
+#define BACK(pixel, m, own_a, own_b, sum_a, sum_b)         \
+    volume[at + 2 * pixel] = bytes_of((sum_a + back_a) >> 3); \
+    back_a = permeate(back_a + own_a, m);
 #else
-#define FORTH(pixel, l, m)                   \
-    a = COSTS_A(l, pixel) + permeate(a, m);  \
-    b = COSTS_B(l, pixel) + permeate(b, m);  \
-    volume[at + pixel] = uvec4(bytes_of(a >> 1), bytes_of(b >> 1));
-#define BACK(pixel, l, m)                                                      \
-    {                                                                          \
-        uvec4 before = volume[at + pixel];                                     \
-        a = permeate(a, mu);                                                   \
-        b = permeate(b, mu);                                                   \
-        volume[at + pixel] = uvec4(bytes_of(((pairs_of(before.xy) << 1) + a) >> 3),  \
-                                   bytes_of(((pairs_of(before.zw) << 1) + b) >> 3)); \
-        a += COSTS_A(l, pixel);                                                \
-        b += COSTS_B(l, pixel);                                                \
-        mu = m;                                                                \
-    }
+#define FORTH(pixel, l, m)                  \
+    a = COSTS_A(l, pixel) + permeate(a, m); \
+    b = COSTS_B(l, pixel) + permeate(b, m);
+#define FORTH_AGAIN(pixel, l, m, own_a, own_b, sum_a, sum_b) \
+    own_a = COSTS_A(l, pixel);                               \
+    own_b = COSTS_B(l, pixel);                               \
+    sum_a = a = own_a + permeate(a, m);                      \
+    sum_b = b = own_b + permeate(b, m);
+#define BACK(pixel, m, own_a, own_b, sum_a, sum_b)                                                            \
+    volume[at + pixel] = whole(uvec4(bytes_of((sum_a + back_a) >> 3), bytes_of((sum_b + back_b) >> 3))); \
+    back_a = permeate(back_a + own_a, m);                                                                     \
+    back_b = permeate(back_b + own_b, m);
 #endif
 
 void main() {
 #if LANE_MAPPING == LANES_DISPARITIES
     int y = int(gl_GlobalInvocationID.x >> 1), half_slab = int(gl_GlobalInvocationID.x & 1u);
 #define SUMS_AT(x) (block_at(x, y, size.y) * 2 + half_slab)
+#define MARK_AT(x) ((row + (x)) / 2 + half_slab)
     int shift = first_disparity + 8 * half_slab;
 #else
     int y = int(gl_GlobalInvocationID.x);
 #define SUMS_AT(x) block_at(x, y, size.y)
+#define MARK_AT(x) ((row + (x)) / 2)
     int shift = first_disparity;
 #endif
     if (y >= size.y) return;
@@ -82,17 +84,28 @@ void main() {
         r0 = r1, r1 = r2, r2 = r3, r3 = r4, r4 = right_at(row, x - shift);
 #endif
         uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
-        int at = SUMS_AT(x);
+        marks[MARK_AT(x)] = a;
+#if PARTS == 2
+        marks[MARK_AT(x) + 1] = b;
+#endif
         FORTH(0, l.x, m.x) FORTH(1, l.y, m.y) FORTH(2, l.z, m.z) FORTH(3, l.w, m.w)
     }
 
-    // Now a and b are the sums from the right; the words slide the other way.
-    a = b = uvec4(0u);
-    uint mu = 0u;
+    // The words slide the other way.
+    back_a = back_b = uvec4(0u);
     for (int x = last; x >= 0; x -= 4) {
         uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
         int at = SUMS_AT(x);
-        BACK(3, l.w, m.w) BACK(2, l.z, m.z) BACK(1, l.y, m.y) BACK(0, l.x, m.x)
+        a = marks[MARK_AT(x)];
+#if PARTS == 2
+        b = marks[MARK_AT(x) + 1];
+#endif
+        uvec4 own_a0, own_a1, own_a2, own_a3, own_b0, own_b1, own_b2, own_b3;
+        uvec4 a0, a1, a2, a3, b0, b1, b2, b3;
+        FORTH_AGAIN(0, l.x, m.x, own_a0, own_b0, a0, b0) FORTH_AGAIN(1, l.y, m.y, own_a1, own_b1, a1, b1)
+        FORTH_AGAIN(2, l.z, m.z, own_a2, own_b2, a2, b2) FORTH_AGAIN(3, l.w, m.w, own_a3, own_b3, a3, b3)
+        BACK(3, m.w, own_a3, own_b3, a3, b3) BACK(2, m.z, own_a2, own_b2, a2, b2)
+        BACK(1, m.y, own_a1, own_b1, a1, b1) BACK(0, m.x, own_a0, own_b0, a0, b0)
 #if LANE_MAPPING != LANES_DISPARITIES
         r4 = r3, r3 = r2;
 #endif

@@ -18,6 +18,12 @@
 // The right-hand feature of a pixel outside the picture: half its census bits agree with anything.
 const uint outside_word = 0x82aaaaaau;
 
+// Words to be stored, none of which is ~0. Without a last operation that has no simple form llvmpipe's compiler takes
+// the ones before it apart into scalar ones, lane by lane. (Measured; it pays where much is packed into each word.)
+uint whole(uint word) { return min(word, 0xfffffffeu); }
+uvec2 whole(uvec2 words) { return min(words, uvec2(0xfffffffeu)); }
+uvec4 whole(uvec4 words) { return min(words, uvec4(0xfffffffeu)); }
+
 // The byte of a luma word that holds pixel i = 0..3 of it.
 uint byte_of(uint word, int i) { return (word >> (8 * i)) & 255u; }
 

@@ -9,8 +9,9 @@ namespace vantage {
 
 namespace {
 
-/// Rows of a column between which sums are kept, see perm_columns.comp.
-constexpr int group_rows = 4;
+/// Rows of a column, and columns of a row, between which sums are kept, see perm_columns.comp and
+/// perm_rows.comp.
+constexpr int group_rows = 4, group_columns = 4;
 
 ShaderDefines column_defines(PermOutput output, int valid) {
     return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
@@ -36,9 +37,11 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
       down_(output == PermOutput::costs
                 ? layout.block_pixels() * 2 * slab_disparities
-                : StereoLayout{layout.width_px, (layout.height_px + group_rows - 1) / group_rows}
-                          .block_pixels() *
-                      2 * slab_disparities,
+                : std::max(StereoLayout{layout.width_px,
+                                        (layout.height_px + group_rows - 1) / group_rows}
+                                   .block_pixels() *
+                               2 * slab_disparities,
+                           layout.pixels() / group_columns * 2 * slab_disparities),
             GL_DYNAMIC_COPY),
       output_(layout.block_pixels() *
                   (output == PermOutput::costs
@@ -77,11 +80,12 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
         run_line_pass(weight_columns_, layout_.width_px, 0);
     });
     for (int first = 0; first < disparities_; first += slab_disparities) {
-        profiler.run("cost and rows", {pixels * (3 * 16 + 20), evaluations * 28}, [&] {
+        profiler.run("cost and rows", {pixels * (16 + 2 * 8 + 24), evaluations * 32}, [&] {
             features.left_features().bind_storage(0);
             features.right_features().bind_storage(1);
             features.permeability().bind_storage(2);
             volume_.bind_storage(3);
+            down_.bind_storage(4);
             run_line_pass(rows_, row_lanes, first);
         });
         profiler.run(

@@ -9,42 +9,35 @@
 namespace vantage {
 namespace {
 
-/// How a direction keeps its sums: in memory without the low `kept_shift` bits, the result without
-/// the low `result_shift`.
-struct SumScale {
-    int kept_shift, result_shift;
-};
-
-/// The sum of a line's costs from both sides, each step damped by its permeability; costs[0] is the
-/// first of mu.size() values `step` apart.
-void permeate_line(int* costs, std::size_t step, const std::vector<int>& mu, SumScale scale) {
+/// The sum of a line's costs from both sides without its low `shift` bits, each step damped by its
+/// permeability; costs[0] is the first of mu.size() values `step` apart.
+void permeate_line(int* costs, std::size_t step, const std::vector<int>& mu, int shift) {
     std::vector<int> forward(mu.size());
     int sum = 0;
     for (std::size_t i = 0; i < forward.size(); ++i) {
-        sum = costs[i * step] + ((sum * mu[i]) >> 4);
-        forward[i] = (sum >> scale.kept_shift) << scale.kept_shift;
+        forward[i] = sum = costs[i * step] + ((sum * mu[i]) >> 4);
     }
     int back = 0;
     for (std::size_t i = forward.size(); i-- > 0;) {
         back = i + 1 < forward.size() ? (back * mu[i + 1]) >> 4 : 0;
         const int cost = costs[i * step];
-        costs[i * step] = (forward[i] + back) >> scale.result_shift;
+        costs[i * step] = (forward[i] + back) >> shift;
         back += cost;
     }
 }
 
-void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability, SumScale rows,
-                      SumScale columns) {
+/// Horizontal sums lose their low three bits, vertical ones none.
+void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability) {
     std::vector<int> mu;
     for (int y = 0; y < costs.rows; ++y) {
         mu.clear();
         for (int x = 0; x < costs.cols; ++x) mu.push_back(permeability(y, x) & 15);
-        permeate_line(costs[y], 1, mu, rows);
+        permeate_line(costs[y], 1, mu, 3);
     }
     for (int x = 0; x < costs.cols; ++x) {
         mu.clear();
         for (int y = 0; y < costs.rows; ++y) mu.push_back(permeability(y, x) >> 4);
-        permeate_line(&costs(0, x), static_cast<std::size_t>(costs.cols), mu, columns);
+        permeate_line(&costs(0, x), static_cast<std::size_t>(costs.cols), mu, 0);
     }
 }
 
@@ -89,14 +82,14 @@ cv::Mat1i matching_cost(const cv::Mat1i& left, const cv::Mat1i& right, int d) {
 
 cv::Mat1i weight_of(const cv::Mat1b& permeability) {
     cv::Mat1i weight(permeability.size(), 16);
-    permeate_picture(weight, permeability, {0, 3}, {0, 0});
+    permeate_picture(weight, permeability);
     return weight;
 }
 
 cv::Mat1i perm_sums(const cv::Mat1i& left, const cv::Mat1i& right, const cv::Mat1b& permeability,
                     int d) {
     cv::Mat1i costs = matching_cost(left, right, d);
-    permeate_picture(costs, permeability, {1, 3}, {0, 0});
+    permeate_picture(costs, permeability);
     return costs;
 }
 

@@ -202,7 +202,9 @@ TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
         left_buffer.bind_storage(0);
         right_buffer.bind_storage(1);
         mu_buffer.bind_storage(2);
+        const Buffer marks(layout.pixels() * 8, GL_DYNAMIC_COPY);
         volume.bind_storage(3);
+        marks.bind_storage(4);
         program.dispatch_over(lanes == 1 ? 2 * layout.height_px : layout.height_px, 1);
         glMemoryBarrier(GL_ALL_BARRIER_BITS);
         std::vector<std::uint32_t>& slab = slabs.emplace_back(volume.bytes() / 4);
