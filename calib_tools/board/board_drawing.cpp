@@ -43,7 +43,7 @@ std::vector<BoardPatch> board_patches(const BoardPattern& pattern) {
     const double margin = 0.5 * (s - pattern.marker_m);
     for (int id = 0; id < marker_count(pattern); ++id) {
         const cv::Point square = marker_square(pattern, id);
-        const cv::Mat1b bits = dictionary.bits(id);
+        const cv::Mat1b bits = dictionary.bits(pattern.first_marker + id);
         const double x0 = square.x * s + margin, y0 = square.y * s + margin;
         const double bit = pattern.marker_m / bits.cols;
         patches.push_back({{x0, y0, pattern.marker_m, pattern.marker_m}, true});

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/board_set.h"
 #include "calib_tools/board/board_view.h"
 #include "common/image/image.h"
 
 namespace vantage {
 
-/// Finds the board, whatever its kind, and measures its corners to a fraction of a pixel.
-BoardSighting find_board(const GreyImage& picture, const BoardPattern& pattern);
+/// Finds the boards of the set that the picture shows, whatever their kind, and measures their
+/// corners to a fraction of a pixel. Markers are searched once a dictionary.
+BoardSighting find_board(const GreyImage& picture, const BoardSet& set);
 
 }  // namespace vantage

@@ -17,6 +17,7 @@ void BoardPattern::validate() const {
         fail("a square of {} m is not possible: 0.0001 to 10 metres are taken", square_m);
     if (kind == BoardKind::charuco && !(marker_m > 0 && marker_m < square_m))
         fail("a marker of {} m does not fit into a square of {} m", marker_m, square_m);
+    if (first_marker < 0) fail("marker {} cannot be: markers count from 0", first_marker);
 }
 
 BoardPattern chessboard_pattern(std::string_view size, double square_m) {

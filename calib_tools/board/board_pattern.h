@@ -20,6 +20,7 @@ struct BoardPattern {
     double square_m = 0;        ///< side of a square
     double marker_m = 0;        ///< side of an ArUco marker (charuco)
     std::string dictionary;     ///< of the ArUco markers, e.g. "4X4_100" (charuco)
+    int first_marker = 0;  ///< the board's markers are this one and those that follow (charuco)
 
     int corner_count() const { return columns * rows; }
     /// Of the inner corner with this number: row * columns + column.

@@ -9,9 +9,10 @@ namespace vantage {
 
 /// One inner corner of a board, seen in a picture.
 struct BoardCorner {
-    int id = 0;                                         ///< row * columns + column
+    int id = 0;  ///< row * columns + column; after those of the boards before it in a set
     Eigen::Vector3d board_m = Eigen::Vector3d::Zero();  ///< in the board's frame
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();    ///< pixel centres at integers
+    int board = 0;                                      ///< of the set that is looked for
 };
 
 using BoardCorners = std::vector<BoardCorner>;

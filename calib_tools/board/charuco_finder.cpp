@@ -71,26 +71,41 @@ cv::Point marker_square(const BoardPattern& pattern, int id) {
 
 void require_enough_markers(const BoardPattern& pattern) {
     const int there = MarkerDictionary(pattern.dictionary).marker_count();
-    if (there < marker_count(pattern))
-        fail("a {} board needs {} markers and dictionary {} has {}; take a larger one",
-             pattern.size_name(), marker_count(pattern), pattern.dictionary, there);
+    const int from = pattern.first_marker;
+    if (there < from + marker_count(pattern))
+        fail("a {} board{} needs {} markers and dictionary {} has {}; take a larger one",
+             pattern.size_name(), from > 0 ? fmt::format(" that begins at marker {}", from) : "",
+             marker_count(pattern), pattern.dictionary, there);
 }
 
 BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern) {
-    BoardSighting sighting;
     const MarkerDictionary dictionary(pattern.dictionary);
+    BoardSighting sighting = find_charuco(picture, pattern, dictionary.find(picture));
+    if (!sighting.found() && shows_mirrored_markers(picture, pattern.dictionary)) {
+        sighting.mirrored = true;
+        sighting.reason = mirrored_reason;
+    }
+    return sighting;
+}
+
+bool shows_mirrored_markers(const GreyImage& picture, const std::string& dictionary) {
+    GreyImage flipped;
+    cv::flip(picture, flipped, 1);
+    return MarkerDictionary(dictionary).find(flipped).size() >= 4;
+}
+
+BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern,
+                           const std::vector<FoundMarker>& found) {
+    BoardSighting sighting;
     std::map<int, FoundMarker> markers;
-    for (const FoundMarker& marker : dictionary.find(picture))
-        if (marker.id < marker_count(pattern)) markers[marker.id] = marker;
+    for (const FoundMarker& marker : found) {
+        const int id = marker.id - pattern.first_marker;
+        if (id >= 0 && id < marker_count(pattern)) markers[id] = marker;
+    }
     if (markers.size() < 2) {
-        GreyImage flipped;
-        cv::flip(picture, flipped, 1);
-        sighting.mirrored = dictionary.find(flipped).size() >= 4;
         sighting.reason =
-            sighting.mirrored
-                ? "is mirrored: the board's markers can be read in a mirror only"
-                : fmt::format("shows {} of the {} markers of the {} board, too few to be placed",
-                              markers.size(), marker_count(pattern), pattern.size_name());
+            fmt::format("shows {} of the {} markers of the {} board, too few to be placed",
+                        markers.size(), marker_count(pattern), pattern.size_name());
         return sighting;
     }
     std::vector<double> blurs, contrasts, spacings;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "calib_tools/board/board_pattern.h"
 #include "calib_tools/board/board_view.h"
+#include "calib_tools/board/marker_dictionary.h"
 #include "common/image/image.h"
 
 namespace vantage {
@@ -16,5 +20,14 @@ void require_enough_markers(const BoardPattern& pattern);
 /// Finds the inner corners of a ChArUco board of which at least four lie near markers that can be
 /// read; each is measured by fit_corner. Recognises mirrored pictures.
 BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern);
+
+/// The same from the markers that were found in the picture already, of whatever boards.
+BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern,
+                           const std::vector<FoundMarker>& found);
+
+inline constexpr const char* mirrored_reason =
+    "is mirrored: the board's markers can be read in a mirror only";
+/// True if markers can be read in the mirrored picture.
+bool shows_mirrored_markers(const GreyImage& picture, const std::string& dictionary);
 
 }  // namespace vantage

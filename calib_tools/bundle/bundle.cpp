@@ -13,10 +13,13 @@ namespace vantage {
 
 Eigen::Vector2d Bundle::residual_px(const BundleView& view, const BoardCorner& corner) const {
     const BundleCamera& camera = cameras[static_cast<std::size_t>(view.camera)];
+    Eigen::Vector3d on_board = corner.board_m;
+    if (!faces.empty())
+        on_board = faces[static_cast<std::size_t>(corner.board)].board_from_face * on_board;
     const Eigen::Vector3d p =
         camera.camera_from_rig *
         (rigs[static_cast<std::size_t>(camera.rig)].world_from_rig.inverse() *
-         (boards[static_cast<std::size_t>(view.board)].world_from_board * corner.board_m));
+         (boards[static_cast<std::size_t>(view.board)].world_from_board * on_board));
     if (!(p.z() > 0)) return Eigen::Vector2d::Constant(1e6);
     std::array<double, lens_parameter_count> lens{camera.model.fx_px, camera.model.fy_px,
                                                   camera.model.cx_px, camera.model.cy_px};
@@ -62,6 +65,7 @@ bool solve_bundle(Bundle& bundle, const BundleOptions& options) {
         if (block) ordering->AddElementToGroup(block, group);
     };
     for (std::size_t i = 0; i < bundle.boards.size(); ++i) add(problem.board_pose(i), 0);
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i) add(problem.face_pose(i), 1);
     for (std::size_t i = 0; i < bundle.rigs.size(); ++i) add(problem.rig_pose(i), 1);
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
         add(problem.lens(i), 1);

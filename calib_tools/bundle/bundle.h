@@ -50,6 +50,12 @@ struct BundleBoard {
     bool solve = true;
 };
 
+/// One of several boards that are fixed to each other and carried about as one, such as a cube's.
+struct BundleFace {
+    Pose board_from_face = Pose::Identity();
+    bool solve = false;
+};
+
 struct BundleView {
     int camera = 0, board = 0;
     BoardCorners corners;
@@ -59,6 +65,8 @@ struct Bundle {
     std::vector<BundleCamera> cameras;
     std::vector<BundleRig> rigs;
     std::vector<BundleBoard> boards;
+    /// By BoardCorner::board; none if every board is by itself, and corners are in its own frame.
+    std::vector<BundleFace> faces;
     std::vector<BundleView> views;
     /// What a corner is trusted to, against which the deviations of priors are weighed.
     double corner_sigma_px = 0.1;
@@ -100,6 +108,7 @@ struct BundleUncertainty {
     };
     std::vector<Camera> cameras;
     std::vector<Rig> rigs;
+    std::vector<Rig> faces;        ///< about their board's axes
     double residual_sigma_px = 0;  ///< of one coordinate of one corner
 };
 

@@ -42,6 +42,12 @@ struct CornerResidual {
     bool operator()(const T* lens, const T* camera_pose, const T* rig_pose, const T* board_pose,
                     T* residual) const {
         const T on_board[3] = {T(board_m.x()), T(board_m.y()), T(board_m.z())};
+        return project(lens, camera_pose, rig_pose, board_pose, on_board, residual);
+    }
+
+    template <class T>
+    bool project(const T* lens, const T* camera_pose, const T* rig_pose, const T* board_pose,
+                 const T* on_board, T* residual) const {
         T world[3], rig[3], p[3];
         transform(world_from_board, board_pose, on_board, world);
         transform_inverse(world_from_rig, rig_pose, world, rig);
@@ -51,6 +57,22 @@ struct CornerResidual {
         residual[0] -= pixel.x();
         residual[1] -= pixel.y();
         return true;
+    }
+};
+
+/// The same where the board is one of several that are fixed to each other.
+struct FaceCornerResidual {
+    CornerResidual corner;
+    const Pose& board_from_face;
+
+    template <class T>
+    bool operator()(const T* lens, const T* camera_pose, const T* rig_pose, const T* board_pose,
+                    const T* face_pose, T* residual) const {
+        const Eigen::Vector3d& m = corner.board_m;
+        const T on_face[3] = {T(m.x()), T(m.y()), T(m.z())};
+        T on_board[3];
+        transform(board_from_face, face_pose, on_face, on_board);
+        return corner.project(lens, camera_pose, rig_pose, board_pose, on_board, residual);
     }
 };
 
@@ -121,6 +143,7 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
       lenses_(bundle.cameras.size()),
       camera_poses_(bundle.cameras.size(), Change{}),
       rig_poses_(bundle.rigs.size(), Change{}),
+      face_poses_(bundle.faces.size(), Change{}),
       board_poses_(bundle.boards.size(), Change{}) {
     ceres::Problem::Options options;
     options.loss_function_ownership = ceres::TAKE_OWNERSHIP;
@@ -131,6 +154,8 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
         std::copy(m.distortion.begin(), m.distortion.end(), lenses_[i].begin() + 4);
     }
     using Cost = ceres::AutoDiffCostFunction<CornerResidual, 2, lens_parameter_count, 6, 6, 6>;
+    using FaceCost =
+        ceres::AutoDiffCostFunction<FaceCornerResidual, 2, lens_parameter_count, 6, 6, 6, 6>;
     ceres::LossFunction* loss = nullptr;
     for (const BundleView& view : bundle.views) {
         const auto camera = static_cast<std::size_t>(view.camera);
@@ -138,12 +163,23 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
         const auto rig = static_cast<std::size_t>(bundle.cameras[camera].rig);
         if (!view.corners.empty() && huber_px > 0 && !loss) loss = new ceres::HuberLoss(huber_px);
         for (const BoardCorner& corner : view.corners) {
-            auto residual = std::make_unique<CornerResidual>(CornerResidual{
-                bundle.cameras[camera], bundle.rigs[rig].world_from_rig,
-                bundle.boards[board].world_from_board, corner.board_m, corner.pixel});
-            problem_->AddResidualBlock(new Cost(residual.release()), loss, lenses_[camera].data(),
-                                       camera_poses_[camera].data(), rig_poses_[rig].data(),
-                                       board_poses_[board].data());
+            const CornerResidual of_corner{bundle.cameras[camera], bundle.rigs[rig].world_from_rig,
+                                           bundle.boards[board].world_from_board, corner.board_m,
+                                           corner.pixel};
+            if (bundle.faces.empty()) {
+                auto residual = std::make_unique<CornerResidual>(of_corner);
+                problem_->AddResidualBlock(new Cost(residual.release()), loss,
+                                           lenses_[camera].data(), camera_poses_[camera].data(),
+                                           rig_poses_[rig].data(), board_poses_[board].data());
+            } else {
+                const auto face = static_cast<std::size_t>(corner.board);
+                auto residual = std::make_unique<FaceCornerResidual>(
+                    FaceCornerResidual{of_corner, bundle.faces[face].board_from_face});
+                problem_->AddResidualBlock(new FaceCost(residual.release()), loss,
+                                           lenses_[camera].data(), camera_poses_[camera].data(),
+                                           rig_poses_[rig].data(), board_poses_[board].data(),
+                                           face_poses_[face].data());
+            }
         }
     }
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
@@ -174,6 +210,9 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
     for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
         if (double* block = rig_pose(i); block && !bundle.rigs[i].solve)
             problem_->SetParameterBlockConstant(block);
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i)
+        if (double* block = face_pose(i); block && !bundle.faces[i].solve)
+            problem_->SetParameterBlockConstant(block);
     for (std::size_t i = 0; i < bundle.boards.size(); ++i)
         if (double* block = board_pose(i); block && !bundle.boards[i].solve)
             problem_->SetParameterBlockConstant(block);
@@ -192,6 +231,8 @@ void BundleProblem::apply_to(Bundle& bundle) const {
     }
     for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
         bundle.rigs[i].world_from_rig = changed(bundle.rigs[i].world_from_rig, rig_poses_[i]);
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i)
+        bundle.faces[i].board_from_face = changed(bundle.faces[i].board_from_face, face_poses_[i]);
     for (std::size_t i = 0; i < bundle.boards.size(); ++i)
         bundle.boards[i].world_from_board =
             changed(bundle.boards[i].world_from_board, board_poses_[i]);

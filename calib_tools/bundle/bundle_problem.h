@@ -27,6 +27,7 @@ class BundleProblem {
     double* lens(std::size_t camera) { return used(lenses_[camera].data()); }
     double* camera_pose(std::size_t camera) { return used(camera_poses_[camera].data()); }
     double* rig_pose(std::size_t rig) { return used(rig_poses_[rig].data()); }
+    double* face_pose(std::size_t face) { return used(face_poses_[face].data()); }
     double* board_pose(std::size_t board) { return used(board_poses_[board].data()); }
 
     /// Residual rows that follow those of the corners: 18 for every camera with a prior.
@@ -41,7 +42,7 @@ class BundleProblem {
     const Bundle& bundle_;
     std::vector<std::array<double, lens_parameter_count>> lenses_;
     int prior_count_ = 0;
-    std::vector<Change> camera_poses_, rig_poses_, board_poses_;
+    std::vector<Change> camera_poses_, rig_poses_, face_poses_, board_poses_;
     std::unique_ptr<ceres::Problem> problem_;
 };
 

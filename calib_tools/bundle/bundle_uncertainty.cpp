@@ -31,13 +31,15 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
         evaluate.parameter_blocks.push_back(block);
         return c;
     };
-    std::vector<Columns> lenses, camera_poses, rig_poses, board_poses;
+    std::vector<Columns> lenses, camera_poses, rig_poses, face_poses, board_poses;
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
         lenses.push_back(columns_of(problem.lens(i)));
         camera_poses.push_back(columns_of(problem.camera_pose(i)));
     }
     for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
         rig_poses.push_back(columns_of(problem.rig_pose(i)));
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i)
+        face_poses.push_back(columns_of(problem.face_pose(i)));
     const int shared = size;
     for (std::size_t i = 0; i < bundle.boards.size(); ++i)
         board_poses.push_back(columns_of(problem.board_pose(i)));
@@ -115,6 +117,7 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     BundleUncertainty result;
     result.cameras.resize(bundle.cameras.size());
     result.rigs.resize(bundle.rigs.size());
+    result.faces.resize(bundle.faces.size());
     const double freedom = static_cast<double>(corner_rows) - static_cast<double>(size);
     if (!(freedom > 0))
         fail("the pictures show {} corners, too few for the {} unknowns: take more pictures",
@@ -174,6 +177,8 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     }
     for (std::size_t i = 0; i < bundle.rigs.size(); ++i)
         pose_sigma(rig_poses[i], result.rigs[i].rotation_rad, result.rigs[i].translation_m);
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i)
+        pose_sigma(face_poses[i], result.faces[i].rotation_rad, result.faces[i].translation_m);
     return result;
 }
 

@@ -18,6 +18,7 @@ namespace {
 struct Options {
     std::string kind = "charuco", size, output, dictionary = "5X5_250";
     double square_m = 0, marker_m = 0, dots_per_inch = 300;
+    int first_marker = 0;
     bool json = false;
 };
 
@@ -27,6 +28,7 @@ void run(const Options& options) {
         pattern.kind = BoardKind::charuco;
         pattern.marker_m = options.marker_m > 0 ? options.marker_m : 0.7 * pattern.square_m;
         pattern.dictionary = options.dictionary;
+        pattern.first_marker = options.first_marker;
         pattern.validate();
         require_enough_markers(pattern);
     }
@@ -75,6 +77,11 @@ CommandEntry board_command_entry() {
         command->add_option("--marker-m", options->marker_m,
                             "side of a marker in metres (default: 0.7 squares)");
         command->add_option("--dictionary", options->dictionary, "ArUco dictionary")
+            ->capture_default_str();
+        command
+            ->add_option("--first-marker", options->first_marker,
+                         "number of its first marker, so that several boards share none")
+            ->check(CLI::Range(0, 9999))
             ->capture_default_str();
         command->add_option("--dpi", options->dots_per_inch, "of the PNG")
             ->check(CLI::Range(10.0, 2400.0))

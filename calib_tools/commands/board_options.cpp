@@ -1,5 +1,7 @@
 #include "calib_tools/commands/board_options.h"
 
+#include <filesystem>
+
 #include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
 
@@ -11,16 +13,30 @@ void BoardOptions::add_to(CLI::App& command) {
     CLI::Option* square = command.add_option("--square-m", square_m,
                                              "side of a square in metres, measured on the board");
     CLI::Option* description = command.add_option(
-        "--board-file", file, "description of the board that `vantage-calib board` wrote");
+        "--board-file", files, "description of the board that `vantage-calib board` wrote");
     board->needs(square)->excludes(description);
     square->needs(board)->excludes(description);
 }
 
 BoardPattern BoardOptions::pattern() const {
-    if (!file.empty()) return load_board(file);
+    if (files.size() > 1)
+        fail(
+            "{} boards are described, and a camera or rig is calibrated with one: only `stage` "
+            "takes several",
+            files.size());
+    if (!files.empty()) return load_board(files.front());
     if (size.empty())
         fail("which board? give --board COLUMNSxROWS and --square-m METRES, or --board-file FILE");
     return chessboard_pattern(size, square_m);
+}
+
+BoardSet BoardOptions::boards() const {
+    if (files.empty()) return pattern();
+    BoardSet set;
+    for (const std::string& file : files)
+        set.add(std::filesystem::path(file).stem().string(), load_body(file));
+    set.validate();
+    return set;
 }
 
 }  // namespace vantage

@@ -1,21 +1,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/board_set.h"
 
 namespace vantage {
 
 /// --board and --square-m, or --board-file, of the commands that look for a board.
 struct BoardOptions {
-    std::string size, file;
+    std::string size;
+    std::vector<std::string> files;
     double square_m = 0;
 
     void add_to(CLI::App& command);
-    /// Throws Error if the options do not make a board.
+    /// Throws Error if the options do not make one board.
     BoardPattern pattern() const;
+    /// All boards, one by one and in bodies, each named by its file. Throws Error if they cannot be
+    /// told apart.
+    BoardSet boards() const;
 };
 
 }  // namespace vantage

@@ -22,7 +22,7 @@ namespace {
 struct Options {
     BoardOptions board;
     std::vector<std::string> rigs;
-    std::string output;
+    std::string output, floor_board;
     long long floor = -1;
     bool hold_lenses = false, floor_first = false;
     LiveOption live;
@@ -56,20 +56,20 @@ std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pic
 }
 
 std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
-                                            const BoardPattern& pattern, const StageRig& rig,
+                                            const BoardSet& boards, const StageRig& rig,
                                             const CameraModel& camera, StageCalibration& notes) {
     const std::vector<std::filesystem::path> files = expand_pictures(pattern_of_files);
     const std::vector<long long> numbers = picture_numbers(files);
     if (numbers.empty())
         fail("'{}': every picture needs a number in its name that tells its instant",
              pattern_of_files);
-    std::vector<SeenPicture> pictures = look_at_pictures(files, pattern);
-    refuse_wrong_board(pictures, pattern);
+    std::vector<SeenPicture> pictures = look_at_pictures(files, boards);
+    refuse_wrong_board(pictures, boards);
     return by_instant(pictures, numbers, rig, camera, notes);
 }
 
 /// Films the board live and gives every rig what it saw. Returns the first pulse kept.
-long long film_live(const Options& options, const BoardPattern& pattern,
+long long film_live(const Options& options, const BoardSet& boards,
                     const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
                     StageCalibration& notes) {
     LiveRigs live = options.live.connect(folders);
@@ -84,7 +84,7 @@ long long film_live(const Options& options, const BoardPattern& pattern,
     if (options.floor_first)
         log_info(
             "lay the board on the floor, face up: the first instant kept is the world's floor");
-    const BoardFilm film = film_board(live, cameras, pattern, options.live.most_views(),
+    const BoardFilm film = film_board(live, cameras, boards, options.live.most_views(),
                                       two_rigs_see_board, tie_advice(names));
     const std::vector<long long> numbers(film.pulses.begin(), film.pulses.end());
     for (std::size_t i = 0; i < rigs.size(); ++i) {
@@ -97,11 +97,11 @@ long long film_live(const Options& options, const BoardPattern& pattern,
 }
 
 void run(const Options& options) {
-    const BoardPattern pattern = options.board.pattern();
+    const BoardSet boards = options.board.boards();
     std::vector<StageRig> rigs;
     StageCalibration notes;
-    std::optional<long long> floor;
-    if (options.floor >= 0) floor = options.floor;
+    std::optional<Floor> floor;
+    if (options.floor >= 0) floor = Floor(options.floor, options.floor_board);
     const std::vector<RigFolder> folders = parse_rig_folders(options.rigs);
     for (const auto& [name, folder] : folders) {
         StageRig rig;
@@ -112,20 +112,20 @@ void run(const Options& options) {
         if (!options.hold_lenses) rig.sigma = record.sigma;
         if (!options.live.given()) {
             rig.left =
-                sightings((folder / "left*").string(), pattern, rig, rig.calibration.left, notes);
+                sightings((folder / "left*").string(), boards, rig, rig.calibration.left, notes);
             rig.right =
-                sightings((folder / "right*").string(), pattern, rig, rig.calibration.right, notes);
+                sightings((folder / "right*").string(), boards, rig, rig.calibration.right, notes);
         }
         rigs.push_back(std::move(rig));
     }
     if (options.live.given()) {
-        const long long first = film_live(options, pattern, folders, rigs, notes);
-        if (options.floor_first) floor = first;
+        const long long first = film_live(options, boards, folders, rigs, notes);
+        if (options.floor_first) floor = Floor(first, options.floor_board);
     }
     for (const StageRig& rig : rigs)
         log_info("rig {}: the board in {} left and {} right pictures", rig.name, rig.left.size(),
                  rig.right.size());
-    StageCalibration stage = calibrate_stage(rigs, pattern, floor);
+    StageCalibration stage = calibrate_stage(rigs, boards, floor);
     stage.rejected.insert(stage.rejected.end(), notes.rejected.begin(), notes.rejected.end());
     std::filesystem::create_directories(options.output);
     for (std::size_t i = 0; i < stage.rigs.size(); ++i) {
@@ -169,6 +169,9 @@ CommandEntry stage_command_entry() {
         command->add_option("--floor", options->floor,
                             "number of the pictures in which the board lies on the floor, at the "
                             "world's origin");
+        command->add_option("--floor-board", options->floor_board,
+                            "name of the board on the floor, where several are seen: that of its "
+                            "description without extension");
         options->live.add_to(*command);
         command->add_flag("--floor-first", options->floor_first,
                           "live: in the first instant kept the board lies on the floor, at the "

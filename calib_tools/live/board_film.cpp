@@ -96,11 +96,12 @@ std::string joined(const std::vector<std::string>& sentences) {
 /// Throws Error if two pictures show a chessboard of one other size: then no waiting helps.
 class OtherBoardWatch {
   public:
-    explicit OtherBoardWatch(const BoardPattern& pattern) : pattern_(pattern) {}
+    explicit OtherBoardWatch(const BoardSet& boards)
+        : pattern_(boards.boards.front()),
+          watches_(boards.is_one_board() && pattern_.kind == BoardKind::chessboard) {}
 
     void look(const GreyImage& picture) {
-        if (pattern_.kind != BoardKind::chessboard || looks_++ % looks_between_size_tests != 0)
-            return;
+        if (!watches_ || looks_++ % looks_between_size_tests != 0) return;
         const std::optional<BoardPattern> other = find_other_size(picture, pattern_);
         if (other && ++votes_[{other->columns, other->rows}] >= 2)
             fail(
@@ -111,6 +112,7 @@ class OtherBoardWatch {
 
   private:
     BoardPattern pattern_;
+    bool watches_;
     int looks_ = 0;
     std::map<std::pair<int, int>, int> votes_;
 };
@@ -118,12 +120,12 @@ class OtherBoardWatch {
 }  // namespace
 
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const BoardPattern& pattern, std::size_t most, const FilmRule& rule,
+                     const BoardSet& boards, std::size_t most, const FilmRule& rule,
                      const FilmAdvice& advice) {
     for (const FilmedCamera& camera : cameras) require_empty(camera);
     BoardFilm film;
     film.pictures.resize(cameras.size());
-    OtherBoardWatch other_board(pattern);
+    OtherBoardWatch other_board(boards);
     Notice notice;
     log_info("show the board; Ctrl-C ends the film and calibrates from what is kept");
     while (film.pulses.size() < most) {
@@ -141,7 +143,7 @@ BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
             for (int i = r.start; i < r.end; ++i) {
                 const auto c = static_cast<std::size_t>(i);
                 if (raw[c])
-                    pictures[c] = look_at_picture(to_grey(*raw[c]), pictures[c].path, pattern);
+                    pictures[c] = look_at_picture(to_grey(*raw[c]), pictures[c].path, boards);
             }
         });
         bool anyone = false;

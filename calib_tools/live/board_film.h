@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/board_set.h"
 #include "calib_tools/live/live_rigs.h"
 #include "calib_tools/pictures/seen_picture.h"
 
@@ -39,7 +39,7 @@ using FilmAdvice = std::function<std::vector<std::string>(const BoardFilm& film)
 /// `most` instants are kept, or when the program is asked to stop. Throws Error for folders that
 /// hold pictures already, where rigs fall silent, and if the pictures show another board.
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const BoardPattern& pattern, std::size_t most, const FilmRule& rule,
+                     const BoardSet& boards, std::size_t most, const FilmRule& rule,
                      const FilmAdvice& advice);
 
 /// Every camera has to see the board.

@@ -28,9 +28,9 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
         static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
 }
 
-void look_at(SeenPicture& picture, const BoardPattern& pattern) {
+void look_at(SeenPicture& picture, const BoardSet& boards) {
     try {
-        picture = look_at_picture(to_grey(read_colour_image(picture.path)), picture.path, pattern);
+        picture = look_at_picture(to_grey(read_colour_image(picture.path)), picture.path, boards);
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();
@@ -57,13 +57,13 @@ double quantile(std::vector<double> values, double share) {
 }  // namespace
 
 SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
-                            const BoardPattern& pattern) {
+                            const BoardSet& boards) {
     SeenPicture picture;
     picture.path = path;
     picture.width_px = grey.cols;
     picture.height_px = grey.rows;
     judge(grey, picture);
-    picture.sighting = find_board(grey, pattern);
+    picture.sighting = find_board(grey, boards);
     return picture;
 }
 
@@ -104,7 +104,7 @@ void judge_blur_and_glare(SeenPicture& picture, const UsualPicture& usual) {
 }
 
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
-                                          const BoardPattern& pattern) {
+                                          const BoardSet& boards) {
     std::vector<SeenPicture> pictures(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) pictures[i].path = files[i];
     std::atomic<std::size_t> done{0};
@@ -116,7 +116,7 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
             for (int i = range.start; i < range.end; ++i) {
                 const auto index = static_cast<std::size_t>(i);
                 try {
-                    look_at(pictures[index], pattern);
+                    look_at(pictures[index], boards);
                 } catch (...) {
                     // A picture the library chokes on must not end the thread pool.
                     failures[index] = std::current_exception();
@@ -149,7 +149,7 @@ void require_one_size(std::vector<SeenPicture>& pictures) {
                                   p.height_px, width, height));
 }
 
-void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPattern& pattern) {
+void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardSet& boards) {
     std::size_t mirrored = 0, found = 0;
     std::vector<std::filesystem::path> without;
     for (const SeenPicture& p : pictures) {
@@ -164,7 +164,9 @@ void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardPat
             "the pictures are mirrored: the board's markers can be read in a mirror only ({} of {} "
             "pictures); turn mirroring off at the camera",
             mirrored, pictures.size());
-    if (2 * found > pictures.size() || pattern.kind != BoardKind::chessboard) return;
+    if (2 * found > pictures.size() || !boards.is_one_board()) return;
+    const BoardPattern& pattern = boards.boards.front();
+    if (pattern.kind != BoardKind::chessboard) return;
     constexpr std::size_t samples = 6;
     std::map<std::pair<int, int>, int> votes;
     for (std::size_t i = 0; i < std::min(samples, without.size()); ++i) {

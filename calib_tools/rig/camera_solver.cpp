@@ -28,35 +28,41 @@ bool pose_boards(Bundle& bundle) {
 
 }  // namespace
 
-std::optional<Pose> estimate_board_pose(const CameraModel& camera, const BoardCorners& corners) {
-    if (corners.size() < 4) return std::nullopt;
+std::vector<Pose> board_pose_candidates(const CameraModel& camera, const BoardCorners& corners) {
+    if (corners.size() < 4) return {};
     std::vector<cv::Point3d> on_board;
     std::vector<cv::Point2d> rays;
     for (const BoardCorner& corner : corners) {
         on_board.emplace_back(corner.board_m.x(), corner.board_m.y(), corner.board_m.z());
         const Eigen::Vector3d ray = camera.unproject(corner.pixel);
-        if (!ray.allFinite()) return std::nullopt;
+        if (!ray.allFinite()) return {};
         rays.emplace_back(ray.x(), ray.y());
     }
+    std::vector<Pose> poses;
     std::vector<cv::Mat> rotations, translations;
     try {
         cv::solvePnPGeneric(on_board, rays, cv::Matx33d::eye(), cv::noArray(), rotations,
                             translations, false, cv::SOLVEPNP_IPPE);
-        if (rotations.empty()) return std::nullopt;
-        cv::Mat rotation = rotations.front(), translation = translations.front();
-        cv::solvePnPRefineLM(on_board, rays, cv::Matx33d::eye(), cv::noArray(), rotation,
-                             translation);
-        cv::Matx33d matrix;
-        cv::Rodrigues(rotation, matrix);
-        Pose pose = Pose::Identity();
-        pose.linear() = to_eigen(matrix);
-        pose.translation() = to_eigen(cv::Vec3d(translation));
-        if (!pose.matrix().allFinite() || !(pose.translation().z() > 0)) return std::nullopt;
-        return pose;
+        for (std::size_t i = 0; i < rotations.size(); ++i) {
+            cv::solvePnPRefineLM(on_board, rays, cv::Matx33d::eye(), cv::noArray(), rotations[i],
+                                 translations[i]);
+            cv::Matx33d matrix;
+            cv::Rodrigues(rotations[i], matrix);
+            Pose pose = Pose::Identity();
+            pose.linear() = to_eigen(matrix);
+            pose.translation() = to_eigen(cv::Vec3d(translations[i]));
+            if (pose.matrix().allFinite() && pose.translation().z() > 0) poses.push_back(pose);
+        }
     } catch (const cv::Exception&) {
         // OpenCV throws for corners in a line.
-        return std::nullopt;
     }
+    return poses;
+}
+
+std::optional<Pose> estimate_board_pose(const CameraModel& camera, const BoardCorners& corners) {
+    const std::vector<Pose> poses = board_pose_candidates(camera, corners);
+    if (poses.empty()) return std::nullopt;
+    return poses.front();
 }
 
 std::optional<Bundle> solve_camera(const CameraViews& views, const LensFamily& family) {

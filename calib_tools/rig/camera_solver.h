@@ -14,6 +14,11 @@ struct CameraViews {
     std::vector<BoardCorners> instants;
 };
 
+/// The one or two poses camera_from_board that explain what a camera sees of a flat board (planar
+/// PnP), the better first: from far away a board and its mirrored tilt look nearly alike. None for
+/// fewer than four corners or corners in a line.
+std::vector<Pose> board_pose_candidates(const CameraModel& camera, const BoardCorners& corners);
+
 /// The pose camera_from_board that fits best (planar PnP; of its two answers the one with the
 /// smaller error); empty for fewer than four corners or corners in a line.
 std::optional<Pose> estimate_board_pose(const CameraModel& camera, const BoardCorners& corners);

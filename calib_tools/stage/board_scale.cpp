@@ -1,8 +1,10 @@
 #include "calib_tools/stage/board_scale.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "calib_tools/board/median.h"
+#include "calib_tools/stage/stage_graph.h"
 
 namespace vantage {
 namespace {
@@ -22,43 +24,40 @@ Eigen::Vector3d triangulate(const StereoCalibration& rig, const Eigen::Vector2d&
     return 0.5 * (along[0] * a + left_from_right.translation() + along[1] * b);
 }
 
-/// Mean distance of the corners from their middle, measured over described.
+/// Of the similarity that carries the described corners to the measured ones (Umeyama, 1991).
 std::optional<double> scale_of(const StereoCalibration& rig, const BoardCorners& left,
                                const BoardCorners& right) {
     std::map<int, Eigen::Vector2d> seen_right;
     for (const BoardCorner& corner : right) seen_right[corner.id] = corner.pixel;
     std::vector<Eigen::Vector3d> measured, described;
-    Eigen::Vector3d measured_middle = Eigen::Vector3d::Zero(),
-                    described_middle = Eigen::Vector3d::Zero();
     for (const BoardCorner& corner : left) {
         const auto other = seen_right.find(corner.id);
         if (other == seen_right.end()) continue;
         measured.push_back(triangulate(rig, corner.pixel, other->second));
         described.push_back(corner.board_m);
-        measured_middle += measured.back();
-        described_middle += described.back();
     }
     if (measured.size() < fewest_corners) return std::nullopt;
-    measured_middle /= static_cast<double>(measured.size());
-    described_middle /= static_cast<double>(described.size());
-    double measured_sum = 0, described_sum = 0;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-        measured_sum += (measured[i] - measured_middle).norm();
-        described_sum += (described[i] - described_middle).norm();
-    }
-    return measured_sum / described_sum;
+    using Points = Eigen::Matrix3Xd;
+    const auto count = static_cast<Eigen::Index>(measured.size());
+    const Points from = Eigen::Map<const Points>(described.front().data(), 3, count);
+    const Points to = Eigen::Map<const Points>(measured.front().data(), 3, count);
+    return Eigen::umeyama(from, to, true).topLeftCorner<3, 3>().col(0).norm();
 }
 
 }  // namespace
 
-std::optional<double> board_scale(const std::vector<StageRig>& rigs) {
+std::optional<double> board_scale(const std::vector<StageRig>& rigs, const BoardBody& body) {
     std::vector<double> scales;
     for (const StageRig& rig : rigs)
         for (const auto& [instant, left] : rig.left) {
             const auto right = rig.right.find(instant);
             if (right == rig.right.end()) continue;
-            if (const auto scale = scale_of(rig.calibration, left, right->second))
-                scales.push_back(*scale);
+            for (const int board : body.boards) {
+                const auto wanted = [&](int each) { return each == board; };
+                if (const auto scale = scale_of(rig.calibration, corners_of(left, wanted),
+                                                corners_of(right->second, wanted)))
+                    scales.push_back(*scale);
+            }
         }
     if (scales.size() < fewest_instants) return std::nullopt;
     return median(scales);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/view_rejection.h"
 #include "calib_tools/stage/board_scale.h"
+#include "calib_tools/stage/stage_graph.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -17,94 +19,36 @@ constexpr int few_shared = StageCalibration::few_shared;
 constexpr double weak_sigma_m = 0.002;
 const LensFamily& held_family() { return lens_family("none"); }
 
-/// Of every rig and instant: the board in the rig's frame, from the camera that saw more of it.
-using BoardPoses = std::vector<std::map<long long, Pose>>;
-
-BoardPoses pose_boards(const std::vector<StageRig>& rigs) {
-    BoardPoses poses(rigs.size());
-    for (std::size_t i = 0; i < rigs.size(); ++i) {
-        const StereoCalibration& c = rigs[i].calibration;
-        for (const auto& [instant, corners] : rigs[i].right)
-            if (const auto pose = estimate_board_pose(c.right, corners))
-                poses[i][instant] = c.right_from_left.inverse() * *pose;
-        for (const auto& [instant, corners] : rigs[i].left) {
-            const auto other = rigs[i].right.find(instant);
-            if (other != rigs[i].right.end() && other->second.size() > corners.size()) continue;
-            if (const auto pose = estimate_board_pose(c.left, corners)) poses[i][instant] = *pose;
-        }
-    }
-    return poses;
-}
-
-std::vector<long long> shared_instants(const std::map<long long, Pose>& a,
-                                       const std::map<long long, Pose>& b) {
-    std::vector<long long> shared;
-    for (const auto& [instant, pose] : a)
-        if (b.contains(instant)) shared.push_back(instant);
-    return shared;
-}
-
-/// Places rigs one by one, always the one with the most instants shared with a rig that stands.
-std::vector<Pose> place_rigs(const std::vector<StageRig>& rigs, const BoardPoses& poses) {
-    std::vector<Pose> world_from_rig(rigs.size(), Pose::Identity());
-    std::vector<bool> placed(rigs.size(), false);
-    placed[0] = true;
-    for (std::size_t step = 1; step < rigs.size(); ++step) {
-        std::size_t from = 0, to = 0, most = 0;
-        for (std::size_t a = 0; a < rigs.size(); ++a)
-            for (std::size_t b = 0; b < rigs.size(); ++b) {
-                if (!placed[a] || placed[b]) continue;
-                const std::size_t shared = shared_instants(poses[a], poses[b]).size();
-                if (shared > most) {
-                    most = shared;
-                    from = a;
-                    to = b;
-                }
-            }
-        if (most == 0) {
-            std::string standing, lost;
-            for (std::size_t i = 0; i < rigs.size(); ++i)
-                (placed[i] ? standing : lost) +=
-                    ((placed[i] ? standing : lost).empty() ? "" : ", ") + rigs[i].name;
-            fail(
-                "no picture shows the board to {} and to {} at the same instant: hold the board "
-                "where one of the first and one of the second see it, and take pictures there",
-                lost, standing);
-        }
-        std::vector<Pose> candidates;
-        for (const long long instant : shared_instants(poses[from], poses[to]))
-            candidates.push_back(poses[from].at(instant) * poses[to].at(instant).inverse());
-        world_from_rig[to] = world_from_rig[from] * middle_pose(candidates).right_from_left;
-        placed[to] = true;
-    }
-    return world_from_rig;
-}
-
-struct Instants {
-    std::vector<long long> numbers;
-    std::map<long long, int> index;
-};
-
-void require_described_size(const std::vector<StageRig>& rigs, const BoardPattern& pattern) {
+void require_described_size(const std::vector<StageRig>& rigs, const BoardSet& boards) {
     // Noise at the far end of a stage reaches a percent; boards differ by more.
     constexpr double most = 0.03;
-    const std::optional<double> scale = board_scale(rigs);
-    if (scale && std::abs(*scale - 1) > most)
-        fail(
-            "the board's squares are {:.4f} m wide by the rigs' own baselines and {:.4f} m by its "
-            "description: this is another board, or the rigs were calibrated with a wrong size; "
-            "measure a row of squares",
-            *scale * pattern.square_m, pattern.square_m);
+    for (const BoardBody& body : boards.bodies) {
+        const std::optional<double> scale = board_scale(rigs, body);
+        const double square_m =
+            boards.boards[static_cast<std::size_t>(body.boards.front())].square_m;
+        if (scale && std::abs(*scale - 1) > most)
+            fail(
+                "the squares of {} are {:.4f} m wide by the rigs' own baselines and {:.4f} m by "
+                "its description: this is another board, or the rigs were calibrated with a wrong "
+                "size; measure a row of squares",
+                boards.is_one_board() ? "the board" : body.name, *scale * square_m, square_m);
+    }
 }
 
-Instants gather_instants(const BoardPoses& poses) {
-    std::set<long long> all;
-    for (const auto& of_rig : poses)
-        for (const auto& [instant, pose] : of_rig) all.insert(instant);
-    Instants result;
-    for (const long long instant : all) {
-        result.index[instant] = static_cast<int>(result.numbers.size());
-        result.numbers.push_back(instant);
+/// The bundle's boards: a body at an instant.
+struct Placements {
+    std::vector<StageCalibration::Placement> list;
+    std::map<std::pair<long long, int>, int> index;  ///< by instant and body
+};
+
+Placements gather_placements(const StageStart& start) {
+    std::set<std::pair<long long, int>> all;
+    for (const auto& [key, pose] : start.rig_from_body)
+        all.emplace(std::get<long long>(key), std::get<int>(key));
+    Placements result;
+    for (const auto& [instant, body] : all) {
+        result.index[{instant, body}] = static_cast<int>(result.list.size());
+        result.list.push_back({instant, body});
     }
     return result;
 }
@@ -146,13 +90,46 @@ CameraPrior prior_of(const StageRig& rig, bool is_left) {
     return prior;
 }
 
-Bundle make_bundle(const std::vector<StageRig>& rigs, const BoardPoses& poses,
-                   const Instants& instants, const std::vector<Pose>& world_from_rig) {
+/// Of the places that the rigs give a body the one that all of them see best.
+void place_bodies(const StageStart& start, const Placements& placements, Bundle& bundle) {
+    constexpr double most_px = 50;
+    std::vector<std::vector<const BundleView*>> views_of(bundle.boards.size());
+    for (const BundleView& view : bundle.views)
+        views_of[static_cast<std::size_t>(view.board)].push_back(&view);
+    std::vector<double> least(bundle.boards.size(), std::numeric_limits<double>::max());
+    std::vector<Pose> best(bundle.boards.size(), Pose::Identity());
+    for (const auto& [key, rig_from_body] : start.rig_from_body) {
+        const auto& [rig, instant, body] = key;
+        const auto board = static_cast<std::size_t>(placements.index.at({instant, body}));
+        bundle.boards[board].world_from_board = start.world_from_rig[rig] * rig_from_body;
+        double miss = 0;
+        for (const BundleView* view : views_of[board])
+            for (const BoardCorner& corner : view->corners)
+                miss += std::min(most_px, bundle.residual_px(*view, corner).norm());
+        if (miss < least[board]) {
+            least[board] = miss;
+            best[board] = bundle.boards[board].world_from_board;
+        }
+    }
+    for (std::size_t i = 0; i < best.size(); ++i) bundle.boards[i].world_from_board = best[i];
+}
+
+Bundle make_bundle(const std::vector<StageRig>& rigs, const StageStart& start,
+                   const Placements& placements) {
     Bundle bundle;
-    bundle.boards.resize(instants.numbers.size());
+    bundle.boards.resize(placements.list.size());
+    if (std::any_of(start.bodies.begin(), start.bodies.end(),
+                    [](const StageStart::Body& body) { return body.boards.size() > 1; })) {
+        bundle.faces.resize(start.body_of_board.size());
+        for (const StageStart::Body& body : start.bodies)
+            for (const int board : body.boards)
+                bundle.faces[static_cast<std::size_t>(board)] = {
+                    start.body_from_board[static_cast<std::size_t>(board)],
+                    board != body.boards.front()};
+    }
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         const StereoCalibration& c = rigs[i].calibration;
-        bundle.rigs.push_back({world_from_rig[i], i > 0});
+        bundle.rigs.push_back({start.world_from_rig[i], i > 0});
         for (const bool is_left : {true, false}) {
             BundleCamera camera;
             camera.model = is_left ? c.left : c.right;
@@ -167,16 +144,44 @@ Bundle make_bundle(const std::vector<StageRig>& rigs, const BoardPoses& poses,
                 camera.prior = prior_of(rigs[i], is_left);
             }
             for (const auto& [instant, corners] : is_left ? rigs[i].left : rigs[i].right)
-                if (poses[i].contains(instant))
-                    bundle.views.push_back({static_cast<int>(bundle.cameras.size()),
-                                            instants.index.at(instant), corners});
+                for (int body = 0; body < static_cast<int>(start.bodies.size()); ++body) {
+                    if (!start.rig_from_body.contains({i, instant, body})) continue;
+                    BoardCorners of_body = corners_of(corners, [&](int board) {
+                        return start.body_of_board[static_cast<std::size_t>(board)] == body;
+                    });
+                    if (!of_body.empty())
+                        bundle.views.push_back({static_cast<int>(bundle.cameras.size()),
+                                                placements.index.at({instant, body}),
+                                                std::move(of_body)});
+                }
             bundle.cameras.push_back(camera);
         }
-        for (const auto& [instant, pose] : poses[i])
-            bundle.boards[static_cast<std::size_t>(instants.index.at(instant))].world_from_board =
-                world_from_rig[i] * pose;
     }
+    place_bodies(start, placements, bundle);
     return bundle;
+}
+
+/// The bundle's board that lies on the floor: flat, seen at that instant, and the only such one or
+/// the one that is named.
+int find_floor(const StageStart& start, const StageCalibration& stage, const Floor& floor,
+               const std::set<int>& used) {
+    std::vector<int> flat;
+    std::string names;
+    for (int i = 0; i < static_cast<int>(stage.placements.size()); ++i) {
+        const auto& [instant, body] = stage.placements[static_cast<std::size_t>(i)];
+        const StageStart::Body& seen = start.bodies[static_cast<std::size_t>(body)];
+        if (instant != floor.instant || !used.contains(i) || seen.boards.size() > 1) continue;
+        if (!floor.board.empty() && floor.board != seen.name) continue;
+        flat.push_back(i);
+        names += (names.empty() ? "" : ", ") + seen.name;
+    }
+    if (flat.empty())
+        fail("no rig could use a picture with number {} of {} on the floor", floor.instant,
+             floor.board.empty() ? "the board" : floor.board);
+    if (flat.size() > 1)
+        fail("at instant {} the rigs see {}: say which lies on the floor (--floor-board NAME)",
+             floor.instant, names);
+    return flat.front();
 }
 
 /// y up, the middle of the board at the origin; z of the board points into the floor.
@@ -229,21 +234,28 @@ void advise(StageCalibration& stage) {
 
 }  // namespace
 
-StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardPattern& pattern,
-                                 std::optional<long long> floor_instant) {
+std::string StageCalibration::placement_name(int board) const {
+    const Placement& placement = placements[static_cast<std::size_t>(board)];
+    return bodies.size() == 1 ? fmt::format("instant {}", placement.instant)
+                              : fmt::format("instant {}, {}", placement.instant,
+                                            bodies[static_cast<std::size_t>(placement.body)].name);
+}
+
+StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardSet& boards,
+                                 const std::optional<Floor>& floor) {
     if (rigs.size() < 2) fail("a stage needs at least two rigs; one was given");
-    if (pattern.kind == BoardKind::chessboard && looks_alike_half_turned(pattern))
+    boards.validate();
+    const BoardPattern& first = boards.boards.front();
+    if (first.kind == BoardKind::chessboard && looks_alike_half_turned(first))
         fail(
             "a {} chessboard looks the same when turned half round, so rigs that see it from "
             "different sides cannot agree: take one with an odd and an even count of corners, or "
             "a ChArUco board",
-            pattern.size_name());
-    const BoardPoses poses = pose_boards(rigs);
-    for (std::size_t i = 0; i < rigs.size(); ++i)
-        if (poses[i].empty()) fail("rig {} saw the board in none of its pictures", rigs[i].name);
-    require_described_size(rigs, pattern);
-    const Instants instants = gather_instants(poses);
-    Bundle bundle = make_bundle(rigs, poses, instants, place_rigs(rigs, poses));
+            first.size_name());
+    const StageStart start = start_stage(rigs, boards);
+    require_described_size(rigs, boards);
+    const Placements placements = gather_placements(start);
+    Bundle bundle = make_bundle(rigs, start, placements);
     std::vector<RejectedView> bad;
     std::size_t corners_left_out = 0;
     // Lenses are let go once the rigs stand and the corners' own spread is known.
@@ -258,6 +270,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
             "and that no rig was moved");
     bundle.rigs = held.rigs;
     bundle.boards = held.boards;
+    bundle.faces = held.faces;
     bundle.corner_sigma_px = std::max(0.01, robust_sigma_px(held));
     if (!solve_robustly(bundle) || !reject_bad_views(bundle, bad, corners_left_out))
         fail(
@@ -265,10 +278,12 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
             "and that no rig was moved");
 
     StageCalibration stage;
-    stage.instants_given = instants.numbers.size();
+    stage.placements = placements.list;
+    for (const StageStart::Body& body : start.bodies)
+        stage.bodies.push_back({body.name, body.boards, {}, {}});
     for (const RejectedView& view : bad)
         stage.rejected.push_back(
-            {fmt::format("instant {}", instants.numbers[static_cast<std::size_t>(view.board)]),
+            {stage.placement_name(view.board),
              fmt::format("contradicts the others: its corners miss the model by {:.2f} px where "
                          "{:.2f} px is usual",
                          view.rms_px, view.usual_rms_px)});
@@ -276,7 +291,19 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
     for (const BundleView& view : bundle.views)
         rigs_of_board[view.board].insert(
             static_cast<std::size_t>(bundle.cameras[static_cast<std::size_t>(view.camera)].rig));
-    stage.instants_used = rigs_of_board.size();
+    const auto instant_of = [&](int board) {
+        return stage.placements[static_cast<std::size_t>(board)].instant;
+    };
+    std::set<long long> given, used;
+    std::set<int> used_boards;
+    for (const StageCalibration::Placement& placement : stage.placements)
+        given.insert(placement.instant);
+    for (const auto& [board, seen_by] : rigs_of_board) {
+        used.insert(instant_of(board));
+        used_boards.insert(board);
+    }
+    stage.instants_given = given.size();
+    stage.instants_used = used.size();
     stage.rms_px = bundle.rms_px();
     if (!(stage.rms_px < 2))
         fail(
@@ -285,21 +312,20 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
             stage.rms_px);
     for (std::size_t a = 0; a < rigs.size(); ++a)
         for (std::size_t b = a + 1; b < rigs.size(); ++b) {
-            int shared = 0;
+            std::set<long long> shared;
             for (const auto& [board, seen_by] : rigs_of_board)
-                shared += seen_by.contains(a) && seen_by.contains(b) ? 1 : 0;
-            stage.ties.push_back({a, b, shared});
+                if (seen_by.contains(a) && seen_by.contains(b)) shared.insert(instant_of(board));
+            stage.ties.push_back({a, b, static_cast<int>(shared.size())});
         }
 
     Pose world_from_start = Pose::Identity();
-    if (floor_instant) {
-        const auto index = instants.index.find(*floor_instant);
-        if (index == instants.index.end() || !rigs_of_board.contains(index->second))
-            fail("no rig could use a picture with number {} of the board on the floor",
-                 *floor_instant);
+    if (floor) {
+        const int on_floor = find_floor(start, stage, *floor, used_boards);
+        const int body = stage.placements[static_cast<std::size_t>(on_floor)].body;
+        const int board = start.bodies[static_cast<std::size_t>(body)].boards.front();
         world_from_start =
-            world_from_floor_board(pattern) *
-            bundle.boards[static_cast<std::size_t>(index->second)].world_from_board.inverse();
+            world_from_floor_board(boards.boards[static_cast<std::size_t>(board)]) *
+            bundle.boards[static_cast<std::size_t>(on_floor)].world_from_board.inverse();
         stage.has_floor = true;
     }
     const BundleUncertainty uncertainty = bundle_uncertainty(bundle);
@@ -320,8 +346,10 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
             corners += count;
         }
         rig.rms_px = corners > 0 ? std::sqrt(squares / corners) : 0;
+        std::set<long long> seen_at;
         for (const auto& [board, seen_by] : rigs_of_board)
-            rig.instants += seen_by.contains(i) ? 1 : 0;
+            if (seen_by.contains(i)) seen_at.insert(instant_of(board));
+        rig.instants = static_cast<int>(seen_at.size());
         if (rig.instants == 0)
             fail(
                 "every picture of rig {} contradicts the other rigs: its calibration is not its "
@@ -330,8 +358,15 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardP
         stage.rigs.push_back(rig);
     }
     advise(stage);
+    for (StageCalibration::Body& body : stage.bodies) {
+        if (body.boards.size() < 2) continue;
+        for (const int board : body.boards) {
+            const auto k = static_cast<std::size_t>(board);
+            body.body_from_board.push_back(bundle.faces[k].board_from_face);
+            body.translation_sigma_m.push_back(uncertainty.faces[k].translation_m.norm());
+        }
+    }
     stage.bundle = std::move(bundle);
-    stage.instant_numbers = instants.numbers;
     return stage;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/board_set.h"
 #include "calib_tools/rig/rig_calibration.h"
 #include "common/config/calibration_file.h"
 
@@ -47,21 +47,45 @@ struct StageCalibration {
     double rms_px = 0;
     std::size_t instants_given = 0, instants_used = 0;
     bool has_floor = false;
+    /// What was carried about as one, as far as the pictures tell: the boards of the set that it
+    /// is made of, and of several where they turned out to be on it (the first gives the frame).
+    struct Body {
+        std::string name;
+        std::vector<int> boards;
+        std::vector<Pose> body_from_board;
+        std::vector<double> translation_sigma_m;  ///< against the first
+    };
+    std::vector<Body> bodies;
+    /// Of a board of the bundle: which body it is, and when.
+    struct Placement {
+        long long instant = 0;
+        int body = 0;
+    };
+    std::vector<Placement> placements;
+    std::string placement_name(int board) const;  ///< "instant 7, cube"
     Bundle bundle;  ///< cameras 2i and 2i + 1 are the left and right one of rig i
-    std::vector<long long> instant_numbers;  ///< of the bundle's boards
-    static constexpr int few_shared = 5;     ///< instants; a tie of fewer is weak
+    static constexpr int few_shared = 5;  ///< instants; a tie of fewer is weak
+};
+
+/// The picture that says where the world's floor is.
+struct Floor {
+    long long instant = 0;
+    std::string board;  ///< its name, where several flat ones are seen; empty: the only one
+
+    Floor(long long at, std::string name = {})  // NOLINT(google-explicit-constructor)
+        : instant(at), board(std::move(name)) {}
 };
 
 /// The extrinsics of all rigs: poses of the boards in each rig give a graph whose edges are
-/// instants that two rigs saw; along its strongest edges the rigs are placed, then rigs and boards
-/// are solved together. Lenses and baselines of a rig whose uncertainties are known are solved as
-/// well, held to their own calibration as firmly as that was certain, so that the uncertainties
-/// stated include theirs; those of other rigs are held. With `floor_instant` the board of that
-/// instant lies on the floor: the world's origin is its middle, y up, x along its rows, z along its
-/// columns. Without, the world is the frame of the first rig's left camera. Throws Error naming
-/// rigs that no board ties to the others, boards that look alike when turned, and a floor board
-/// nobody saw.
-StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardPattern& pattern,
-                                 std::optional<long long> floor_instant);
+/// instants that two rigs saw; along its strongest edges the rigs are placed, then rigs, boards and
+/// the places of boards on their bodies are solved together. Lenses and baselines of a rig whose
+/// uncertainties are known are solved as well, held to their own calibration as firmly as that was
+/// certain, so that the uncertainties stated include theirs; those of other rigs are held. With
+/// `floor` the flat board of that instant lies on the floor: the world's origin is its middle, y
+/// up, x along its rows, z along its columns. Without, the world is the frame of the first rig's
+/// left camera. Throws Error naming rigs that no board ties to the others, boards that look alike
+/// when turned, boards that cannot be told apart, and a floor board nobody saw.
+StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardSet& boards,
+                                 const std::optional<Floor>& floor);
 
 }  // namespace vantage

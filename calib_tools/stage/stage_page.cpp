@@ -59,6 +59,19 @@ HtmlPage stage_page(const StageCalibration& stage) {
     page.table({"rig", "place x, y, z (m)", "± mm", "± degrees", "px RMS", "instants",
                 "focal length refined by"},
                rows);
+    std::vector<std::vector<HtmlPage::Cell>> faces;
+    for (const StageCalibration::Body& body : stage.bodies)
+        for (std::size_t i = 0; i < body.body_from_board.size(); ++i) {
+            const Eigen::Vector3d at = body.body_from_board[i].translation();
+            faces.push_back({{body.name},
+                             {std::to_string(body.boards[i] + 1)},
+                             {fmt::format("{:.4f}, {:.4f}, {:.4f}", at.x(), at.y(), at.z())},
+                             {fmt::format("{:.2f}", 1000 * body.translation_sigma_m[i])}});
+        }
+    if (!faces.empty()) {
+        page.heading("Boards that are fixed to each other");
+        page.table({"body", "board", "place x, y, z (m)", "± mm"}, faces);
+    }
     page.heading("Residuals");
     for (std::size_t i = 0; i < stage.bundle.cameras.size(); ++i) {
         const CameraModel& m = stage.bundle.cameras[i].model;
@@ -69,7 +82,7 @@ HtmlPage stage_page(const StageCalibration& stage) {
     }
     std::vector<Bar> bars;
     std::vector<double> values;
-    for (std::size_t b = 0; b < stage.instant_numbers.size(); ++b) {
+    for (std::size_t b = 0; b < stage.placements.size(); ++b) {
         double squares = 0, corners = 0;
         for (const BundleView& view : stage.bundle.views) {
             if (view.board != static_cast<int>(b)) continue;
@@ -79,7 +92,9 @@ HtmlPage stage_page(const StageCalibration& stage) {
         }
         if (corners == 0) continue;
         values.push_back(std::sqrt(squares / corners));
-        bars.push_back({std::to_string(stage.instant_numbers[b]), values.back()});
+        bars.push_back({stage.bodies.size() == 1 ? std::to_string(stage.placements[b].instant)
+                                                 : stage.placement_name(static_cast<int>(b)),
+                        values.back()});
     }
     page.figure(draw_bars(bars, "px RMS", median(values)),
                 "Residual of every instant; dashed: the usual one.");

@@ -1,5 +1,6 @@
 #include "calib_tools/stage/stage_report.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -9,17 +10,21 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
+nlohmann::json rows_of(const Pose& pose) {
+    const Eigen::Matrix4d m = pose.matrix();
+    nlohmann::json rows = nlohmann::json::array();
+    for (int r = 0; r < 3; ++r) rows.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
+    return rows;
+}
+
 }  // namespace
 
 nlohmann::json to_json(const StageCalibration& stage) {
     using nlohmann::json;
     json rigs = json::array(), ties = json::array(), rejected = json::array();
     for (const StageCalibration::Rig& rig : stage.rigs) {
-        const Eigen::Matrix4d m = rig.calibration.world_from_left.matrix();
-        json pose = json::array();
-        for (int r = 0; r < 3; ++r) pose.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
         rigs.push_back({{"name", rig.name},
-                        {"world_from_left", pose},
+                        {"world_from_left", rows_of(rig.calibration.world_from_left)},
                         {"translation_sigma_m", rig.translation_sigma_m},
                         {"rotation_sigma_deg", rig.rotation_sigma_rad * degrees},
                         {"rms_px", rig.rms_px},
@@ -33,12 +38,26 @@ nlohmann::json to_json(const StageCalibration& stage) {
                         {"shared_instants", tie.shared}});
     for (const Refusal& refusal : stage.rejected)
         rejected.push_back({{"name", refusal.name}, {"reason", refusal.reason}});
+    json bodies = json::array();
+    for (const StageCalibration::Body& body : stage.bodies) {
+        json faces = json::array();
+        for (std::size_t i = 0; i < body.boards.size(); ++i) {
+            json face = {{"board", body.boards[i] + 1}};
+            if (!body.body_from_board.empty()) {
+                face["body_from_board"] = rows_of(body.body_from_board[i]);
+                face["translation_sigma_m"] = body.translation_sigma_m[i];
+            }
+            faces.push_back(face);
+        }
+        bodies.push_back({{"name", body.name}, {"boards", faces}});
+    }
     return {{"rms_px", stage.rms_px},
             {"instants_given", stage.instants_given},
             {"instants_used", stage.instants_used},
             {"world", stage.has_floor ? "board on the floor" : "left camera of the first rig"},
             {"rigs", rigs},
             {"ties", ties},
+            {"bodies", bodies},
             {"rejected", rejected},
             {"advice", stage.advice}};
 }
@@ -59,6 +78,12 @@ std::string describe(const StageCalibration& stage) {
             text += fmt::format("   lenses refined by {:.3f} %, baseline by {:.2f} mm\n",
                                 100 * rig.focal_change, 1000 * rig.baseline_change_m);
     }
+    for (const StageCalibration::Body& body : stage.bodies)
+        if (body.boards.size() > 1)
+            text += fmt::format("{}: {} boards fixed to each other, placed to {:.2f} mm\n",
+                                body.name, body.boards.size(),
+                                1000 * *std::max_element(body.translation_sigma_m.begin(),
+                                                         body.translation_sigma_m.end()));
     for (const Refusal& refusal : stage.rejected)
         text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
     for (const std::string& sentence : stage.advice) text += "would help: " + sentence + "\n";

@@ -149,6 +149,20 @@ void TomlTable::read(std::string_view key, std::map<std::string, int>& values) {
     });
 }
 
+void TomlTable::read(std::string_view key, std::vector<int>& values, Range<int> range) {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    if (!array) refuse_type(key, *node, "an array of integers");
+    values.clear();
+    for (const toml::node& element : *array) {
+        if (!element.is_integer()) refuse_type(key, element, "an array of integers");
+        const std::int64_t number = element.as_integer()->get();
+        check_range(key, number, Range<std::int64_t>{range.least, range.most});
+        values.push_back(static_cast<int>(number));
+    }
+}
+
 void TomlTable::read(std::string_view key, std::vector<std::string>& values) {
     const toml::node* node = find(key);
     if (!node) return;

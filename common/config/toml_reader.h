@@ -39,6 +39,8 @@ class TomlTable {
     void read(std::string_view key, std::span<double> values, Range<double> range = {});
     /// A table of names and integers, whatever the names.
     void read(std::string_view key, std::map<std::string, int>& values);
+    /// An array of integers, however many.
+    void read(std::string_view key, std::vector<int>& values, Range<int> range = {});
     /// An array of strings.
     void read(std::string_view key, std::vector<std::string>& values);
     /// A path; a relative one is relative to the folder of the file.
