@@ -17,6 +17,7 @@ constexpr double points_per_m = 72 / 0.0254;
 constexpr double max_page_points = 14400;
 constexpr double caption_m = 0.014;
 constexpr double ruler_m = 0.1;
+constexpr double around_frame_m = 0.01;
 
 [[noreturn]] void pdf_failed(HPDF_STATUS error, HPDF_STATUS detail, void*) {
     fail("the PDF could not be made (library error {:#x}, {})", error, detail);
@@ -27,6 +28,58 @@ struct FreePdf {
 };
 
 float points(double m) { return static_cast<float>(m * points_per_m); }
+
+/// A page with a board; `face` is what its caption begins with, for one that is cut out and glued
+/// to a body.
+void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face) {
+    const double frame_m = face.empty() ? 0 : around_frame_m, margin = board_margin_m(pattern);
+    const double board_width_m = (pattern.columns + 1) * pattern.square_m + 2 * margin;
+    const double board_height_m = (pattern.rows + 1) * pattern.square_m + 2 * margin;
+    const double width_m = board_width_m + 2 * frame_m;
+    const double height_m = board_height_m + 2 * frame_m + caption_m;
+    if (std::max(width_m, height_m) * points_per_m > max_page_points)
+        fail("a board of {:.2f} x {:.2f} m is larger than a PDF page may be (5.08 m a side)",
+             width_m, height_m);
+    const HPDF_Page page = HPDF_AddPage(pdf);
+    HPDF_Page_SetWidth(page, points(width_m));
+    HPDF_Page_SetHeight(page, points(height_m));
+    for (const BoardPatch& patch : board_patches(pattern)) {
+        HPDF_Page_SetGrayFill(page, patch.black ? 0.0f : 1.0f);
+        // PDF counts from the bottom.
+        HPDF_Page_Rectangle(page, points(frame_m + margin + patch.place_m.x),
+                            points(height_m - frame_m - margin - patch.place_m.br().y),
+                            points(patch.place_m.width), points(patch.place_m.height));
+        HPDF_Page_Fill(page);
+    }
+    HPDF_Page_SetGrayFill(page, 0);
+    HPDF_Page_SetLineWidth(page, 0.5f);
+    if (!face.empty()) {
+        HPDF_Page_Rectangle(page, points(frame_m), points(height_m - frame_m - board_height_m),
+                            points(board_width_m), points(board_height_m));
+        HPDF_Page_Stroke(page);
+    }
+    const double left = std::min(margin, 0.01);
+    if (width_m > ruler_m + 2 * left) {
+        HPDF_Page_MoveTo(page, points(left), points(0.010));
+        HPDF_Page_LineTo(page, points(left + ruler_m), points(0.010));
+        for (const double end : {left, left + ruler_m}) {
+            HPDF_Page_MoveTo(page, points(end), points(0.0085));
+            HPDF_Page_LineTo(page, points(end), points(0.0115));
+        }
+        HPDF_Page_Stroke(page);
+    }
+    const std::string caption = fmt::format(
+        "{}{}x{} inner corners, square {:g} mm{}. Print at 100 %: the line above is 100 mm.", face,
+        pattern.columns, pattern.rows, 1000 * pattern.square_m,
+        pattern.kind == BoardKind::charuco
+            ? fmt::format(", marker {:g} mm, {} from {}", 1000 * pattern.marker_m,
+                          pattern.dictionary, pattern.first_marker)
+            : "");
+    HPDF_Page_BeginText(page);
+    HPDF_Page_SetFontAndSize(page, HPDF_GetFont(pdf, "Helvetica", nullptr), 7);
+    HPDF_Page_TextOut(page, points(left), points(0.004), caption.c_str());
+    HPDF_Page_EndText(page);
+}
 
 }  // namespace
 
@@ -68,49 +121,15 @@ GreyImage draw_board(const BoardPattern& pattern, int square_px) {
     return picture;
 }
 
-std::vector<std::byte> board_as_pdf(const BoardPattern& pattern) {
-    const double margin = board_margin_m(pattern);
-    const double width_m = (pattern.columns + 1) * pattern.square_m + 2 * margin;
-    const double height_m = (pattern.rows + 1) * pattern.square_m + 2 * margin + caption_m;
-    if (std::max(width_m, height_m) * points_per_m > max_page_points)
-        fail("a board of {:.2f} x {:.2f} m is larger than a PDF page may be (5.08 m a side)",
-             width_m, height_m);
+std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces) {
     const std::unique_ptr<void, FreePdf> owner(HPDF_New(pdf_failed, nullptr));
     const auto pdf = static_cast<HPDF_Doc>(owner.get());
     if (!pdf) fail("the PDF could not be made: no memory");
-    const HPDF_Page page = HPDF_AddPage(pdf);
-    HPDF_Page_SetWidth(page, points(width_m));
-    HPDF_Page_SetHeight(page, points(height_m));
-    for (const BoardPatch& patch : board_patches(pattern)) {
-        HPDF_Page_SetGrayFill(page, patch.black ? 0.0f : 1.0f);
-        // PDF counts from the bottom.
-        HPDF_Page_Rectangle(page, points(margin + patch.place_m.x),
-                            points(height_m - margin - patch.place_m.br().y),
-                            points(patch.place_m.width), points(patch.place_m.height));
-        HPDF_Page_Fill(page);
-    }
-    HPDF_Page_SetGrayFill(page, 0);
-    const double left = std::min(margin, 0.01);
-    if (width_m > ruler_m + 2 * left) {
-        HPDF_Page_SetLineWidth(page, 0.5f);
-        HPDF_Page_MoveTo(page, points(left), points(0.010));
-        HPDF_Page_LineTo(page, points(left + ruler_m), points(0.010));
-        for (const double end : {left, left + ruler_m}) {
-            HPDF_Page_MoveTo(page, points(end), points(0.0085));
-            HPDF_Page_LineTo(page, points(end), points(0.0115));
-        }
-        HPDF_Page_Stroke(page);
-    }
-    const std::string caption = fmt::format(
-        "{}x{} inner corners, square {:g} mm{}. Print at 100 %: the line above is 100 mm.",
-        pattern.columns, pattern.rows, 1000 * pattern.square_m,
-        pattern.kind == BoardKind::charuco
-            ? fmt::format(", marker {:g} mm, {}", 1000 * pattern.marker_m, pattern.dictionary)
-            : "");
-    HPDF_Page_BeginText(page);
-    HPDF_Page_SetFontAndSize(page, HPDF_GetFont(pdf, "Helvetica", nullptr), 7);
-    HPDF_Page_TextOut(page, points(left), points(0.004), caption.c_str());
-    HPDF_Page_EndText(page);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        add_page(pdf, faces[i],
+                 faces.size() > 1
+                     ? fmt::format("Face {} of {}: cut along the frame. ", i + 1, faces.size())
+                     : "");
     HPDF_SaveToStream(pdf);
     HPDF_UINT32 size = HPDF_GetStreamSize(pdf);
     std::vector<std::byte> bytes(size);

@@ -25,8 +25,9 @@ double board_margin_m(const BoardPattern& pattern);
 /// The board with its margin; one square is `square_px` wide.
 GreyImage draw_board(const BoardPattern& pattern, int square_px);
 
-/// One page that holds the board at its true size, with a ruler to check the print by. Throws Error
-/// if the board is larger than a PDF page may be (5 m).
-std::vector<std::byte> board_as_pdf(const BoardPattern& pattern);
+/// A page that holds the board at its true size, with a ruler to check the print by; of a body of
+/// several boards a page each, with a frame to cut along. Throws Error if a board is larger than a
+/// PDF page may be (5 m).
+std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces);
 
 }  // namespace vantage

@@ -18,7 +18,7 @@ namespace {
 struct Options {
     std::string kind = "charuco", size, output, dictionary = "5X5_250";
     double square_m = 0, marker_m = 0, dots_per_inch = 300;
-    int first_marker = 0;
+    int first_marker = 0, faces = 1;
     bool json = false;
 };
 
@@ -32,6 +32,14 @@ void run(const Options& options) {
         pattern.validate();
         require_enough_markers(pattern);
     }
+    std::vector<BoardPattern> faces{pattern};
+    if (options.faces > 1 && pattern.kind == BoardKind::chessboard)
+        fail("the faces of a body are told apart by their markers: take --kind charuco");
+    while (static_cast<int>(faces.size()) < options.faces) {
+        pattern.first_marker += marker_count(pattern);
+        require_enough_markers(pattern);
+        faces.push_back(pattern);
+    }
     const int square_px =
         static_cast<int>(std::lround(pattern.square_m / 0.0254 * options.dots_per_inch));
     const double widest = (std::max(pattern.columns, pattern.rows) + 3) * square_px;
@@ -40,25 +48,34 @@ void run(const Options& options) {
             "at {} dots per inch a square is {} px and the picture {} px wide; 12 px and {} px are "
             "the limits: change --dpi",
             options.dots_per_inch, square_px, widest, max_image_side_px);
-    const std::string png = options.output + ".png", pdf = options.output + ".pdf",
-                      description = options.output + ".toml";
-    write_grey_image(png, draw_board(pattern, square_px));
-    write_file_atomically(pdf, board_as_pdf(pattern));
-    save_board(description, pattern);
-    if (options.json)
-        std::cout << nlohmann::json{{"png", png},
-                                    {"pdf", pdf},
-                                    {"description", description},
-                                    {"columns", pattern.columns},
-                                    {"rows", pattern.rows},
-                                    {"square_m", pattern.square_m}}
-                         .dump(2)
-                  << '\n';
-    else
+    const std::string pdf = options.output + ".pdf", description = options.output + ".toml";
+    const std::vector<std::byte> pages = board_as_pdf(faces);
+    std::vector<std::string> pngs;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        pngs.push_back(options.output +
+                       (faces.size() > 1 ? fmt::format("_{}.png", i + 1) : ".png"));
+        write_grey_image(pngs.back(), draw_board(faces[i], square_px));
+    }
+    write_file_atomically(pdf, pages);
+    save_body(description, faces);
+    if (options.json) {
+        nlohmann::json json = {{"png", pngs.front()},        {"pdf", pdf},
+                               {"description", description}, {"columns", pattern.columns},
+                               {"rows", pattern.rows},       {"square_m", pattern.square_m}};
+        if (faces.size() > 1) json["pngs"] = pngs;
+        std::cout << json.dump(2) << '\n';
+    } else if (faces.size() > 1) {
+        std::cout << fmt::format(
+            "{} (a page a face), {} to {} and {} written; print at 100 %, cut along the frames, "
+            "glue one to each face of a stiff body, measure a row of squares and correct square_m "
+            "in {}\n",
+            pdf, pngs.front(), pngs.back(), description, description);
+    } else {
         std::cout << fmt::format(
             "{}, {} and {} written; print at 100 %, glue it to something flat, measure a row of "
             "squares and correct square_m in {}\n",
-            pdf, png, description, description);
+            pdf, pngs.front(), description, description);
+    }
 }
 
 }  // namespace
@@ -82,6 +99,12 @@ CommandEntry board_command_entry() {
             ->add_option("--first-marker", options->first_marker,
                          "number of its first marker, so that several boards share none")
             ->check(CLI::Range(0, 9999))
+            ->capture_default_str();
+        command
+            ->add_option("--faces", options->faces,
+                         "boards to draw that are fixed to each other, one a face of a cube or of "
+                         "several cubes on a stick; each has markers of its own")
+            ->check(CLI::Range(1, 100))
             ->capture_default_str();
         command->add_option("--dpi", options->dots_per_inch, "of the PNG")
             ->check(CLI::Range(10.0, 2400.0))

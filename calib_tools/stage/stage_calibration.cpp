@@ -5,10 +5,12 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/view_rejection.h"
 #include "calib_tools/stage/board_scale.h"
+#include "calib_tools/stage/repeated_sightings.h"
 #include "calib_tools/stage/stage_graph.h"
 #include "common/base/error.h"
 
@@ -161,10 +163,33 @@ Bundle make_bundle(const std::vector<StageRig>& rigs, const StageStart& start,
     return bundle;
 }
 
+/// Solves with priors that weigh as much as corners of this stage deserve. Corners seem worse than
+/// they are while lenses are held to what the rigs' own calibrations are wrong by, and priors that
+/// are weighed by that would hold too firmly: so the weight is found anew until it stays.
+bool solve_weighed(Bundle& bundle, const Bundle& held) {
+    constexpr int most_passes = 5;
+    constexpr double close_enough = 0.03;
+    double sigma_px = robust_sigma_px(held);
+    for (int pass = 0; pass < most_passes; ++pass) {
+        bundle.corner_sigma_px = std::max(0.01, sigma_px);
+        if (!solve_robustly(bundle)) return false;
+        const double before = std::exchange(sigma_px, robust_sigma_px(bundle));
+        if (std::abs(sigma_px - before) < close_enough * before) break;
+    }
+    return true;
+}
+
 /// The bundle's board that lies on the floor: flat, seen at that instant, and the only such one or
 /// the one that is named.
 int find_floor(const StageStart& start, const StageCalibration& stage, const Floor& floor,
                const std::set<int>& used) {
+    const auto is_named = [&](const StageStart::Body& body) { return body.name == floor.board; };
+    if (!floor.board.empty() && std::none_of(start.bodies.begin(), start.bodies.end(), is_named)) {
+        std::string known;
+        for (const StageStart::Body& body : start.bodies)
+            known += (known.empty() ? "" : ", ") + body.name;
+        fail("no board is named {}; there are {}", floor.board, known);
+    }
     std::vector<int> flat;
     std::string names;
     for (int i = 0; i < static_cast<int>(stage.placements.size()); ++i) {
@@ -241,9 +266,9 @@ std::string StageCalibration::placement_name(int board) const {
                                             bodies[static_cast<std::size_t>(placement.body)].name);
 }
 
-StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardSet& boards,
+StageCalibration calibrate_stage(const std::vector<StageRig>& given, const BoardSet& boards,
                                  const std::optional<Floor>& floor) {
-    if (rigs.size() < 2) fail("a stage needs at least two rigs; one was given");
+    if (given.size() < 2) fail("a stage needs at least two rigs; one was given");
     boards.validate();
     const BoardPattern& first = boards.boards.front();
     if (first.kind == BoardKind::chessboard && looks_alike_half_turned(first))
@@ -252,6 +277,8 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardS
             "different sides cannot agree: take one with an odd and an even count of corners, or "
             "a ChArUco board",
             first.size_name());
+    const std::vector<StageRig> rigs =
+        without_repeats(given, floor ? std::optional(floor->instant) : std::nullopt);
     const StageStart start = start_stage(rigs, boards);
     require_described_size(rigs, boards);
     const Placements placements = gather_placements(start);
@@ -271,8 +298,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardS
     bundle.rigs = held.rigs;
     bundle.boards = held.boards;
     bundle.faces = held.faces;
-    bundle.corner_sigma_px = std::max(0.01, robust_sigma_px(held));
-    if (!solve_robustly(bundle) || !reject_bad_views(bundle, bad, corners_left_out))
+    if (!solve_weighed(bundle, held) || !reject_bad_views(bundle, bad, corners_left_out))
         fail(
             "the rigs' pictures contradict each other: check that equal numbers are equal instants "
             "and that no rig was moved");
@@ -294,15 +320,15 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardS
     const auto instant_of = [&](int board) {
         return stage.placements[static_cast<std::size_t>(board)].instant;
     };
-    std::set<long long> given, used;
+    std::set<long long> new_instants, used;
     std::set<int> used_boards;
     for (const StageCalibration::Placement& placement : stage.placements)
-        given.insert(placement.instant);
+        new_instants.insert(placement.instant);
     for (const auto& [board, seen_by] : rigs_of_board) {
         used.insert(instant_of(board));
         used_boards.insert(board);
     }
-    stage.instants_given = given.size();
+    stage.instants_given = new_instants.size();
     stage.instants_used = used.size();
     stage.rms_px = bundle.rms_px();
     if (!(stage.rms_px < 2))

@@ -45,7 +45,8 @@ struct StageCalibration {
     std::vector<Refusal> rejected;    ///< instants
     std::vector<std::string> advice;  ///< weakly tied rigs and the picture that would help
     double rms_px = 0;
-    std::size_t instants_given = 0, instants_used = 0;
+    std::size_t instants_given = 0;  ///< at which a board was seen anew
+    std::size_t instants_used = 0;
     bool has_floor = false;
     /// What was carried about as one, as far as the pictures tell: the boards of the set that it
     /// is made of, and of several where they turned out to be on it (the first gives the frame).
@@ -80,7 +81,8 @@ struct Floor {
 /// instants that two rigs saw; along its strongest edges the rigs are placed, then rigs, boards and
 /// the places of boards on their bodies are solved together. Lenses and baselines of a rig whose
 /// uncertainties are known are solved as well, held to their own calibration as firmly as that was
-/// certain, so that the uncertainties stated include theirs; those of other rigs are held. With
+/// certain, so that the uncertainties stated include theirs; those of other rigs are held. What
+/// boards that lie still show again and again counts once (without_repeats). With
 /// `floor` the flat board of that instant lies on the floor: the world's origin is its middle, y
 /// up, x along its rows, z along its columns. Without, the world is the frame of the first rig's
 /// left camera. Throws Error naming rigs that no board ties to the others, boards that look alike

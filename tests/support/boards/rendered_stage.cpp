@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "calib_tools/board/board_drawing.h"
+
 namespace vantage {
 namespace {
 
@@ -40,8 +42,27 @@ Eigen::Vector3d on_arc(double place, double radius_m) {
 
 }  // namespace
 
-RenderedStage::RenderedStage(const BoardPattern& pattern, int width_px, std::uint64_t seed)
-    : pattern_(pattern), random_(seed) {
+std::vector<Pose> cube_faces(const BoardPattern& face) {
+    const double half_m = 0.5 * (face.columns + 1) * face.square_m + board_margin_m(face);
+    const Eigen::Vector3d middle = 0.5 * face.corner_m(face.corner_count() - 1);
+    std::vector<Pose> faces;
+    const auto add = [&](const Eigen::Matrix3d& body_from_face) {
+        Pose pose = Pose::Identity();
+        pose.linear() = body_from_face;
+        pose.translation() = -half_m * body_from_face.col(2) - body_from_face * middle;
+        faces.push_back(pose);
+    };
+    // A board's y runs down its front and its z into it.
+    Eigen::Matrix3d front;
+    front << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+    for (int i = 0; i < 4; ++i) add(turn(0, 0.5 * std::numbers::pi * i, 0) * front);
+    add(turn(-0.5 * std::numbers::pi, 0, 0) * front);
+    return faces;
+}
+
+RenderedStage::RenderedStage(const std::vector<BoardPattern>& patterns, int width_px,
+                             std::uint64_t seed)
+    : pattern_(patterns.front()), random_(seed) {
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i < rig_count; ++i) {
         StereoCalibration rig;
@@ -53,8 +74,8 @@ RenderedStage::RenderedStage(const BoardPattern& pattern, int width_px, std::uin
             Eigen::Vector3d(-0.12, 0.002 * unit(random_), 0.003 * unit(random_));
         rig.world_from_left = look_at(on_arc(i, distance_m), target_m);
         truths_.push_back(rig);
-        cameras_.emplace_back(pattern, rig.left);
-        cameras_.emplace_back(pattern, rig.right);
+        cameras_.emplace_back(patterns, rig.left);
+        cameras_.emplace_back(patterns, rig.right);
     }
 }
 
@@ -119,12 +140,29 @@ Pose RenderedStage::board_on_floor() const {
     return pose;
 }
 
+Pose RenderedStage::wand_in_the_middle() {
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Pose pose = Pose::Identity();
+    pose.linear() = turn(0.35 * unit(random_), std::numbers::pi * unit(random_), 0) *
+                    turn(0, 0, 0.35 * unit(random_));
+    pose.translation() = middle_m + Eigen::Vector3d(0.7 * unit(random_), 1.1 + 0.4 * unit(random_),
+                                                    0.7 * unit(random_));
+    return pose;
+}
+
 GreyImage RenderedStage::film(int rig, int side, const Pose& world_from_board,
                               const PictureFaults& faults) {
-    Pose camera_from_board = truth(rig).world_from_left.inverse() * world_from_board;
-    if (side == 1) camera_from_board = truth(rig).right_from_left * camera_from_board;
-    return cameras_[static_cast<std::size_t>(2 * rig + side)].film(camera_from_board, faults,
-                                                                   random_());
+    return film(rig, side, {StandingBoard{0, world_from_board}}, faults);
+}
+
+GreyImage RenderedStage::film(int rig, int side, const std::vector<StandingBoard>& boards,
+                              const PictureFaults& faults) {
+    Pose camera_from_world = truth(rig).world_from_left.inverse();
+    if (side == 1) camera_from_world = truth(rig).right_from_left * camera_from_world;
+    std::vector<BoardCamera::PlacedBoard> placed;
+    for (const StandingBoard& board : boards)
+        placed.push_back({board.board, camera_from_world * board.world_from_board});
+    return cameras_[static_cast<std::size_t>(2 * rig + side)].film(placed, faults, random_());
 }
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -149,6 +150,27 @@ TEST(StageCalibration, says_which_rig_is_weakly_tied) {
     const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, std::nullopt);
     ASSERT_FALSE(stage.advice.empty());
     EXPECT_THAT(stage.advice.back(), HasSubstr("rig D is weakly tied"));
+}
+
+TEST(StageCalibration, counts_a_board_that_lies_still_once) {
+    const FilmedStage filmed = film(8);
+    FilmedStage lying = filmed;
+    // The board stays on the floor for ninety more instants; its corners tremble a little.
+    std::mt19937_64 random(4);
+    std::normal_distribution<double> noise(0, 0.02);
+    for (StageRig& rig : lying.rigs)
+        for (auto* series : {&rig.left, &rig.right}) {
+            if (!series->contains(floor_number)) continue;
+            for (long long instant = 100; instant < 190; ++instant) {
+                BoardCorners& corners = (*series)[instant] = series->at(floor_number);
+                for (BoardCorner& corner : corners)
+                    corner.pixel += Eigen::Vector2d(noise(random), noise(random));
+            }
+        }
+    const StageCalibration once = calibrate_stage(filmed.rigs, pattern, floor_number);
+    const StageCalibration often = calibrate_stage(lying.rigs, pattern, floor_number);
+    EXPECT_EQ(often.instants_given, once.instants_given);
+    EXPECT_DOUBLE_EQ(often.rigs[3].translation_sigma_m, once.rigs[3].translation_sigma_m);
 }
 
 TEST(StageCalibration, names_a_board_of_another_size_than_its_description) {

@@ -1,16 +1,13 @@
-#include <numbers>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calib_tools/stage/stage_calibration.h"
-#include "tests/support/boards/rendered_stage.h"
+#include "tests/unit/calib_truth/place_errors.h"
 
 namespace vantage {
 namespace {
 
 const BoardPattern pattern = chessboard_pattern("9x6", 0.1);
-constexpr double degrees = 180 / std::numbers::pi;
 
 SeenPicture look(const GreyImage& picture, int number, const BoardPattern& board = pattern) {
     return look_at_picture(picture, std::to_string(number) + ".png", board);
@@ -146,40 +143,13 @@ TEST(RenderedBoards, give_baselines_that_their_uncertainty_covers) {
     }
 }
 
-struct PlaceErrors {
-    double rms_mm = 0, rms_deg = 0;
-};
-
-PlaceErrors errors_of(const StageCalibration& solved, bool covered) {
-    PlaceErrors errors;
-    for (int r = 1; r < RenderedStage::rig_count; ++r) {
-        const auto i = static_cast<std::size_t>(r);
-        // Against the first rig, as the uncertainties are stated.
-        const Pose found = solved.rigs[0].calibration.world_from_left.inverse() *
-                           solved.rigs[i].calibration.world_from_left;
-        const Pose truth =
-            film().stage.truth(0).world_from_left.inverse() * film().stage.truth(r).world_from_left;
-        const double miss_m = (found.translation() - truth.translation()).norm();
-        const double miss_rad =
-            Eigen::AngleAxisd(Eigen::Matrix3d(found.linear().transpose() * truth.linear())).angle();
-        if (covered) {
-            EXPECT_LT(miss_m, 3 * solved.rigs[i].translation_sigma_m) << r;
-            EXPECT_LT(miss_rad, 3 * solved.rigs[i].rotation_sigma_rad) << r;
-        }
-        errors.rms_mm += 1e6 * miss_m * miss_m / (RenderedStage::rig_count - 1);
-        errors.rms_deg += degrees * degrees * miss_rad * miss_rad / (RenderedStage::rig_count - 1);
-    }
-    errors.rms_mm = std::sqrt(errors.rms_mm);
-    errors.rms_deg = std::sqrt(errors.rms_deg);
-    return errors;
-}
-
 TEST(RenderedBoards, place_four_rigs_on_an_arc_to_a_millimetre_and_say_how_sure_that_is) {
-    const PlaceErrors errors = errors_of(film().refined, true);
+    const PlaceErrors errors = place_errors(film().refined, film().stage);
     RecordProperty("rms_mm", std::to_string(errors.rms_mm));
     RecordProperty("rms_deg", std::to_string(errors.rms_deg));
     EXPECT_LT(errors.rms_mm, 1.0);
     EXPECT_LT(errors.rms_deg, 0.02);
+    EXPECT_LT(errors.z_rms, 2);
     for (std::size_t i = 1; i < film().refined.rigs.size(); ++i)
         EXPECT_LT(film().refined.rigs[i].translation_sigma_m, 0.003) << i;
 }
@@ -194,8 +164,8 @@ TEST(RenderedBoards, place_the_world_where_the_board_lies_on_the_floor) {
 }
 
 TEST(RenderedBoards, refine_lenses_on_the_stage_without_leaving_what_the_rig_knew) {
-    const PlaceErrors held = errors_of(film().held, false);
-    const PlaceErrors refined = errors_of(film().refined, false);
+    const PlaceErrors held = place_errors(film().held, film().stage);
+    const PlaceErrors refined = place_errors(film().refined, film().stage);
     RecordProperty("held_mm", std::to_string(held.rms_mm));
     RecordProperty("refined_mm", std::to_string(refined.rms_mm));
     for (std::size_t i = 0; i < film().refined.rigs.size(); ++i) {
