@@ -17,8 +17,8 @@ BoardPattern charuco(const std::string& size, double square_m, int first_marker)
     return pattern;
 }
 
-/// The rigs as a chessboard leaves them that each saw from near, in fifteen pairs: its corners are
-/// where they are in truth but for the noise of a good fit.
+/// The rigs as a chessboard leaves them that each saw from near, in twenty-five pairs: its corners
+/// are where they are in truth but for the noise of a good fit.
 std::vector<StageRig> calibrated_rigs(RenderedStage& stage, std::uint64_t seed) {
     const BoardPattern pattern = chessboard_pattern("9x6", 0.1);
     SyntheticViews views(pattern, 0.03, seed);
@@ -26,7 +26,7 @@ std::vector<StageRig> calibrated_rigs(RenderedStage& stage, std::uint64_t seed) 
     for (int r = 0; r < RenderedStage::rig_count; ++r) {
         const StereoCalibration& truth = stage.truth(r);
         std::vector<SeenPicture> left, right;
-        while (left.size() < 15) {
+        while (left.size() < 25) {
             const Pose pose = views.hold_board(1.6, 0.3);
             const std::string number = std::to_string(left.size());
             const SeenPicture on_left = views.see(truth.left, pose, "left" + number);
@@ -82,7 +82,7 @@ TEST(SeveralBoards, of_different_markers_join_four_rigs_in_one_calibration) {
     // The one on the floor stays there while two assistants carry the others about, each before
     // another pair of rigs.
     const RenderedStage::StandingBoard floor{0, stage.board_on_floor()};
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < 6; ++i) {
         film(stage, boards, instant++,
              {floor, {1, stage.board_before_pair(0)}, {2, stage.board_before_pair(2)}}, rigs);
         film(stage, boards, instant++, {floor, {2, stage.board_before_pair(1)}}, rigs, 1, 2);
