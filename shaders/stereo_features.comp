@@ -21,21 +21,7 @@ uniform int row_words;
 uniform int stride;
 
 #if SHIFTED
-layout(std430, binding = 2) readonly buffer Votes { uint votes[]; };  // see row_shift_votes.comp
-
-// Rows are left as they are unless another shift is better by a sixteenth.
-int row_shift() {
-    uint least = (votes[2] + 1u) / 16u * 15u;
-    int shift = 0;
-    for (int i = 0; i < 5; ++i) {
-        uint sum = votes[i] + 1u;
-        if (sum < least) {
-            least = sum;
-            shift = i - 2;
-        }
-    }
-    return shift;
-}
+#include "row_shift.glsl"
 #endif
 
 const uint high = 0x80808080u, low_bytes = 0x00ff00ffu;

@@ -17,6 +17,8 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= row_words || at.y >= size.y) return;
     int x = (at.x - 1) * 4;
-    uvec4 four = whole(uvec4(luma_at(x, at.y), luma_at(x + 1, at.y), luma_at(x + 2, at.y), luma_at(x + 3, at.y)));
-    luma[at.y * row_words + at.x] = four.x | (four.y << 8) | (four.z << 16) | (four.w << 24);
+    uint four = luma_at(x, at.y) | (luma_at(x + 1, at.y) << 8) | (luma_at(x + 2, at.y) << 16) |
+                (luma_at(x + 3, at.y) << 24);
+    // As whole() does, but of words that may be ~0; no row is without words.
+    luma[at.y * row_words + at.x] = max(four, uint(row_words == 0));
 }

@@ -1,14 +1,14 @@
-// Twice the size: each pixel takes the disparity of that one of the five nearest coarse pixels which is near, looks
-// most like it, and matches best at full size, so that depth edges move to where they are. One invocation a coarse
-// pixel, 2x2 results.
+// Twice the size. Where a coarse pixel's four neighbours are all near it, disparity lies on the plane through them.
+// Else each pixel takes the disparity of that one of the five which is near, looks most like it, and matches best at
+// full size, so that depth edges move to where they are. One invocation four coarse pixels, 8x2 results.
 #include "perm_common.glsl"
 
 layout(local_size_x = PICTURE_LANES) in;
-layout(std430, binding = 0) readonly buffer CoarseDisparity { uint coarse_disparity[]; };
+layout(std430, binding = 0) readonly buffer CoarseDisparity { uvec4 coarse_disparity[]; };
 layout(std430, binding = 1) readonly buffer CoarseLuma { uint coarse_luma[]; };
 layout(std430, binding = 2) readonly buffer FineLuma { uint fine_luma[]; };
-layout(std430, binding = 3) writeonly buffer FineDisparity { uint fine_disparity[]; };
-layout(std430, binding = 4) readonly buffer LeftFeatures { uint left_features[]; };
+layout(std430, binding = 3) writeonly buffer FineDisparity { uvec4 fine_disparity[]; };
+layout(std430, binding = 4) readonly buffer LeftFeatures { uvec4 left_features[]; };
 layout(std430, binding = 5) readonly buffer RightFeatures { uint right_features[]; };
 uniform ivec2 coarse_size;
 uniform int coarse_stride;
@@ -17,54 +17,98 @@ uniform ivec2 fine_size;
 uniform int fine_stride;
 uniform int fine_row_words;
 
-// A candidate is as unlike as it is far (in quarters of a coarse pixel), looks different, and matches badly.
-#define TRY(d, l, far)                                                                            \
-    {                                                                                             \
-        int x_right = x - int(((d & 0xffffu) + 8u) >> 4);                                         \
-        uint right = x_right >= 0 ? right_features[row + max(x_right, 0)] : outside_word;         \
-        int unlike = abs(luma - (l)) + (far) + 3 * int(cost_of(left, right));                     \
-        if (unlike < least) best = (d);                                                           \
-        least = min(least, unlike);                                                               \
-    }
+const int most_step = 32;  // 1/32 coarse px
 
-// For the pixel at x, y, offset (i, j) in the 2x2; x: left or above, y: here, z: right or below.
-uint choose(int luma, int x, int y, int i, int j, uvec3 across, uvec3 down, ivec3 across_luma, ivec3 down_luma) {
+// A coarse pixel and its neighbours: disparity | confidence << 16, and luma.
+struct Cross {
+    uint here, left, right, above, below;
+    int luma_here, luma_left, luma_right, luma_above, luma_below;
+};
+
+// A candidate is as unlike as it is far (in quarters of a coarse pixel), looks different, and matches badly.
+#define TRY(d, l, far)                                                                          \
+    {                                                                                           \
+        int x_right = x - int(((d & 0xffffu) + 8u) >> 4);                                       \
+        uint right = x_right >= 0 ? right_features[row + max(x_right, 0)] : outside_word;       \
+        int unlike = abs(luma - (l)) + (far) + 3 * int(cost_of(left, right));                   \
+        if (unlike < least) best = (d);                                                         \
+        least = min(least, unlike);                                                             \
+    }
+uint chosen(Cross c, uint left, int luma, int row, int x, int i, int j) {
     int left_far = i == 0 ? 4 : 6, right_far = 10 - left_far, above_far = j == 0 ? 4 : 6, below_far = 10 - above_far;
-    int row = y * fine_stride;
-    uint left = left_features[row + x];
     int least = 1 << 20;
     uint best = 0u;
-    TRY(across.y, across_luma.y, 2)
-    TRY(down.x, down_luma.x, above_far)
-    TRY(down.z, down_luma.z, below_far)
-    TRY(across.x, across_luma.x, left_far)
-    TRY(across.z, across_luma.z, right_far)
+    TRY(c.here, c.luma_here, 2)
+    TRY(c.above, c.luma_above, above_far)
+    TRY(c.below, c.luma_below, below_far)
+    TRY(c.left, c.luma_left, left_far)
+    TRY(c.right, c.luma_right, right_far)
     return (best & 0xffff0000u) | ((best & 0xffffu) << 1);
 }
 
-uint disparity_at(int x, int y) { return coarse_disparity[clamp(y, 0, coarse_size.y - 1) * coarse_stride + clamp(x, 0, coarse_size.x - 1)]; }
-int luma_at(int x, int y) {
-    // The edge is repeated before and behind each row.
-    return int(byte_of(coarse_luma[clamp(y, 0, coarse_size.y - 1) * coarse_row_words + (x + 4 >> 2)], (x + 4) & 3));
+int value(uint word) { return int(word & 0xffffu); }
+bool is_near(uint here, uint there) {
+    return (there & 0xffffu) != 0u && abs(value(there) - value(here)) <= most_step;
+}
+// The plane at a quarter of a pixel to the sides of `beside` and `beyond`.
+uint on_plane(uint here, uint beside, uint beyond) {
+    return (here & 0xffff0000u) | uint((2 * value(here) + value(beside) + value(beyond) + 1) >> 1);
+}
+
+// Two pixels of a row.
+uvec2 two(Cross c, bool flat_here, uvec2 left, uvec2 luma, int row, int x, int j) {
+    uint vertical = j == 0 ? c.above : c.below;
+    uvec2 result = uvec2(on_plane(c.here, c.left, vertical), on_plane(c.here, c.right, vertical));
+    if (!flat_here)
+        result = uvec2(chosen(c, left.x, int(luma.x), row, x, 0, j), chosen(c, left.y, int(luma.y), row, x + 1, 1, j));
+    return result;
+}
+
+uvec4 disparities_at(int x, int y) {
+    uvec4 words = coarse_disparity[(clamp(y, 0, coarse_size.y - 1) * coarse_stride + x) >> 2];
+    // Behind the picture its last column repeats.
+    int count = coarse_size.x - x;
+    if (count < 4) words = uvec4(words.x, count < 2 ? uvec3(words.x) : count < 3 ? words.yyy : words.yzz);
+    return words;
+}
+uvec4 bytes_of_word(uint word) { return uvec4(word, word >> 8, word >> 16, word >> 24) & 255u; }
+
+bool is_flat(Cross c) {
+    return (c.here & 0xffffu) != 0u && is_near(c.here, c.left) && is_near(c.here, c.right) &&
+           is_near(c.here, c.above) && is_near(c.here, c.below);
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= coarse_size.x || at.y >= coarse_size.y) return;
-    uint here = disparity_at(at.x, at.y);
-    uvec3 across = uvec3(disparity_at(at.x - 1, at.y), here, disparity_at(at.x + 1, at.y));
-    uvec3 down = uvec3(disparity_at(at.x, at.y - 1), here, disparity_at(at.x, at.y + 1));
-    int luma_here = luma_at(at.x, at.y);
-    ivec3 across_luma = ivec3(luma_at(at.x - 1, at.y), luma_here, luma_at(at.x + 1, at.y));
-    ivec3 down_luma = ivec3(luma_at(at.x, at.y - 1), luma_here, luma_at(at.x, at.y + 1));
-    int x = 2 * at.x;
+    int x = int(gl_GlobalInvocationID.x) * 4, y = int(gl_GlobalInvocationID.y);
+    if (x >= coarse_size.x || y >= coarse_size.y) return;
+    uvec4 here = disparities_at(x, y), above = disparities_at(x, y - 1), below = disparities_at(x, y + 1);
+    uint before = x > 0 ? disparities_at(x - 4, y).w : here.x;
+    uint after = x + 4 < coarse_size.x ? disparities_at(x + 4, y).x : here.w;
+    // Each row of luma has a word of its repeated edge before and behind it.
+    int word = y * coarse_row_words + (x >> 2) + 1;
+    ivec4 luma_here = ivec4(bytes_of_word(coarse_luma[word]));
+    ivec4 luma_above = ivec4(bytes_of_word(coarse_luma[y > 0 ? word - coarse_row_words : word]));
+    ivec4 luma_below = ivec4(bytes_of_word(coarse_luma[y + 1 < coarse_size.y ? word + coarse_row_words : word]));
+    int luma_before = int(coarse_luma[word - 1] >> 24), luma_after = int(coarse_luma[word + 1] & 255u);
+#define CROSS(k, left, right, luma_left, luma_right)                                                      \
+    Cross(here[k], left, right, above[k], below[k], luma_here[k], luma_left, luma_right, luma_above[k], luma_below[k])
+    Cross a = CROSS(0, before, here.y, luma_before, luma_here.y);
+    Cross b = CROSS(1, here.x, here.z, luma_here.x, luma_here.z);
+    Cross c = CROSS(2, here.y, here.w, luma_here.y, luma_here.w);
+    Cross d = CROSS(3, here.z, after, luma_here.z, luma_after);
+    bool a_flat = is_flat(a), b_flat = is_flat(b), c_flat = is_flat(c), d_flat = is_flat(d);
     for (int j = 0; j < 2; ++j) {
-        int y = 2 * at.y + j;
-        if (y >= fine_size.y) return;
-        uint lumas = fine_luma[y * fine_row_words + (x >> 2) + 1];
-        int first = x & 3, out_at = y * fine_stride + x;
-        // A column beyond the last one lands in the padding of the row.
-        fine_disparity[out_at] = choose(int(byte_of(lumas, first)), x, y, 0, j, across, down, across_luma, down_luma);
-        fine_disparity[out_at + 1] = choose(int(byte_of(lumas, first + 1)), x + 1, y, 1, j, across, down, across_luma, down_luma);
+        int fine_y = 2 * y + j, fine_x = 2 * x;
+        if (fine_y >= fine_size.y) return;
+        int fine_word = fine_y * fine_row_words + (fine_x >> 2) + 1, row = fine_y * fine_stride;
+        int at = (row + fine_x) >> 2;
+        uvec4 luma = bytes_of_word(fine_luma[fine_word]), left = left_features[at];
+        fine_disparity[at] = uvec4(two(a, a_flat, left.xy, luma.xy, row, fine_x, j),
+                                   two(b, b_flat, left.zw, luma.zw, row, fine_x + 2, j));
+        if (fine_x + 4 >= fine_stride) continue;
+        luma = bytes_of_word(fine_luma[fine_word + 1]);
+        left = left_features[at + 1];
+        fine_disparity[at + 1] = uvec4(two(c, c_flat, left.xy, luma.xy, row, fine_x + 4, j),
+                                       two(d, d_flat, left.zw, luma.zw, row, fine_x + 6, j));
     }
 }

@@ -14,8 +14,8 @@
 
 namespace vantage {
 
-/// What the engine's matchers share: luma of the pictures before the search, smoothing and median
-/// after it, and the book-keeping.
+/// What the engine's matchers share: luma of the pictures before the search, the median after it,
+/// and the book-keeping.
 class EngineMatcher : public Matcher {
   public:
     const Texture& match(const Texture& left, const Texture& right) final;
@@ -23,7 +23,7 @@ class EngineMatcher : public Matcher {
     std::vector<PassReport> passes() const final { return profiler_.reports(); }
     void set_profiling(bool on) final { profiler_.set_enabled(on); }
     std::size_t gpu_bytes() const final {
-        return luma_.gpu_bytes() + smooth_.gpu_bytes() + result_.gpu_bytes() + search_bytes();
+        return luma_.gpu_bytes() + result_.gpu_bytes() + search_bytes();
     }
 
   protected:
@@ -37,28 +37,29 @@ class EngineMatcher : public Matcher {
   private:
     PassProfiler profiler_;
     LumaPass luma_;
-    SmoothPass smooth_;
     ResultPass result_;
 };
 
 /// What follows a search at its own size: left-right check, then, if `fill` is set, a fill that
-/// does not spread what stands alone.
+/// does not spread what stands alone, then smoothing.
 class CheckAndFill {
   public:
     CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill)
         : fills_(fill),
           check_(library, layout),
           support_(library, layout),
-          fill_(library, layout) {}
+          fill_(library, layout),
+          smooth_(library, layout) {}
 
     const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
-    std::size_t gpu_bytes() const { return check_.gpu_bytes(); }
+    std::size_t gpu_bytes() const { return check_.gpu_bytes() + smooth_.gpu_bytes(); }
 
   private:
     bool fills_;
     LeftRightPass check_;
     SupportPass support_;
     FillPass fill_;
+    SmoothPass smooth_;
 };
 
 inline StereoLayout layout_of(const MatchSettings& settings) {

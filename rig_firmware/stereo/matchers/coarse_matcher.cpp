@@ -17,7 +17,7 @@ class CoarseMatcher : public EngineMatcher {
         : EngineMatcher(library, settings),
           fine_features_(library, layout_of(settings), sigma, settings.disparities),
           luma_(library, halved_layout(settings)),
-          features_(library, halved_layout(settings), sigma, (settings.disparities + 1) / 2),
+          features_(library, halved_layout(settings), sigma, 0),
           perm_(library, halved_layout(settings), (settings.disparities + 1) / 2,
                 PermOutput::costs),
           paths_(library, halved_layout(settings), (settings.disparities + 1) / 2,
@@ -36,7 +36,7 @@ class CoarseMatcher : public EngineMatcher {
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& fine_luma) override {
         fine_features_.run_words(profiler, fine_luma);
-        luma_.run_halved(profiler, fine_luma);
+        luma_.run_halved(profiler, fine_luma, fine_features_.row_shift_votes());
         features_.run(profiler, luma_);
         perm_.run(profiler, features_);
         paths_.run(profiler, perm_.costs());

@@ -48,6 +48,7 @@ void FeaturePass::run_words(PassProfiler& profiler, const LumaPass& luma) {
         features(features_program_, luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
+    if (disparities_ == 0) return;
     constexpr std::size_t sampling = 8 * 16;
     const std::size_t compared = pixels / sampling * static_cast<std::size_t>(disparities_) * 5;
     profiler.run("row shift", {compared * 4, static_cast<double>(compared) * 4}, [&] {

@@ -15,7 +15,7 @@ namespace vantage {
 /// picture put right: a knock to a camera must not cost the depth until it is calibrated again.
 class FeaturePass {
   public:
-    /// disparities: the search range, in which rows are compared.
+    /// disparities: the search range, in which rows are compared; 0: rows lie as they should.
     FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma,
                 int disparities);
 

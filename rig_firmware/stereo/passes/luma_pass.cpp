@@ -6,6 +6,7 @@ LumaPass::LumaPass(const ShaderLibrary& library, const StereoLayout& layout)
     : layout_(layout),
       luma_program_(Program::compute(library, "stereo_luma.comp")),
       halve_program_(Program::compute(library, "stereo_halve.comp")),
+      halve_shifted_program_(Program::compute(library, "stereo_halve.comp", {{"SHIFTED", "1"}})),
       left_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
       right_(layout.luma_words() * 4, GL_DYNAMIC_COPY) {}
 
@@ -25,21 +26,23 @@ void LumaPass::run(PassProfiler& profiler, const Texture& left, const Texture& r
     });
 }
 
-void LumaPass::run_halved(PassProfiler& profiler, const LumaPass& fine) {
+void LumaPass::run_halved(PassProfiler& profiler, const LumaPass& fine,
+                          const Buffer& row_shift_votes) {
     const std::size_t pixels = layout_.pixels();
+    const auto halve = [&](Program& program, const Buffer& from, const Buffer& to) {
+        program.use();
+        program.set("fine_size", Eigen::Vector2i(fine.layout_.width_px, fine.layout_.height_px));
+        program.set("fine_row_words", fine.layout_.luma_row_words());
+        program.set("coarse_size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+        program.set("coarse_row_words", layout_.luma_row_words());
+        from.bind_storage(0);
+        to.bind_storage(1);
+        program.dispatch_over(layout_.luma_row_words(), layout_.height_px);
+    };
     profiler.run("halve", {pixels * 10, static_cast<double>(pixels) * 24}, [&] {
-        halve_program_.use();
-        halve_program_.set("fine_size",
-                           Eigen::Vector2i(fine.layout_.width_px, fine.layout_.height_px));
-        halve_program_.set("fine_row_words", fine.layout_.luma_row_words());
-        halve_program_.set("coarse_size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        halve_program_.set("coarse_row_words", layout_.luma_row_words());
-        for (const auto& [from, to] :
-             {std::pair(&fine.left_, &left_), std::pair(&fine.right_, &right_)}) {
-            from->bind_storage(0);
-            to->bind_storage(1);
-            halve_program_.dispatch_over(layout_.luma_row_words(), layout_.height_px);
-        }
+        row_shift_votes.bind_storage(2);
+        halve(halve_program_, fine.left_, left_);
+        halve(halve_shifted_program_, fine.right_, right_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
 }

@@ -27,7 +27,7 @@ void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
         disparity_.bind_storage(3);
         fine_features.left_features().bind_storage(4);
         fine_features.right_features().bind_storage(5);
-        program_.dispatch_over(coarse_.width_px, coarse_.height_px);
+        program_.dispatch_over((coarse_.width_px + 3) / 4, coarse_.height_px);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
 }

@@ -8,10 +8,11 @@
 
 namespace vantage {
 
-/// Disparity of the half-size pair to full size: each pixel takes that of the one neighbour that is
-/// near, looks like it, and whose disparity matches best at full size, so that depth edges move to
-/// where they are. After J. Kopf et al., "Joint bilateral upsampling", SIGGRAPH 2007, with one
-/// neighbour in place of the mean, because a mean of two surfaces is on neither.
+/// Disparity of the half-size pair to full size: on the plane through the neighbours where they are
+/// all near; else each pixel takes that of the one neighbour that is near, looks like it, and whose
+/// disparity matches best at full size, so that depth edges move to where they are. After J. Kopf
+/// et al., "Joint bilateral upsampling", SIGGRAPH 2007, with one neighbour in place of the mean,
+/// because a mean of two surfaces is on neither.
 class UpsamplePass {
   public:
     UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse,

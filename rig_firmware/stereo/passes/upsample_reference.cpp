@@ -22,12 +22,27 @@ DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_l
                 return std::abs(fine.left_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
                        far(dy, y % 2) + 3 * feature_cost(fine.left_features(y, x), right);
             };
-            int least = unlike(0, 0, x / 2, y / 2);
-            int best = coarse(y / 2, x / 2);
+            const int own = coarse(y / 2, x / 2);
+            const auto beside_at = [&](int dx, int dy) {
+                return cv::Point(std::clamp(x / 2 + dx, 0, coarse.cols - 1),
+                                 std::clamp(y / 2 + dy, 0, coarse.rows - 1));
+            };
             constexpr int beside[4][2] = {{0, -1}, {0, 1}, {-1, 0}, {1, 0}};
+            const bool is_flat =
+                own != 0 && std::ranges::all_of(beside, [&](const auto& step) {
+                    const int there = coarse(beside_at(step[0], step[1]));
+                    return there != 0 && std::abs(there - own) <= disparity_steps_per_px;
+                });
+            if (is_flat) {
+                const int across = coarse(beside_at(x % 2 ? 1 : -1, 0)),
+                          down = coarse(beside_at(0, y % 2 ? 1 : -1));
+                result(y, x) = static_cast<unsigned short>((2 * own + across + down + 1) >> 1);
+                continue;
+            }
+            int least = unlike(0, 0, x / 2, y / 2);
+            int best = own;
             for (const auto& [dx, dy] : beside) {
-                const int cx = std::clamp(x / 2 + dx, 0, coarse.cols - 1),
-                          cy = std::clamp(y / 2 + dy, 0, coarse.rows - 1);
+                const auto [cx, cy] = beside_at(dx, dy);
                 const int here = unlike(dx, dy, cx, cy);
                 if (here < least) {
                     least = here;

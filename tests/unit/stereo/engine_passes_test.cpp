@@ -140,32 +140,41 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     left.upload(pair_.left);
-    right.upload(pair_.right);
+    ColourImage lower(pair_.right.size());
+    for (int y = 0; y < lower.rows; ++y) pair_.right.row(std::max(y - 1, 0)).copyTo(lower.row(y));
+    right.upload(lower);
+    const GreyImage lower_luma = to_grey(lower);
+    const GreyImage right_luma = rows_shifted(
+        lower_luma,
+        row_shift(feature_words(left_luma_), feature_words(lower_luma), GetParam().disparities));
     LumaPass fine(library_, layout_);
     fine.run(profiler_, left, right);
     FeaturePass fine_features(library_, layout_, 20, GetParam().disparities);
     fine_features.run_words(profiler_, fine);
     const StereoLayout half{(layout_.width_px + 1) / 2, (layout_.height_px + 1) / 2};
     LumaPass coarse(library_, half);
-    coarse.run_halved(profiler_, fine);
-    FeaturePass features(library_, half, 20, GetParam().disparities);
+    coarse.run_halved(profiler_, fine, fine_features.row_shift_votes());
+    FeaturePass features(library_, half, 20, 0);
     features.run(profiler_, coarse);
     expect_equal(channel_of(features.left_features(), half, 1, 0),
                  feature_words(halved(left_luma_)), "half-size feature");
+    expect_equal(channel_of(features.right_features(), half, 1, 0),
+                 feature_words(halved(right_luma)), "half-size feature of a picture put right");
 
     std::vector<std::uint32_t> words(half.pixels());
     DisparityImage disparity(half.height_px, half.width_px);
     cv::RNG random(11);
     for (int y = 0; y < half.height_px; ++y)
         for (int x = 0; x < half.width_px; ++x) {
-            disparity(y, x) = static_cast<unsigned short>(random.uniform(0, 1000));
+            const int surface = (x / 8 + y / 8) % 2 ? 300 : random.uniform(0, 1000);
+            disparity(y, x) = static_cast<unsigned short>(surface + x + random.uniform(0, 8));
             words[static_cast<std::size_t>(y * half.stride_px() + x)] = disparity(y, x) | 77U << 16;
         }
     UpsamplePass upsample(library_, half, layout_);
     upsample.run(profiler_, Buffer::of<std::uint32_t>(words), coarse.left(), fine.left(),
                  fine_features);
     const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
-    const FinePictures pictures{left_luma_, feature_words(left_luma_), feature_words(right_luma_)};
+    const FinePictures pictures{left_luma_, feature_words(left_luma_), feature_words(right_luma)};
     expect_equal(lower_half(fine_words), as_int(upsampled(disparity, halved(left_luma_), pictures)),
                  "upsampled");
     expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
