@@ -25,6 +25,8 @@ const float blur_px = 0.75;         // standard deviation of what lens and senso
 const float direct_support = 0.01;
 const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's word on what is hidden means little
 
+const float least_share = 0.05;       // of the colour so far, from which on it matters how a rig's picture is resampled
+
 struct Evidence {
     vec3 sum, squares;
     vec4 shares;     // each layer's part of the weight
@@ -47,7 +49,10 @@ float agreement(sampler2D map, vec2 uv, float z, float tolerance) {
     return dot(1.0 - smoothstep(1.0, 2.0, abs(surface / z - 1.0) / tolerance), vec4(0.25));
 }
 
-void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near_edge, inout Evidence e) {
+// As long as a pixel may be of use as a measure of the spread: depth is not exact.
+vec2 limited(vec2 pixel) { return pixel * min(1.0, 1.6 / max(length(pixel), 1e-6)); }
+
+void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slope, bool near_edge, inout Evidence e) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
@@ -72,11 +77,23 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     }
     if (sure <= 0.0) return;
     vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
-    float trust = textureLod(picture, uv, 0.0).a;
+    vec4 middle = textureLod(picture, uv, 0.0);
+    // A pixel of the virtual view, along its rows and its columns, in the rig's picture.
+    vec2 at = q.xy / q.z;
+    vec3 across = (pixel_from_target[i] * vec4(1.0, 0.0, 0.0, slope.x)).xyz * (z / q.z);
+    vec3 along = (pixel_from_target[i] * vec4(0.0, 1.0, 0.0, slope.y)).xyz * (z / q.z);
+    vec2 right = limited(across.xy - at * across.z), down = limited(along.xy - at * along.z);
+    float finer = clamp(abs(right.x * down.y - right.y * down.x), 0.1, 1.0);
     float away = apart(point, centre[i]);
-    float weight = presence[i] * sure * trust * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
+    float weight = presence[i] * sure * middle.a * finer * finer * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
     e.apart = min(e.apart, away);
-    vec3 c = sharp(picture, uv, detail_level(pixel_from_target[i], z, q.z));
+    // The most useful rigs come first; finesse is lost on what hardly counts beside them.
+    vec3 c = middle.rgb;
+    if (weight > least_share * e.weight) {
+        float lod = detail_level(pixel_from_target[i], z, q.z);
+        c = sharp(picture, uv, lod);
+        if (lod <= smooth_from_lod) c = clamp(c + respread(picture, uv, 1.0 / colour_size[i], right, down, middle.rgb), 0.0, 1.0);
+    }
     e.sum += weight * c;
     e.squares += weight * c * c;
     e.weight += weight;
@@ -84,9 +101,9 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, bool near
     e.rigs += min(40.0 * sure, 1.0);
 }
 
-Evidence gather(vec2 pixel, float z, bool near_edge) {
+Evidence gather(vec2 pixel, float z, vec2 slope, bool near_edge) {
     Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0);
-#define ADD(i) add(i, colour[i], source_depth[i], pixel, z, near_edge, e);
+#define ADD(i) add(i, colour[i], source_depth[i], pixel, z, slope, near_edge, e);
     FOR_LAYERS(ADD)
     return e;
 }
@@ -123,6 +140,13 @@ bool is_clear(vec2 pixel, float z) {
 
 bool same_surface(float a, float b) { return max(a, b) < min(a, b) * edge_ratio; }
 
+// The slope of inverse depth from one pixel to the next on one surface.
+float slope_of(float before, float z, float after) {
+    float a = before > 0.0 && same_surface(before, z) ? 1.0 / z - 1.0 / before : 0.0;
+    float b = after > 0.0 && same_surface(after, z) ? 1.0 / after - 1.0 / z : 0.0;
+    return a == 0.0 ? b : b == 0.0 ? a : 0.5 * (a + b);
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
@@ -148,9 +172,10 @@ void main() {
     fused_z = 0.0;
     tell_origins(vec4(0.0));
     if (z == 0.0) return;
+    vec2 slope = vec2(slope_of(around[11], z, around[13]), slope_of(around[7], z, around[17]));
     if (other == 0.0) {
         if (own == 0.0) return;
-        Evidence e = gather(pixel, z, false);
+        Evidence e = gather(pixel, z, slope, false);
         if (e.weight > 0.0) {
             if (e.apart > far_aside && !is_clear(pixel, z)) is_known = false;
             fused = vec4(e.sum / e.weight, is_known ? 1.0 : 0.25);
@@ -173,7 +198,7 @@ void main() {
         }
     }
     other = its / its_nearness;
-    Evidence a = gather(pixel, z, true), b = gather(pixel, other, true);
+    Evidence a = gather(pixel, z, slope, true), b = gather(pixel, other, vec2(0.0), true);
     float doubt_a = doubt(a), doubt_b = doubt(b);
     if (z < other)
         doubt_b += hidden_doubt * step(direct_support, a.direct);

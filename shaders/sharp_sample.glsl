@@ -1,7 +1,10 @@
+// The level of detail from which on a picture is minified, and trilinear filtering is right.
+const float smooth_from_lod = 0.7;
+
 // Catmull-Rom interpolation by five bilinear fetches (the four corners' weights are negligible); trilinear where the
 // picture is minified. Coordinates in 0..1.
 vec3 sharp(sampler2D picture, vec2 uv, float lod) {
-    if (lod > 0.7) return textureLod(picture, uv, lod).rgb;
+    if (lod > smooth_from_lod) return textureLod(picture, uv, lod).rgb;
     vec2 size = vec2(textureSize(picture, 0));
     vec2 at = uv * size - 0.5;
     vec2 f = fract(at);
@@ -20,4 +23,18 @@ vec3 sharp(sampler2D picture, vec2 uv, float lod) {
     sum += textureLod(picture, vec2(t12.x, t3.y), 0.0).rgb * w12.x * w3.y;
     float weight = w12.x * w0.y + w0.x * w12.y + w12.x * w12.y + w3.x * w12.y + w12.x * w3.y;
     return clamp(sum / weight, 0.0, 1.0);
+}
+
+vec3 bend(sampler2D picture, vec2 uv, vec2 along, vec3 middle) {
+    return textureLod(picture, uv + along, 0.0).rgb + textureLod(picture, uv - along, 0.0).rgb - 2.0 * middle;
+}
+
+// What is to be added to a colour so that it is as soft as the virtual camera would have made it. Lens and sensor spread
+// a point over as many pixels in either picture, but a surface that the source sees at a slant or from afar has its
+// pixels spread wider: to the second order the difference is one of second derivatives. `right` and `down` are a pixel
+// of the virtual view in those of the source, `texel` one of the source in 0..1, `middle` the colour there.
+vec3 respread(sampler2D picture, vec2 uv, vec2 texel, vec2 right, vec2 down, vec3 middle) {
+    const float half_variance = 0.25;  // of the spread, px^2
+    return half_variance * (bend(picture, uv, right * texel, middle) + bend(picture, uv, down * texel, middle) -
+                            bend(picture, uv, vec2(texel.x, 0.0), middle) - bend(picture, uv, vec2(0.0, texel.y), middle));
 }

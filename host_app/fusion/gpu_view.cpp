@@ -11,6 +11,18 @@ int triangle_indices(cv::Size depth_size, QuadGrid grid) {
     return 6 * ((depth_size.width - 1) / step) * ((depth_size.height - 1) / step);
 }
 
+SurfaceRims::SurfaceRims(int most_indices)
+    : indices(static_cast<std::size_t>(most_indices) * sizeof(std::uint32_t), GL_DYNAMIC_DRAW),
+      command(5 * sizeof(std::uint32_t), GL_DYNAMIC_DRAW),
+      capacity(most_indices) {}
+
+const SurfaceRims& GpuView::rims_to_build() {
+    // A quarter of a quad takes as many indices as a quad of the grid: enough for a picture a
+    // quarter of whose pixels lie at edges.
+    if (!rims_) rims_.emplace(std::max(triangle_indices(), 24));
+    return *rims_;
+}
+
 void GpuView::upload(const DepthView& view) {
     const bool is_same_camera =
         colour_ && depth_ && colour_->size() == view.colour.size() &&
@@ -33,6 +45,7 @@ void GpuView::upload(const DepthView& view) {
         };
         make(QuadGrid::fine, triangles_);
         make(QuadGrid::coarse, coarse_triangles_);
+        rims_.reset();
     }
     if (view.colour_correction.is_identity()) {
         colour_->upload(view.colour);

@@ -22,6 +22,15 @@ enum class QuadGrid { fine = 1, coarse = 2 };
 /// Two triangles a quad of the grid over a depth map of this size.
 int triangle_indices(cv::Size depth_size, QuadGrid grid);
 
+/// Triangles at the edges of a depth map's surfaces, as an indirect draw: how many they are is
+/// known to the GPU alone.
+struct SurfaceRims {
+    Buffer indices, command;
+    int capacity;  ///< indices
+
+    explicit SurfaceRims(int most_indices);
+};
+
 /// One depth view on the GPU. Textures stay while the sizes stay.
 class GpuView {
   public:
@@ -68,6 +77,9 @@ class GpuView {
     const Buffer& triangles(QuadGrid grid = QuadGrid::fine) const {
         return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
     }
+    /// Null until they are asked for.
+    const SurfaceRims* rims() const { return rims_ ? &*rims_ : nullptr; }
+    const SurfaceRims& rims_to_build();
     Eigen::Matrix3d K_depth() const;
     int triangle_indices(QuadGrid grid = QuadGrid::fine) const;
 
@@ -88,6 +100,7 @@ class GpuView {
     float presence_ = 1;
     std::unique_ptr<LearntPlate> plate_ = std::make_unique<LearntPlate>();
     std::optional<Buffer> triangles_, coarse_triangles_;
+    std::optional<SurfaceRims> rims_;
     SurfaceSamples samples_;
 };
 

@@ -15,6 +15,8 @@ struct DepthGrid {
     Eigen::Matrix3d K;        ///< of the depth map
     Pose world_from_camera;
     QuadGrid grid = QuadGrid::fine;
+    const SurfaceRims* rims = nullptr;  ///< drawn too where there are any
+    double rim_px = 0;                  ///< how far they reach from the middles of their pixels
 };
 
 /// A depth map as a regular grid of quads, a vertex a pixel, displaced by depth. Where neighbouring
@@ -28,6 +30,10 @@ class MeshRasteriser {
     void build_triangles(const GpuView& view, QuadGrid grid = QuadGrid::fine);
     void build_triangles(const DepthGrid& grid);
 
+    /// What the fine grid leaves out at the edges of surfaces: half a pixel all round, and all of
+    /// what is one pixel wide. Drawn with the fine grid from then on. Once an upload.
+    void build_rims(GpuView& view);
+
     /// Draws the view's surface into a depth-only framebuffer of the target's size: 1 - near / z, 1
     /// where there is nothing. Surfaces seen from behind are left out. Clears before.
     void draw_depth(const GpuView& view, const VirtualView& target, double near_m,
@@ -36,7 +42,9 @@ class MeshRasteriser {
                     const Framebuffer& depth_only);
 
   private:
-    Program build_, build_coarse_, draw_;
+    void set_edge_filter(Program& program, const DepthGrid& grid);
+
+    Program build_, build_coarse_, build_rims_, draw_, draw_rims_;
     VertexArray vertices_;
 };
 

@@ -90,6 +90,7 @@ class FusedSynthesiser final : public Synthesiser {
         edge_trust_.judge(view);
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})
             blender_.layers().rasteriser().build_triangles(view, grid);
+        blender_.layers().rasteriser().build_rims(view);
         view.set_prepared();
     }
 
