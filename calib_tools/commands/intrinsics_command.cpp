@@ -53,24 +53,32 @@ void save_intrinsics(const std::string& path, const CameraCalibration& result) {
     write_file_atomically(path, std::as_bytes(std::span(text)));
 }
 
-std::vector<SeenPicture> look(const Options& options, const BoardPattern& pattern) {
+struct SeenSeries {
+    std::vector<SeenPicture> pictures;
+    std::string kept;  ///< of a live film, as BoardFilm's
+};
+
+SeenSeries look(const Options& options, const BoardPattern& pattern) {
     if (!options.live.given()) {
         if (options.pictures.empty()) fail("which pictures? give --images, or --live and --rig");
-        return look_at_pictures(expand_pictures(options.pictures), pattern);
+        return {look_at_pictures(expand_pictures(options.pictures), pattern), {}};
     }
     const RigFolder rig = options.live.folder();
     LiveRigs rigs = options.live.connect({rig});
     BoardFilm film =
         film_board(rigs, {{0, options.side == "left", options.side, rig.folder}}, pattern,
-                   options.live.most_views(), all_see_board, lens_advice({options.side}));
-    return std::move(film.pictures[0]);
+                   options.live.film(), all_see_board, lens_advice({options.side}));
+    return {std::move(film.pictures[0]), film.kept};
 }
 
 void run(const Options& options) {
     const BoardPattern pattern = options.board.pattern();
     RigOptions rig_options;
     rig_options.family = options.lens.family();
-    const CameraCalibration result = calibrate_camera(look(options, pattern), pattern, rig_options);
+    SeenSeries seen = look(options, pattern);
+    const CameraCalibration result = with_kept_film(seen.kept, [&] {
+        return calibrate_camera(std::move(seen.pictures), pattern, rig_options);
+    });
     if (!options.output.empty()) {
         save_intrinsics(options.output, result);
         log_info("{} written", options.output);

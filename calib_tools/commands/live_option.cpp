@@ -18,8 +18,16 @@ void LiveOption::add_to(CLI::App& command) {
         ->needs(live);
 }
 
+void LiveOption::add_film_to(CLI::App& command) {
+    add_to(command);
+    command
+        .add_flag("--go-on", go_on,
+                  "live: film on from the pictures that an earlier film left in the folders")
+        ->needs("--live");
+}
+
 void LiveRigOption::add_to(CLI::App& command) {
-    LiveOption::add_to(command);
+    add_film_to(command);
     command.add_option(
         "--rig", rig,
         "live: NAME=FOLDER, the rig of the stage and the folder that keeps its pictures");

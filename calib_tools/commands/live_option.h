@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/live/board_film.h"
 #include "calib_tools/live/live_rigs.h"
 
 namespace vantage {
@@ -15,10 +16,13 @@ struct LiveOption {
     std::string stage_file;
     int views = 40;
     int patience_s = 30;
+    bool go_on = false;
 
     void add_to(CLI::App& command);
+    /// With --go-on too, for commands that film a board.
+    void add_film_to(CLI::App& command);
     bool given() const { return !stage_file.empty(); }
-    std::size_t most_views() const { return static_cast<std::size_t>(views); }
+    FilmOptions film() const { return {static_cast<std::size_t>(views), go_on}; }
     /// Throws Error as LiveRigs does.
     LiveRigs connect(const std::vector<RigFolder>& rigs) const;
 };

@@ -68,10 +68,15 @@ std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
     return by_instant(pictures, numbers, rig, camera, notes);
 }
 
-/// Films the board live and gives every rig what it saw. Returns the first pulse kept.
-long long film_live(const Options& options, const BoardSet& boards,
-                    const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
-                    StageCalibration& notes) {
+struct LiveFilm {
+    long long first_pulse = 0;
+    std::string kept;  ///< as BoardFilm's
+};
+
+/// Films the board live and gives every rig what it saw.
+LiveFilm film_live(const Options& options, const BoardSet& boards,
+                   const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
+                   StageCalibration& notes) {
     LiveRigs live = options.live.connect(folders);
     std::vector<FilmedCamera> cameras;
     std::vector<std::string> names;
@@ -84,8 +89,11 @@ long long film_live(const Options& options, const BoardSet& boards,
     if (options.floor_first)
         log_info(
             "lay the board on the floor, face up: the first instant kept is the world's floor");
-    const BoardFilm film = film_board(live, cameras, boards, options.live.most_views(),
-                                      two_rigs_see_board, tie_advice(names));
+    const bool floor_is_filmed = options.floor_first && !options.live.go_on;
+    const BoardFilm film =
+        film_board(live, cameras, boards, options.live.film(),
+                   floor_is_filmed ? floor_first(boards, options.floor_board) : two_rigs_see_board,
+                   tie_advice(names));
     const std::vector<long long> numbers(film.pulses.begin(), film.pulses.end());
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         StageRig& rig = rigs[i];
@@ -93,7 +101,7 @@ long long film_live(const Options& options, const BoardSet& boards,
         rig.right =
             by_instant(film.pictures[2 * i + 1], numbers, rig, rig.calibration.right, notes);
     }
-    return numbers.front();
+    return {numbers.front(), film.kept};
 }
 
 void run(const Options& options) {
@@ -101,6 +109,7 @@ void run(const Options& options) {
     std::vector<StageRig> rigs;
     StageCalibration notes;
     std::optional<Floor> floor;
+    std::string kept;
     if (options.floor >= 0) floor = Floor(options.floor, options.floor_board);
     const std::vector<RigFolder> folders = parse_rig_folders(options.rigs);
     for (const auto& [name, folder] : folders) {
@@ -119,13 +128,15 @@ void run(const Options& options) {
         rigs.push_back(std::move(rig));
     }
     if (options.live.given()) {
-        const long long first = film_live(options, boards, folders, rigs, notes);
-        if (options.floor_first) floor = Floor(first, options.floor_board);
+        LiveFilm film = film_live(options, boards, folders, rigs, notes);
+        if (options.floor_first) floor = Floor(film.first_pulse, options.floor_board);
+        kept = std::move(film.kept);
     }
     for (const StageRig& rig : rigs)
         log_info("rig {}: the board in {} left and {} right pictures", rig.name, rig.left.size(),
                  rig.right.size());
-    StageCalibration stage = calibrate_stage(rigs, boards, floor);
+    StageCalibration stage =
+        with_kept_film(kept, [&] { return calibrate_stage(rigs, boards, floor); });
     stage.rejected.insert(stage.rejected.end(), notes.rejected.begin(), notes.rejected.end());
     std::filesystem::create_directories(options.output);
     for (std::size_t i = 0; i < stage.rigs.size(); ++i) {
@@ -172,7 +183,7 @@ CommandEntry stage_command_entry() {
         command->add_option("--floor-board", options->floor_board,
                             "name of the board on the floor, where several are seen: that of its "
                             "description without extension");
-        options->live.add_to(*command);
+        options->live.add_film_to(*command);
         command->add_flag("--floor-first", options->floor_first,
                           "live: in the first instant kept the board lies on the floor, at the "
                           "world's origin");

@@ -32,6 +32,7 @@ struct Options {
 struct SeenPairs {
     std::vector<SeenPicture> left, right;
     std::vector<std::filesystem::path> alone;
+    std::string kept;  ///< of a live film, as BoardFilm's
 };
 
 SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) {
@@ -44,7 +45,7 @@ SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) 
     for (const auto& [left, right] : pictures.pairs) files.push_back(right);
     const std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
     const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
-    return {{seen.begin(), middle}, {middle, seen.end()}, pictures.alone};
+    return {{seen.begin(), middle}, {middle, seen.end()}, pictures.alone, {}};
 }
 
 SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
@@ -52,8 +53,8 @@ SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
     LiveRigs rigs = options.live.connect({rig});
     BoardFilm film =
         film_board(rigs, {{0, true, "left", rig.folder}, {0, false, "right", rig.folder}}, pattern,
-                   options.live.most_views(), all_see_board, lens_advice({"left", "right"}));
-    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}};
+                   options.live.film(), all_see_board, lens_advice({"left", "right"}));
+    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept};
 }
 
 void run(const Options& options) {
@@ -67,8 +68,9 @@ void run(const Options& options) {
     }
     SeenPairs seen = options.live.given() ? pairs_from_rig(options, pattern)
                                           : pairs_from_files(options, pattern);
-    RigCalibration result =
-        calibrate_rig(std::move(seen.left), std::move(seen.right), pattern, rig_options);
+    RigCalibration result = with_kept_film(seen.kept, [&] {
+        return calibrate_rig(std::move(seen.left), std::move(seen.right), pattern, rig_options);
+    });
     for (const std::filesystem::path& file : seen.alone) {
         ++result.views_given;
         result.rejected.push_back(

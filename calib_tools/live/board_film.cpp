@@ -1,9 +1,11 @@
 #include "calib_tools/live/board_film.h"
 
 #include <algorithm>
-#include <atomic>
+#include <charconv>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "common/base/error.h"
@@ -24,15 +26,59 @@ std::filesystem::path file_of(const FilmedCamera& camera, std::uint64_t pulse) {
     return camera.folder / fmt::format("{}_{}.png", camera.is_left ? "left" : "right", pulse);
 }
 
+/// The pulses of the camera's pictures in its folder.
+std::set<std::uint64_t> pulses_in_folder(const FilmedCamera& camera) {
+    const std::string side = camera.is_left ? "left_" : "right_";
+    std::set<std::uint64_t> pulses;
+    for (const auto& entry : std::filesystem::directory_iterator(camera.folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(camera.is_left ? "left" : "right")) continue;
+        std::uint64_t pulse = 0;
+        const char* const end = name.data() + name.size();
+        const auto [rest, error] =
+            std::from_chars(name.data() + std::min(side.size(), name.size()), end, pulse);
+        if (!name.starts_with(side) || error != std::errc() ||
+            std::string_view(rest, static_cast<std::size_t>(end - rest)) != ".png")
+            fail("{} is not a picture of a live film ({}PULSE.png): give a folder without pictures",
+                 entry.path().string(), side);
+        pulses.insert(pulse);
+    }
+    return pulses;
+}
+
 void require_empty(const FilmedCamera& camera) {
     const std::string side = camera.is_left ? "left" : "right";
-    std::filesystem::create_directories(camera.folder);
     for (const auto& entry : std::filesystem::directory_iterator(camera.folder))
         if (entry.path().filename().string().starts_with(side))
             fail(
-                "{} holds {} pictures already: give a folder without pictures, or calibrate from "
-                "those without --live",
+                "{} holds {} pictures already: go on filming from them (--go-on), give a folder "
+                "without pictures, or calibrate from those without --live",
                 camera.folder.string(), side);
+}
+
+/// The instants that an earlier film left in the folders.
+void take_up(const std::vector<FilmedCamera>& cameras, const BoardSet& boards, BoardFilm& film) {
+    std::set<std::uint64_t> pulses;
+    for (const FilmedCamera& camera : cameras) pulses.merge(pulses_in_folder(camera));
+    film.pulses.assign(pulses.begin(), pulses.end());
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        std::vector<std::filesystem::path> files;
+        for (const std::uint64_t pulse : pulses) files.push_back(file_of(cameras[c], pulse));
+        film.pictures[c] = look_at_pictures(files, boards);
+    }
+}
+
+std::string kept_sentence(const BoardFilm& film, const std::vector<FilmedCamera>& cameras) {
+    std::string folders;
+    std::set<std::filesystem::path> named;
+    for (const FilmedCamera& camera : cameras)
+        if (named.insert(camera.folder).second)
+            folders += (folders.empty() ? "" : ", ") + camera.folder.string();
+    return fmt::format(
+        "{} {} kept in {}: the same command with --go-on films more, and without --live it "
+        "calibrates from {}",
+        film.pulses.size(), film.pulses.size() == 1 ? "instant is" : "instants are", folders,
+        film.pulses.size() == 1 ? "it" : "them");
 }
 
 /// Mean way of the corners that both pictures show; empty if they share too few.
@@ -117,20 +163,17 @@ class OtherBoardWatch {
     std::map<std::pair<int, int>, int> votes_;
 };
 
-}  // namespace
-
-BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const BoardSet& boards, std::size_t most, const FilmRule& rule,
-                     const FilmAdvice& advice) {
-    for (const FilmedCamera& camera : cameras) require_empty(camera);
-    BoardFilm film;
-    film.pictures.resize(cameras.size());
+/// Films into `film` until nothing is missing, `most` instants are kept, or the program is asked to
+/// stop. Returns the sentence that says which.
+std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
+                    const BoardSet& boards, std::size_t most, const FilmRule& rule,
+                    const FilmAdvice& advice, BoardFilm& film) {
     OtherBoardWatch other_board(boards);
     Notice notice;
     log_info("show the board; Ctrl-C ends the film and calibrates from what is kept");
     while (film.pulses.size() < most) {
         const std::optional<LiveInstant> instant = rigs.next();
-        if (!instant) break;
+        if (!instant) return "the film was ended";
         std::vector<SeenPicture> pictures(cameras.size());
         std::vector<const ColourImage*> raw(cameras.size(), nullptr);
         for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -169,9 +212,37 @@ BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
         const std::vector<std::string> missing = advice(film);
         log_info("{} kept (pulse {}); {}", film.pulses.size(), instant->pulse,
                  missing.empty() ? "nothing is missing" : "still missing: " + joined(missing));
-        if (missing.empty()) break;
+        if (missing.empty()) return "the film is complete";
     }
-    if (film.pulses.empty()) fail("the film ended before a picture of the board could be kept");
+    return fmt::format("the film has the {} instants that were asked for (--views)", most);
+}
+
+}  // namespace
+
+BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
+                     const BoardSet& boards, const FilmOptions& options, const FilmRule& rule,
+                     const FilmAdvice& advice) {
+    BoardFilm film;
+    film.pictures.resize(cameras.size());
+    for (const FilmedCamera& camera : cameras) {
+        std::filesystem::create_directories(camera.folder);
+        if (!options.go_on) require_empty(camera);
+    }
+    if (options.go_on) {
+        take_up(cameras, boards, film);
+        if (!film.pulses.empty())
+            log_info("{} kept from before; still missing: {}", film.pulses.size(),
+                     joined(advice(film)));
+    }
+    try {
+        const std::string end = film_on(rigs, cameras, boards, options.most, rule, advice, film);
+        if (film.pulses.empty()) fail("the film ended before a picture of the board could be kept");
+        film.kept = kept_sentence(film, cameras);
+        log_info("{}; {}", end, film.kept);
+    } catch (const Error& error) {
+        if (film.pulses.empty()) throw;
+        fail("{}; {}", error.what(), kept_sentence(film, cameras));
+    }
     return film;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "calib_tools/live/board_film.h"
 #include "calib_tools/rig/camera_solver.h"
@@ -26,7 +27,7 @@ std::vector<std::string> missing_for_camera(const std::vector<SeenPicture>& pict
         views.instants.push_back(p.sighting.corners);
     }
     if (views.instants.size() < fewest_for_lens)
-        return {fmt::format("{} more pictures before the {} camera's lens can be judged",
+        return {fmt::format("{} more of the {} camera before its lens can be judged",
                             fewest_for_lens - views.instants.size(), name)};
     const std::optional<Bundle> solved = solve_camera(views, lens_family("radial1"));
     if (!solved)
@@ -62,6 +63,28 @@ std::string two_rigs_see_board(const std::vector<SeenPicture>& pictures) {
             return fault_of(picture);
     return fmt::format("{} sees the board: hold it where two rigs see it",
                        seeing == 0 ? "no rig" : "only one rig");
+}
+
+FilmRule floor_first(const BoardSet& boards, std::string floor_board) {
+    return [boards, name = std::move(floor_board),
+            is_first = true](const std::vector<SeenPicture>& pictures) mutable -> std::string {
+        std::string fault = two_rigs_see_board(pictures);
+        if (!fault.empty() || !is_first) return fault;
+        std::set<std::string> flat;
+        for (const SeenPicture& picture : pictures)
+            for (const BoardCorner& corner : picture.sighting.corners) {
+                const BoardBody& body =
+                    boards.bodies[static_cast<std::size_t>(boards.body_of(corner.board))];
+                if (body.boards.size() == 1) flat.insert(body.name);
+            }
+        if (name.empty() ? flat.size() == 1 : flat.contains(name)) {
+            is_first = false;
+            return {};
+        }
+        return name.empty() ? "the first instant has to show the board on the floor and no other "
+                              "flat one: lay it there, or name it (--floor-board)"
+                            : fmt::format("the first instant has to show {} on the floor", name);
+    };
 }
 
 FilmAdvice tie_advice(std::vector<std::string> rig_names) {

@@ -1,12 +1,16 @@
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numbers>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
 #include "common/colour/colour_file.h"
 #include "common/config/calibration_file.h"
@@ -23,15 +27,24 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Two running rigs, each a process of its own, and vantage-calib as a third.
+/// Two running rigs, each a process of its own, and vantage-calib as a third, over links that are
+/// encrypted and authenticated both ways.
 class LiveCalibration : public testing::Test {
   protected:
     LiveCalibration() {
+        std::ofstream(file("hosts.keys")) << new_key("host") << '\n';
         std::ofstream stage(file("stage.toml"));
-        stage << "version = 1\nrate_hz = 4\n";
+        stage << "version = 1\nrate_hz = 4\nkey_file = \"host.key\"\n";
         for (const char* name : {"A", "B"})
             stage << "[[rigs]]\nname = \"" << name << "\"\nendpoint = \"" << endpoint(name)
-                  << "\"\n";
+                  << "\"\npublic_key = \"" << new_key(name) << "\"\n";
+    }
+
+    /// Its public half, as a line of text.
+    std::string new_key(const std::string& name) const {
+        const ProgramResult made =
+            run_to_end(VANTAGE_RIG_PROGRAM, {"keys", "new", file(name + ".key"), "--json"});
+        return nlohmann::json::parse(made.out).at("public_key");
     }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -44,7 +57,9 @@ class LiveCalibration : public testing::Test {
         const std::string config = file(name + ".toml");
         std::ofstream(config) << "version = 1\nname = \"" << name << "\"\n"
                               << more_top << "[source]\nrate_hz = 4\n"
-                              << source << "[stream]\nbind = \"" << endpoint(name) << "\"\n";
+                              << source << "[stream]\nbind = \"" << endpoint(name)
+                              << "\"\nkey_file = \"" << name
+                              << ".key\"\nauthorized_hosts = \"hosts.keys\"\n";
         rigs_.push_back(std::make_unique<ChildProgram>(
             VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", config},
             folder_.path()));
@@ -65,10 +80,13 @@ class LiveCalibration : public testing::Test {
         write_grey_image(file(fmt::format("{}/film/right{}.png", rig, number)), right);
     }
 
-    ProgramResult calibrate(std::vector<std::string> arguments) const {
+    std::vector<std::string> live(std::vector<std::string> arguments) const {
         for (const char* more : {"--live", "", "--json"})
             arguments.emplace_back(*more ? more : file("stage.toml"));
-        return run_to_end(VANTAGE_CALIB, arguments);
+        return arguments;
+    }
+    ProgramResult calibrate(const std::vector<std::string>& arguments) const {
+        return run_to_end(VANTAGE_CALIB, live(arguments));
     }
 
     TemporaryFolder folder_;
@@ -87,11 +105,12 @@ TEST_F(LiveCalibration,
        makes_the_first_calibration_of_a_rig_while_it_films_and_says_what_is_missing) {
     RenderedStage stage(chessboard_pattern("9x6", 0.1), 480, 3);
     // An odd count: every second pulse is asked for, and all pictures come.
-    constexpr int pictures = 15;
+    constexpr int pictures = 21;
     for (int i = 0; i < pictures; ++i) {
         const Pose world_from_board = stage.world_from_board_near(0);
         PictureFaults faults;
-        if (i == 4) faults.blur_px = 4;
+        if (i % 6 == 1) faults.blur_px = 2.2;
+        if (i % 6 == 4) faults.glare = 0.5;
         write_film("A", i, stage.film(0, 0, world_from_board, faults),
                    stage.film(0, 1, world_from_board, faults));
     }
@@ -107,6 +126,8 @@ TEST_F(LiveCalibration,
                 truth.right_from_left.translation().norm(), 1e-3);
     EXPECT_THAT(result.err, HasSubstr("still missing: "));
     EXPECT_THAT(result.err, HasSubstr("1 kept"));
+    EXPECT_THAT(result.err, HasSubstr("png is blurred: edges of"));
+    EXPECT_THAT(result.err, HasSubstr("overexposed (glare)"));
     const auto json = nlohmann::json::parse(result.out);
     const auto views = json.at("views_given").get<int>();
     EXPECT_LE(views, 12);
@@ -119,7 +140,44 @@ TEST_F(LiveCalibration,
     const ProgramResult again = calibrate(
         with_board({"intrinsics", "--rig", "A=" + file("A/kept"), "-o", file("camera.yaml")}));
     EXPECT_EQ(again.status, 1);
-    EXPECT_THAT(again.err, HasSubstr("holds left pictures already"));
+    EXPECT_THAT(again.err, HasSubstr("holds left pictures already: go on filming from them"));
+}
+
+TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_what_it_kept) {
+    RenderedStage stage(chessboard_pattern("9x6", 0.1), 480, 3);
+    for (int i = 0; i < 15; ++i) {
+        const Pose world_from_board = stage.world_from_board_near(0);
+        write_film("A", i, stage.film(0, 0, world_from_board, {}),
+                   stage.film(0, 1, world_from_board, {}));
+    }
+    start_filming_rig("A");
+    const std::vector<std::string> arguments =
+        with_board({"stereo", "--rig", "A=" + file("A/kept"), "-o", file("A/calibration.yaml"),
+                    "--lens", "brown4", "--views", "9"});
+    ChildProgram interrupted(VANTAGE_CALIB, live(arguments), folder_.path());
+    while (interrupted.err().find("2 kept") == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    interrupted.send_signal(SIGINT);
+    const ProgramResult ended = interrupted.wait();
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.err, HasSubstr("the film was ended; "));
+    EXPECT_THAT(ended.err,
+                HasSubstr("kept in " + file("A/kept") +
+                          ": the same command with --go-on films more, and without --live"));
+    EXPECT_FALSE(std::filesystem::exists(file("A/calibration.yaml")));
+    int kept = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(file("A/kept")))
+        kept += entry.path().filename().string().starts_with("left_") ? 1 : 0;
+    ASSERT_GE(kept, 2);
+
+    std::vector<std::string> going_on = arguments;
+    going_on.emplace_back("--go-on");
+    const ProgramResult result = calibrate(going_on);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(fmt::format("{} kept from before", kept)));
+    EXPECT_THAT(result.err, HasSubstr(fmt::format("{} kept (pulse", kept + 1)));
+    EXPECT_NEAR(load_calibration(file("A/calibration.yaml")).left.fx_px, stage.truth(0).left.fx_px,
+                3e-3 * stage.truth(0).left.fx_px);
 }
 
 TEST_F(LiveCalibration, calibrates_one_camera_of_a_running_rig) {
@@ -169,6 +227,49 @@ TEST_F(LiveCalibration, places_two_rigs_by_what_both_see_at_the_same_pulse) {
     EXPECT_LT((found.translation() - truth.translation()).norm(), 0.005);
     EXPECT_THAT(result.err, HasSubstr("the board where rigs A and B both see it (1 of 5)"));
     EXPECT_THAT(result.err, HasSubstr("nothing is missing"));
+}
+
+TEST_F(LiveCalibration, waits_for_the_board_on_the_floor_that_gives_the_world_its_place) {
+    std::vector<BoardPattern> patterns(2, chessboard_pattern("5x4", 0.15));
+    for (BoardPattern& pattern : patterns) {
+        pattern.kind = BoardKind::charuco;
+        pattern.marker_m = 0.105;
+        pattern.dictionary = "4X4_50";
+    }
+    patterns[1].first_marker = 20;
+    save_board(file("floor.toml"), patterns[0]);
+    save_board(file("hand.toml"), patterns[1]);
+    RenderedStage stage(patterns, 480, 9);
+    constexpr int first_rig = 1;
+    const char* names[] = {"A", "B"};
+    for (int i = 0; i < 7; ++i) {
+        std::vector<RenderedStage::StandingBoard> standing = {
+            {1, stage.board_before_pair(first_rig)}};
+        if (i == 5) standing.push_back({0, stage.board_on_floor()});
+        for (int r = 0; r < 2; ++r)
+            write_film(names[r], i, stage.film(first_rig + r, 0, standing, {}),
+                       stage.film(first_rig + r, 1, standing, {}));
+    }
+    for (int r = 0; r < 2; ++r) {
+        StereoCalibration known = stage.truth(first_rig + r);
+        known.world_from_left = Pose::Identity();
+        compute_rectification(known, 0);
+        save_calibration(file(std::string(names[r]) + "/calibration.yaml"), known,
+                         {"2026-01-01T00:00:00Z", "test", 0.02, 0.02, 12});
+        start_filming_rig(names[r]);
+    }
+    const ProgramResult result =
+        calibrate({"stage", "--board-file", file("floor.toml"), "--board-file", file("hand.toml"),
+                   "--rig", "A=" + file("A"), "--rig", "B=" + file("B"), "--floor-first",
+                   "--floor-board", "floor", "-o", file("world")});
+    ASSERT_EQ(result.status, 0) << result.err << rigs_[0]->err() << rigs_[1]->err();
+    for (int r = 0; r < 2; ++r)
+        EXPECT_LT((load_calibration(file("world/" + std::string(names[r]) + ".yaml"))
+                       .world_from_left.translation() -
+                   stage.truth(first_rig + r).world_from_left.translation())
+                      .norm(),
+                  0.02)
+            << r;
 }
 
 TEST_F(LiveCalibration, names_a_board_of_another_size_instead_of_waiting_for_it) {
