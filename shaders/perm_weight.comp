@@ -45,27 +45,29 @@ void main() {
     }
 }
 #else
-layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
-layout(std430, binding = 1) buffer Weight { uint weight[]; };
+layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
 
+// Four columns an invocation.
 void main() {
-    int x = int(gl_GlobalInvocationID.x);
-    if (x >= size.x) return;
-    uint a = 0u;
-    for (int y = 0, at = x; y < size.y; ++y, at += stride) {
+    int x = int(gl_GlobalInvocationID.x), step = stride / 4;
+    if (x * 4 >= size.x) return;
+    uvec4 a = uvec4(0u);
+    for (int y = 0, at = x; y < size.y; ++y, at += step) {
         a = weight[at] + ((a * (permeability[at] >> 4)) >> 4);
         weight[at] = a;
     }
-    uint back = 0u;
+    uvec4 back = uvec4(0u);
     for (int y = size.y - 1; y >= 0; --y) {
-        int at = y * stride + x;
-        uint mu = permeability[at] >> 4, above = weight[max(at - stride, 0)];
+        int at = y * step + x;
+        uvec4 mu = permeability[at] >> 4, above = weight[max(at - step, 0)];
 #if MOST
         // A sum comes to little more than twice its weight.
-        uint sum = a + back, shift = 0u;
-        shift += uint(sum >= 128u) + uint(sum >= 256u) + uint(sum >= 512u) + uint(sum >= 1024u);
-        float factor = float(MOST) * 256.0 * 16.0 / 26.0 * float(1 << int(shift)) / float(max(int(sum), 1));
-        weight[at] = (shift << 16) | uint(int(factor));
+        ivec4 sum = ivec4(a + back);
+        ivec4 shift = ivec4(greaterThanEqual(sum, ivec4(128))) + ivec4(greaterThanEqual(sum, ivec4(256))) +
+                      ivec4(greaterThanEqual(sum, ivec4(512))) + ivec4(greaterThanEqual(sum, ivec4(1024)));
+        vec4 factor = float(MOST) * 256.0 * 16.0 / 26.0 * vec4(ivec4(1) << shift) / vec4(max(sum, ivec4(1)));
+        weight[at] = uvec4(shift << 16) | uvec4(ivec4(factor));
 #else
         weight[at] = a + back;
 #endif

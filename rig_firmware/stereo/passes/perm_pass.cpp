@@ -77,7 +77,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
         features.permeability().bind_storage(0);
         weight_.bind_storage(1);
         run_line_pass(weight_rows_, layout_.height_px, 0);
-        run_line_pass(weight_columns_, layout_.width_px, 0);
+        run_line_pass(weight_columns_, layout_.stride_px() / 4, 0);
     });
     for (int first = 0; first < disparities_; first += slab_disparities) {
         profiler.run("cost and rows", {pixels * (16 + 2 * 8 + 24), evaluations * 32}, [&] {
