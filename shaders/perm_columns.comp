@@ -16,7 +16,7 @@
 #endif
 
 layout(local_size_x = LANES) in;
-layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };
+layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };  // a byte each of four rows
 layout(std430, binding = 1) readonly buffer Volume { uvec4 volume[]; };
 layout(std430, binding = 2) buffer Marks { uvec4 marks[]; };  // the sums from above a group of rows
 #if KEEP
@@ -46,7 +46,7 @@ uvec2 codes_of(uvec4 sums, uint scale) {
 #define DOWN(k)                                                                        \
     {                                                                                  \
         int y = min(ROW_OF(k), size.y - 1);                                            \
-        uint mu = permeability[y * stride + x] >> 4;                                   \
+        uint mu = (four >> (8 * (k))) & 255u;                                          \
         uvec4 sums = volume[column + y * block_px];                                    \
         a = pairs_of(sums.xy) + permeate(a, mu);                                       \
         b = pairs_of(sums.zw) + permeate(b, mu);                                       \
@@ -54,7 +54,7 @@ uvec2 codes_of(uvec4 sums, uint scale) {
 #define DOWN_AGAIN(k, mu, own, sum_a, sum_b)                                           \
     {                                                                                  \
         int y = min(ROW_OF(k), size.y - 1);                                            \
-        mu = ROW_OF(k) < size.y ? permeability[y * stride + x] >> 4 : 0u;              \
+        mu = (four >> (8 * (k))) & 255u;                                               \
         own = volume[column + y * block_px];                                           \
         sum_a = a = pairs_of(own.xy) + permeate(a, mu);                                \
         sum_b = b = pairs_of(own.zw) + permeate(b, mu);                                \
@@ -85,6 +85,7 @@ void main() {
     uvec4 a = uvec4(0u), b = uvec4(0u);
     for (int group = 0; group < groups; ++group) {
         int first = group * group_rows, mark = block_at(x, group, groups) * 2;
+        uint four = permeability[group * stride + x];
         marks[mark] = a;
         marks[mark + 1] = b;
         DOWN(0) DOWN(1) DOWN(2) DOWN(3)
@@ -93,6 +94,7 @@ void main() {
     uvec4 up_a = uvec4(0u), up_b = uvec4(0u);
     for (int group = groups - 1; group >= 0; --group) {
         int first = group * group_rows, mark = block_at(x, group, groups) * 2;
+        uint four = permeability[group * stride + x];
         a = marks[mark];
         b = marks[mark + 1];
         uint mu0, mu1, mu2, mu3;

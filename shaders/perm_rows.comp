@@ -18,7 +18,7 @@
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer LeftFeatures { uvec4 left_features[]; };
 layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
-layout(std430, binding = 2) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 2) readonly buffer Permeability { uint permeability[]; };  // a byte each
 layout(std430, binding = 3) buffer Volume { SUMS volume[]; };
 layout(std430, binding = 4) buffer Marks { uvec4 marks[]; };  // the sums from the left of a step
 uniform ivec2 size;
@@ -34,6 +34,11 @@ uvec4 r0, r1, r2, r3, r4;
 #define COSTS_B(l, pixel) COSTS(l, REACH - 8 + pixel)
 
 uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
+
+uvec4 permeabilities(int at) {
+    uint four = permeability[at >> 2];
+    return uvec4(four, four >> 8, four >> 16, four >> 24) & 255u;
+}
 
 uvec4 a, b, back_a, back_b;
 
@@ -83,7 +88,7 @@ void main() {
 #else
         r0 = r1, r1 = r2, r2 = r3, r3 = r4, r4 = right_at(row, x - shift);
 #endif
-        uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
+        uvec4 l = left_features[(row + x) >> 2], m = permeabilities(row + x);
         marks[MARK_AT(x)] = a;
 #if PARTS == 2
         marks[MARK_AT(x) + 1] = b;
@@ -94,7 +99,7 @@ void main() {
     // The words slide the other way.
     back_a = back_b = uvec4(0u);
     for (int x = last; x >= 0; x -= 4) {
-        uvec4 l = left_features[(row + x) >> 2], m = permeability[(row + x) >> 2] & 15u;
+        uvec4 l = left_features[(row + x) >> 2], m = permeabilities(row + x);
         int at = SUMS_AT(x);
         a = marks[MARK_AT(x)];
 #if PARTS == 2

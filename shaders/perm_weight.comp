@@ -16,8 +16,13 @@ uniform ivec2 size;
 uniform int stride;
 
 #if ALONG == 0
-layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };  // a byte each
 layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
+
+uvec4 permeabilities(int at) {
+    uint four = permeability[at];
+    return uvec4(four, four >> 8, four >> 16, four >> 24) & 255u;
+}
 
 void main() {
     int y = int(gl_GlobalInvocationID.x);
@@ -25,7 +30,7 @@ void main() {
     int first = y * stride / 4, last = first + (size.x - 1) / 4;
     uvec4 a = uvec4(0u);
     for (int at = first; at <= last; ++at) {
-        uvec4 mu = permeability[at] & 15u;
+        uvec4 mu = permeabilities(at);
         a.x = 16u + ((a.w * mu.x) >> 4);
         a.y = 16u + ((a.x * mu.y) >> 4);
         a.z = 16u + ((a.y * mu.z) >> 4);
@@ -34,7 +39,7 @@ void main() {
     }
     uint back = 0u, mu_after = 0u;  // nothing passes from behind the picture
     for (int at = last; at >= first; --at) {
-        uvec4 mu = permeability[at] & 15u, b;
+        uvec4 mu = permeabilities(at), b;
         b.w = (back * mu_after) >> 4;
         b.z = ((b.w + 16u) * mu.w) >> 4;
         b.y = ((b.z + 16u) * mu.z) >> 4;
@@ -45,7 +50,7 @@ void main() {
     }
 }
 #else
-layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };
+layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };  // a byte each of four rows
 layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
 
 // Four columns an invocation.
@@ -53,14 +58,18 @@ void main() {
     int x = int(gl_GlobalInvocationID.x), step = stride / 4;
     if (x * 4 >= size.x) return;
     uvec4 a = uvec4(0u);
+    uvec4 four = uvec4(0u);
     for (int y = 0, at = x; y < size.y; ++y, at += step) {
-        a = weight[at] + ((a * (permeability[at] >> 4)) >> 4);
+        if ((y & 3) == 0) four = permeability[(y >> 2) * step + x];
+        a = weight[at] + ((a * (four & 255u)) >> 4);
+        four >>= 8;
         weight[at] = a;
     }
     uvec4 back = uvec4(0u);
     for (int y = size.y - 1; y >= 0; --y) {
         int at = y * step + x;
-        uvec4 mu = permeability[at] >> 4, above = weight[max(at - step, 0)];
+        if (y == size.y - 1 || (y & 3) == 3) four = permeability[(y >> 2) * step + x];
+        uvec4 mu = (four >> (8 * (y & 3))) & 255u, above = weight[max(at - step, 0)];
 #if MOST
         // A sum comes to little more than twice its weight.
         ivec4 sum = ivec4(a + back);

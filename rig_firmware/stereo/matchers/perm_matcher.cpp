@@ -17,7 +17,7 @@ class PermMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 10;
+    static constexpr double sigma = 12;
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);

@@ -14,7 +14,7 @@ class PermSgmMatcher : public EngineMatcher {
           features_(library, layout_of(settings), sigma, settings.disparities),
           perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
           paths_(library, layout_of(settings), settings.disparities,
-                 {.p1 = 4, .p2 = 30, .columns = false}, perm_.large_scratch(),
+                 {.p1 = 7, .p2 = 30, .columns = false}, perm_.large_scratch(),
                  perm_.small_scratch()),
           check_(library, layout_of(settings), settings.fill) {}
 
@@ -24,7 +24,7 @@ class PermSgmMatcher : public EngineMatcher {
 
   private:
     /// Smaller than where permeability has to smooth alone: paths do the rest.
-    static constexpr double sigma = 7;
+    static constexpr double sigma = 9;
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);

@@ -8,6 +8,11 @@ namespace {
 /// Of the census, which slides its neighbourhood down the picture.
 constexpr int rows_an_invocation = 16;
 
+/// Of four rows, whose permeabilities are words.
+std::size_t row_groups(const StereoLayout& layout) {
+    return static_cast<std::size_t>((layout.height_px + 3) / 4);
+}
+
 }  // namespace
 
 FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma,
@@ -26,7 +31,8 @@ FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layou
       guide_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
       left_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       right_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
-      permeability_(layout.pixels() * 4, GL_DYNAMIC_COPY),
+      along_(layout.pixels(), GL_DYNAMIC_COPY),
+      down_(row_groups(layout) * static_cast<std::size_t>(layout.stride_px()) * 4, GL_DYNAMIC_COPY),
       table_(Buffer::of<std::uint32_t>(permeability_table(sigma))),
       votes_(8 * 4, GL_DYNAMIC_COPY) {}
 
@@ -88,16 +94,18 @@ void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
         permeability_program_.set("row_words", layout_.luma_row_words());
         permeability_program_.set("stride", layout_.stride_px());
         guide_.bind_storage(0);
-        permeability_.bind_storage(1);
-        table_.bind_storage(2);
-        permeability_program_.dispatch_over(layout_.stride_px() / 4, layout_.height_px);
+        along_.bind_storage(1);
+        down_.bind_storage(2);
+        table_.bind_storage(3);
+        permeability_program_.dispatch_over(layout_.stride_px() / 4,
+                                            static_cast<int>(row_groups(layout_)));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
 }
 
 std::size_t FeaturePass::gpu_bytes() const {
-    return guide_.bytes() + left_features_.bytes() + right_features_.bytes() +
-           permeability_.bytes() + table_.bytes() + votes_.bytes();
+    return guide_.bytes() + left_features_.bytes() + right_features_.bytes() + along_.bytes() +
+           down_.bytes() + table_.bytes() + votes_.bytes();
 }
 
 }  // namespace vantage

@@ -27,7 +27,10 @@ class FeaturePass {
     const Buffer& right_features() const { return right_features_; }
     /// Five sums, of shifts by -2 .. 2 rows, see row_shift_votes.comp.
     const Buffer& row_shift_votes() const { return votes_; }
-    const Buffer& permeability() const { return permeability_; }
+    /// From the left neighbour: four pixels of a row a word, a byte each of 0..15 sixteenths.
+    const Buffer& permeability_along() const { return along_; }
+    /// From the upper neighbour: four rows of a column a word, stride_px words a group of rows.
+    const Buffer& permeability_down() const { return down_; }
     const StereoLayout& layout() const { return layout_; }
     std::size_t gpu_bytes() const;
 
@@ -38,7 +41,7 @@ class FeaturePass {
     int disparities_;
     Program features_program_, shifted_program_, clear_program_, votes_program_, median_program_,
         permeability_program_;
-    Buffer guide_, left_features_, right_features_, permeability_, table_, votes_;
+    Buffer guide_, left_features_, right_features_, along_, down_, table_, votes_;
 };
 
 }  // namespace vantage

@@ -74,23 +74,24 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
     const int row_lanes =
         lane_mapping() == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
     profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
-        features.permeability().bind_storage(0);
+        features.permeability_along().bind_storage(0);
         weight_.bind_storage(1);
         run_line_pass(weight_rows_, layout_.height_px, 0);
+        features.permeability_down().bind_storage(0);
         run_line_pass(weight_columns_, layout_.stride_px() / 4, 0);
     });
     for (int first = 0; first < disparities_; first += slab_disparities) {
         profiler.run("cost and rows", {pixels * (16 + 2 * 8 + 24), evaluations * 32}, [&] {
             features.left_features().bind_storage(0);
             features.right_features().bind_storage(1);
-            features.permeability().bind_storage(2);
+            features.permeability_along().bind_storage(2);
             volume_.bind_storage(3);
             down_.bind_storage(4);
             run_line_pass(rows_, row_lanes, first);
         });
         profiler.run(
             "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 17}, [&] {
-                features.permeability().bind_storage(0);
+                features.permeability_down().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);
                 output_.bind_storage(3);
