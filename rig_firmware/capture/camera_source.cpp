@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <thread>
+#include <utility>
 
 #include <poll.h>
 
@@ -26,6 +27,36 @@ using namespace std::chrono_literals;
 constexpr std::chrono::nanoseconds time_between_reopenings = 500ms;
 constexpr std::chrono::nanoseconds longest_silence = 3s;
 
+/// Tells whether cameras are silent that should not be. Those on a trigger owe a picture from the
+/// first pulse after their last one on: before a take they may wait for hours.
+class Silence {
+  public:
+    /// Of cameras at this period; slow ones are given time for three pictures.
+    explicit Silence(std::chrono::nanoseconds period)
+        : longest_(std::max(longest_silence, 3 * period)) {}
+
+    void heard() {
+        since_ = MonotonicClock::now();
+        is_answered_ = true;
+    }
+    bool is_too_long(const RigTrigger* trigger) {
+        const MonotonicTime now = MonotonicClock::now();
+        if (trigger) {
+            const std::uint64_t pulses = trigger->pulses();
+            if (std::exchange(is_answered_, false)) answered_pulses_ = pulses;
+            if (pulses == answered_pulses_) since_ = now;
+        }
+        return now - since_ > longest_;
+    }
+    std::chrono::nanoseconds longest() const { return longest_; }
+
+  private:
+    std::chrono::nanoseconds longest_;
+    MonotonicTime since_{};
+    std::uint64_t answered_pulses_ = 0;
+    bool is_answered_ = false;
+};
+
 /// Two cameras, or one that delivers both pictures side by side. Pictures are joined by the
 /// kernel's time stamps. On a trigger they get the index of the pulse that exposed them; cameras
 /// that run by themselves get that of the nearest pulse. A camera that is unplugged or falls silent
@@ -37,7 +68,8 @@ class CameraSource final : public StereoSource {
           opener_(std::move(opener)),
           grid_(config.source.rate_hz),
           numberer_(grid_),
-          pairer_(grid_.period()) {
+          pairer_(grid_.period()),
+          silence_(grid_.period()) {
         if (config_.left_device.empty())
             fail("the source '{}' needs a camera: name it with 'left_device' in [source]",
                  config_.kind);
@@ -85,10 +117,10 @@ class CameraSource final : public StereoSource {
                 if (cameras_.empty()) open();
                 if (!begun_) drain();
                 if (std::optional<StereoFrame> frame = take_frame(deadline)) return frame;
-                if (MonotonicClock::now() - last_picture_ > longest_silence)
+                if (silence_.is_too_long(trigger_))
                     throw DeviceLost(
                         fmt::format("the cameras gave no pair of pictures for {} s",
-                                    std::chrono::duration<double>(longest_silence).count()));
+                                    std::chrono::duration<double>(silence_.longest()).count()));
             } catch (const Error& error) {
                 lose(error.what());
                 std::this_thread::sleep_until(
@@ -136,7 +168,7 @@ class CameraSource final : public StereoSource {
         if (!side_by_side) cameras.push_back(opener_(config_.right_device, false));
         cameras_ = std::move(cameras);
         if (lends_) lend();
-        last_picture_ = MonotonicClock::now();
+        silence_.heard();
         if (lost_because_.empty()) return;
         ++reopened_;
         lost_because_.clear();
@@ -149,7 +181,7 @@ class CameraSource final : public StereoSource {
         for (const auto& camera : cameras_)
             while (camera->take()) {
             }
-        last_picture_ = MonotonicClock::now();
+        silence_.heard();
         begun_ = true;
     }
 
@@ -170,7 +202,7 @@ class CameraSource final : public StereoSource {
             joined = take_joined();
         }
         if (!joined) return std::nullopt;
-        last_picture_ = MonotonicClock::now();
+        silence_.heard();
         return frame_of(std::move(*joined));
     }
 
@@ -271,7 +303,7 @@ class CameraSource final : public StereoSource {
     std::array<SequenceGaps, 2> gaps_;
     bool begun_ = false;
     bool lends_ = false;
-    MonotonicTime last_picture_{};  ///< of both sides
+    Silence silence_;  ///< of both sides
     std::string lost_because_;
     std::uint64_t reopened_ = 0, damaged_before_ = 0, copied_ = 0;
     std::vector<std::string> report_;

@@ -19,6 +19,7 @@ bool is_near(std::chrono::nanoseconds apart, std::chrono::nanoseconds period) {
 void FrameIndexer::sent(std::uint64_t index) {
     if (!pulses_.empty() && pulses_.back() == index) return;
     pulses_.push_back(index);
+    ++pulse_count_;
     if (pulses_.size() > remembered_pulses) pulses_.pop_front();
 }
 

@@ -26,6 +26,7 @@ class FrameIndexer {
     /// The pulse of the frame with this time stamp; empty: unsynchronized.
     std::optional<std::uint64_t> index_of(TaiTime stamp);
 
+    std::uint64_t pulses() const { return pulse_count_; }  ///< sent or seen so far
     std::uint64_t unsynchronized() const { return unsynchronized_; }
     std::uint64_t duplicates() const { return duplicates_; }
     std::uint64_t stray_edges() const { return stray_edges_; }
@@ -39,6 +40,7 @@ class FrameIndexer {
     std::chrono::nanoseconds delay_;
     std::deque<std::uint64_t> pulses_;
     std::optional<std::uint64_t> last_;  ///< given to a frame
+    std::uint64_t pulse_count_ = 0;
     std::uint64_t unsynchronized_ = 0, duplicates_ = 0, stray_edges_ = 0, missing_edges_ = 0,
                   missed_ = 0;
 };

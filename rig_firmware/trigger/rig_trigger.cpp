@@ -31,6 +31,10 @@ class IndexingTrigger : public RigTrigger {
         const std::lock_guard lock(mutex_);
         return indexer_.index_of(stamp);
     }
+    std::uint64_t pulses() const override {
+        const std::lock_guard lock(mutex_);
+        return indexer_.pulses();
+    }
     std::uint64_t missed() const override {
         const std::lock_guard lock(mutex_);
         return indexer_.missed();
