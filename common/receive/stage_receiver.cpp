@@ -12,6 +12,7 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
+#include "common/base/kernel_clock.h"
 #include "common/base/log.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
@@ -262,6 +263,7 @@ struct StageReceiver::Impl {
         status.link = view.link;
         status.rig_counters = view.rig_counters;
         status.sync = std::move(view.sync);
+        status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
     }
@@ -287,12 +289,27 @@ struct StageReceiver::Impl {
 
 std::string clock_text(const RigStatus& rig) {
     if (rig.same_clock) return "this computer's clock";
-    if (rig.sync.disciplined)
-        return fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", rig.sync.ptp_state,
-                           rig.sync.ptp_offset_ns, rig.sync.ptp_path_delay_ns);
-    return rig.sync.ptp_state.empty()
-               ? fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined)
-               : fmt::format("{} (ptp4l is {})", clocks_not_disciplined, rig.sync.ptp_state);
+    const RigSync& sync = rig.sync;
+    std::string text;
+    if (sync.disciplined)
+        text = fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", sync.ptp_state,
+                           sync.ptp_offset_ns, sync.ptp_path_delay_ns);
+    else if (sync.ptp_state.empty())
+        text = fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined);
+    else if (sync.ptp_state == "SLAVE")
+        text = fmt::format("{} (ptp4l is SLAVE, but nothing sets the system clock by it: phc2sys)",
+                           clocks_not_disciplined);
+    else
+        text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
+    if (const std::string worry = tai_worry(rig); !worry.empty()) text += "; " + worry;
+    return text;
+}
+
+std::string tai_worry(const RigStatus& rig) {
+    if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
+    return fmt::format(
+        "its TAI is {} s from UTC and this computer's {} s: give both the same, or neither any",
+        rig.sync.tai_offset_s, rig.own_tai_offset_s);
 }
 
 StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose)

@@ -39,6 +39,7 @@ struct RigStatus {
     RigSync sync;              ///< as the rig last reported
     RigHealth health;          ///< as the rig last reported
     bool same_clock = false;   ///< the rig is a program on this computer
+    int own_tai_offset_s = 0;  ///< of this computer's CLOCK_TAI from UTC; the rig's is in sync
     RigStageTimes rig_times;
     Percentiles latency_ms;  ///< exposure to decoded
     Percentiles network_ms;  ///< published by the rig to received here, on the stage's clock
@@ -57,8 +58,12 @@ struct ReceiverStatus {
 inline constexpr const char* clocks_not_disciplined = "clocks not disciplined: skew unknown";
 
 /// How far the rig's clock may be from the stage's, in words: PTP's offset and path delay, or
-/// clocks_not_disciplined and why.
+/// clocks_not_disciplined and why; and where both go by different numbers of TAI's seconds.
 std::string clock_text(const RigStatus& rig);
+
+/// Empty where rig and host have the same offset of CLOCK_TAI from UTC. Where not, they number the
+/// same pulse differently, however well PTP keeps their clocks together.
+std::string tai_worry(const RigStatus& rig);
 
 /// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them by
 /// trigger index. Rigs may come, go and come back at any time. A host that is slower than its rigs

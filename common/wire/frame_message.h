@@ -43,6 +43,7 @@ struct RigSync {
     bool disciplined = false;  ///< by PTP; false: the next two say nothing
     double ptp_offset_ns = 0, ptp_path_delay_ns = 0;
     std::string ptp_state;  ///< of ptp4l's port, such as "SLAVE"; empty: no ptp4l
+    int tai_offset_s = 0;   ///< of its CLOCK_TAI from UTC
 
     bool operator==(const RigSync&) const = default;
 };

@@ -73,6 +73,7 @@ void to_wire(const RigSync& sync, wire::Sync& out) {
     out.set_ptp_offset_ns(sync.ptp_offset_ns);
     out.set_ptp_path_delay_ns(sync.ptp_path_delay_ns);
     out.set_ptp_state(sync.ptp_state);
+    out.set_tai_offset_s(sync.tai_offset_s);
 }
 
 RigSync from_wire(const wire::Sync& sync) {
@@ -103,6 +104,7 @@ RigSync from_wire(const wire::Sync& sync) {
     result.ptp_offset_ns = sync.ptp_offset_ns();
     result.ptp_path_delay_ns = sync.ptp_path_delay_ns();
     result.ptp_state = sync.ptp_state();
+    result.tai_offset_s = sync.tai_offset_s();
     return result;
 }
 

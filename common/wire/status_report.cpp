@@ -47,7 +47,8 @@ nlohmann::ordered_json to_json(const RigSync& sync) {
             {"disciplined", sync.disciplined},
             {"ptp_state", sync.ptp_state},
             {"ptp_offset_ns", sync.ptp_offset_ns},
-            {"ptp_path_delay_ns", sync.ptp_path_delay_ns}};
+            {"ptp_path_delay_ns", sync.ptp_path_delay_ns},
+            {"tai_offset_s", sync.tai_offset_s}};
 }
 
 nlohmann::ordered_json to_json(const RigHealth& health) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/kernel_clock.h"
+
 namespace vantage {
 
 /// What ptp4l says of this computer's clock.
@@ -18,7 +20,12 @@ struct PtpState {
     int steps_removed = 0;  ///< from the grandmaster
 
     /// It follows a master, or is one that others follow.
-    bool is_disciplined() const { return port_state == "SLAVE" || port_state == "MASTER"; }
+    bool is_in_step() const { return port_state == "SLAVE" || port_state == "MASTER"; }
+    /// And the system clock, which pulses go by, is in step with it: with hardware stamps ptp4l
+    /// sets only the network interface's clock, and phc2sys carries that on.
+    bool disciplines(const KernelClock& clock) const {
+        return port_state == "MASTER" || (port_state == "SLAVE" && clock.was_set_lately);
+    }
 };
 
 /// Where ptp4l listens for management messages, by its own default.

@@ -88,7 +88,7 @@ struct RigDaemon::Impl {
     void publish();
     void keep_in_step(const RigHealth& facts);
     void announce(std::uint64_t first_pulse);
-    RigSync sync_now(const std::optional<PtpState>& ptp) const;
+    RigSync sync_now(const std::optional<PtpState>& ptp, const KernelClock& kernel) const;
     void stop();
 
     /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
@@ -218,17 +218,19 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     constexpr std::chrono::milliseconds look_every(50);
     constexpr int looks_per_second = 20;
     std::optional<PtpState> ptp;
+    KernelClock kernel;
     HealthMonitor monitor(facts);
     for (int look = 0; !stopping && !finished; ++look) {
         if (look % looks_per_second == 0) {
             ptp = read_ptp4l();
+            kernel = read_kernel_clock();
             publisher.report(monitor.look(publisher.status().counters, MonotonicClock::now()));
         }
         if (trigger) {
             trigger->rethrow_failure();
             announce(publisher.announced_pulse());
         }
-        const RigSync now = sync_now(ptp);
+        const RigSync now = sync_now(ptp, kernel);
         publisher.report(now);
         {
             const std::lock_guard lock(mutex);
@@ -249,9 +251,11 @@ void RigDaemon::Impl::announce(std::uint64_t first_pulse) {
     }
 }
 
-RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp) const {
+RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp,
+                                  const KernelClock& kernel) const {
     RigSync now;
     now.ready = true;
+    now.tai_offset_s = kernel.tai_offset_s;
     if (trigger) {
         const TriggerStatus status = trigger->status();
         now.role = config.trigger.role == "lead" ? RigSync::Role::lead : RigSync::Role::follow;
@@ -267,7 +271,7 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp) const {
         now.first_pulse = publisher.announced_pulse();
     }
     if (ptp) {
-        now.disciplined = ptp->is_disciplined();
+        now.disciplined = ptp->disciplines(kernel);
         now.ptp_offset_ns = ptp->offset_ns;
         now.ptp_path_delay_ns = ptp->path_delay_ns;
         now.ptp_state = ptp->port_state;

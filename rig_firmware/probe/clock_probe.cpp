@@ -9,9 +9,9 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
-#include <sys/timex.h>
 #include <time.h>
 
+#include "common/base/kernel_clock.h"
 #include "rig_firmware/clock/ptp4l_client.h"
 #include "rig_firmware/probe/probe.h"
 
@@ -44,18 +44,17 @@ void add_clocks(ProbePart& part) {
                 fmt::format("{} moves in steps of {} ns: the kernel has no high-resolution timers",
                             clock.name, resolution.tv_nsec));
     }
-    timex state{};
-    const bool is_known = ::adjtimex(&state) >= 0;
-    const bool is_disciplined = is_known && (state.status & STA_UNSYNC) == 0;
-    part.facts["tai_offset_s"] = state.tai;
-    part.facts["is_disciplined"] = is_disciplined;
-    part.lines.push_back(fmt::format("TAI is {} s ahead of UTC; the system clock is {}", state.tai,
-                                     is_disciplined ? "disciplined" : "not disciplined"));
-    if (state.tai == 0)
+    const KernelClock kernel = read_kernel_clock();
+    part.facts["tai_offset_s"] = kernel.tai_offset_s;
+    part.facts["is_disciplined"] = kernel.is_synchronized;
+    part.lines.push_back(fmt::format("TAI is {} s ahead of UTC; the system clock is {}",
+                                     kernel.tai_offset_s,
+                                     kernel.is_synchronized ? "disciplined" : "not disciplined"));
+    if (kernel.tai_offset_s == 0)
         part.unfit.emplace_back(
             "CLOCK_TAI has no offset from UTC: set by ptp4l and phc2sys, or by chrony with a "
             "leapsectz; until then pulses agree only among computers that all lack it");
-    if (!is_disciplined)
+    if (!kernel.is_synchronized)
         part.unfit.emplace_back(
             "clocks not disciplined, skew unknown: neither PTP nor NTP has set this computer's "
             "clock");
@@ -85,7 +84,11 @@ void add_ptp(ProbePart& part) {
         part.lines.push_back(
             fmt::format("ptp4l is {}, {:.0f} ns from its master, path delay {:.0f} ns",
                         state->port_state, state->offset_ns, state->path_delay_ns));
-        if (!state->is_disciplined())
+        if (state->is_in_step() && !state->disciplines(read_kernel_clock()))
+            part.unfit.emplace_back(
+                "ptp4l is in step, but nothing sets the system clock by it: with hardware stamps "
+                "phc2sys has to run too (vantage-phc2sys.service)");
+        if (!state->is_in_step())
             part.unfit.push_back(
                 fmt::format("ptp4l is {} and follows no master: start ptp4l on the host, and let "
                             "multicast through the switch",

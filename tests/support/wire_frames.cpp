@@ -34,7 +34,8 @@ RigFrame make_frame(std::uint64_t trigger_index, int width_px, int height_px) {
                   .disciplined = true,
                   .ptp_offset_ns = -150.5,
                   .ptp_path_delay_ns = 1000,
-                  .ptp_state = "SLAVE"};
+                  .ptp_state = "SLAVE",
+                  .tai_offset_s = -37};
     cv::RNG random(trigger_index + 1);
     frame.colour.create(height_px, width_px);
     frame.disparity.create(height_px, width_px);

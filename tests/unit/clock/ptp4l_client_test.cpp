@@ -51,7 +51,16 @@ TEST(Ptp4lClient, ReadsOffsetDelayAndPortState) {
     EXPECT_EQ(state.offset_ns, -150.5);
     EXPECT_EQ(state.path_delay_ns, 1000);
     EXPECT_EQ(state.port_state, "SLAVE");
-    EXPECT_TRUE(state.is_disciplined());
+    EXPECT_TRUE(state.disciplines({.was_set_lately = true}));
+}
+
+TEST(Ptp4lClient, KnowsASystemClockThatNobodySetsByTheInterfaces) {
+    const KernelClock left_alone{.tai_offset_s = 0, .is_synchronized = true};
+    PtpState state{.port_state = "SLAVE"};
+    EXPECT_TRUE(state.is_in_step());
+    EXPECT_FALSE(state.disciplines(left_alone));
+    state.port_state = "MASTER";
+    EXPECT_TRUE(state.disciplines(left_alone)) << "it is what the others follow";
 }
 
 TEST(Ptp4lClient, KnowsAClockThatFollowsNobody) {
@@ -59,7 +68,8 @@ TEST(Ptp4lClient, KnowsAClockThatFollowsNobody) {
     ASSERT_TRUE(read_ptp_answer(answer_to(ptp_get_message(PtpDataSet::port, 2), port_data(4)),
                                 PtpDataSet::port, state));
     EXPECT_EQ(state.port_state, "LISTENING");
-    EXPECT_FALSE(state.is_disciplined());
+    EXPECT_FALSE(state.is_in_step());
+    EXPECT_FALSE(state.disciplines({.was_set_lately = true}));
 }
 
 TEST(Ptp4lClient, LeavesOutWhatIsNoAnswer) {

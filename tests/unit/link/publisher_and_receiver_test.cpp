@@ -410,6 +410,18 @@ TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {
     rig.sync.ptp_offset_ns = -151;
     rig.sync.ptp_path_delay_ns = 1000;
     EXPECT_EQ(clock_text(rig), "PTP SLAVE, offset -151 ns, path delay 1000 ns");
+    rig.sync.disciplined = false;
+    EXPECT_THAT(clock_text(rig), HasSubstr("clocks not disciplined: skew unknown"));
+    EXPECT_THAT(clock_text(rig), HasSubstr("phc2sys"));
+}
+
+TEST_F(LinkTest, ComputersThatCountTheSecondsOfTaiDifferentlyAreTold) {
+    RigStatus rig;
+    rig.sync.tai_offset_s = rig.own_tai_offset_s = 37;
+    EXPECT_EQ(tai_worry(rig), "");
+    rig.own_tai_offset_s = 0;
+    EXPECT_THAT(tai_worry(rig), HasSubstr("37 s"));
+    EXPECT_THAT(clock_text(rig), HasSubstr(tai_worry(rig)));
 }
 
 }  // namespace
