@@ -6,13 +6,14 @@
 #include <exception>
 #include <future>
 #include <mutex>
-#include <optional>
 #include <thread>
+#include <tuple>
 
 #include <pthread.h>
 
 #include "common/base/error.h"
 #include "common/base/pulse_grid.h"
+#include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/pulse_line.h"
 #include "rig_firmware/trigger/pulse_schedule.h"
 #include "rig_firmware/trigger/realtime.h"
@@ -71,22 +72,20 @@ struct PulseSender::Impl {
     void send_all() {
         {
             std::unique_lock lock(mutex);
-            go.wait(lock, [&] { return stopping || first.has_value(); });
+            go.wait(lock, [&] { return stopping || is_started; });
         }
         while (!stopping) {
-            const std::uint64_t index = [&] {
-                const std::lock_guard lock(mutex);
-                return schedule.next(TaiClock::now(), *first);
-            }();
+            const std::uint64_t index = schedule.next(TaiClock::now(), first);
             if (wait_until(schedule.time_of(index))) send_one(index);
         }
     }
 
+    // Between its deadline and its edge a pulse waits for no other thread.
     void send_one(std::uint64_t index) {
-        const TaiTime awake = TaiClock::now();
-        {
+        if (!schedule.send(index, TaiClock::now())) {
             const std::lock_guard lock(mutex);
-            if (!schedule.send(index, awake)) return;
+            show_counts();
+            return;
         }
         line->set(true);
         const TaiTime begun = TaiClock::now();
@@ -99,9 +98,17 @@ struct PulseSender::Impl {
         line->set(false);
         const TaiTime ended = TaiClock::now();
         const std::lock_guard lock(mutex);
-        last_index = index;
+        show_counts();
+        shown.last_index = index;
         lateness_us.add(to_us(begun - schedule.time_of(index)));
         width_error_us.add(to_us(ended - end));
+    }
+
+    /// Precondition: mutex is held.
+    void show_counts() {
+        shown.sent = schedule.sent();
+        shown.skipped = schedule.skipped();
+        shown.clock_steps = schedule.clock_steps();
     }
 
     const SensorTiming timing;
@@ -111,11 +118,13 @@ struct PulseSender::Impl {
     std::vector<std::string> realtime_report;
     const std::function<void(std::uint64_t)> on_sent;
 
-    mutable std::mutex mutex;
-    std::condition_variable go;
-    PulseSchedule schedule;
-    std::optional<std::uint64_t> first;
-    std::uint64_t last_index = 0;
+    PulseSchedule schedule;  ///< only the thread that sends uses it
+    std::atomic<std::uint64_t> first = 0;
+
+    mutable InheritingMutex mutex;  ///< of what follows
+    std::condition_variable_any go;
+    bool is_started = false;
+    PulseStatus shown;  ///< without the percentiles
     PercentileRecorder lateness_us, width_error_us;
     std::exception_ptr failure;
 
@@ -139,13 +148,14 @@ void PulseSender::start(std::uint64_t first) {
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->first = first;
+        impl_->is_started = true;
     }
     impl_->go.notify_all();
 }
 
 bool PulseSender::started() const {
     const std::lock_guard lock(impl_->mutex);
-    return impl_->first.has_value();
+    return impl_->is_started;
 }
 
 void PulseSender::stop() {
@@ -158,13 +168,15 @@ void PulseSender::stop() {
 }
 
 PulseStatus PulseSender::status() const {
-    const std::lock_guard lock(impl_->mutex);
-    return {.sent = impl_->schedule.sent(),
-            .skipped = impl_->schedule.skipped(),
-            .clock_steps = impl_->schedule.clock_steps(),
-            .last_index = impl_->last_index,
-            .lateness_us = impl_->lateness_us.summary(),
-            .width_error_us = impl_->width_error_us.summary()};
+    // Percentiles are worked out from copies: the sending thread is not to wait for a sorting.
+    const auto [shown, lateness_us, width_error_us] = [&] {
+        const std::lock_guard lock(impl_->mutex);
+        return std::tuple(impl_->shown, impl_->lateness_us, impl_->width_error_us);
+    }();
+    PulseStatus status = shown;
+    status.lateness_us = lateness_us.summary();
+    status.width_error_us = width_error_us.summary();
+    return status;
 }
 
 void PulseSender::rethrow_failure() const {

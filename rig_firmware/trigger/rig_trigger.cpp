@@ -13,6 +13,7 @@
 #include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/clock/frame_indexer.h"
 #include "rig_firmware/trigger/edge_watcher.h"
+#include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/pulse_sender.h"
 #include "rig_firmware/trigger/sensor_timing.h"
 
@@ -58,7 +59,7 @@ class IndexingTrigger : public RigTrigger {
 
     const SensorTiming timing_;
     const PulseGrid grid_;
-    mutable std::mutex mutex_;
+    mutable InheritingMutex mutex_;  ///< pulses are told to the indexer while they are sent
     FrameIndexer indexer_;
 };
 
