@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "tests/hil/devices/uhid_wheel.h"
+#include "tests/hil/devices/uinput_wheel.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
@@ -51,6 +52,15 @@ class JogWheel : public testing::Test {
             std::this_thread::sleep_for(50ms);
         }
         return false;
+    }
+    /// Waits for a part of what the program says behind `read`, and moves that behind the part.
+    static bool comes_after(const ChildProgram& program, std::size_t& read,
+                            const std::string& part) {
+        return comes([&] {
+            const std::size_t found = program.out().find(part, read);
+            if (found != std::string::npos) read = found + part.size();
+            return found != std::string::npos;
+        });
     }
     static bool holds(const std::string& text, const std::string& part) {
         return text.find(part) != std::string::npos;
@@ -117,11 +127,7 @@ TEST_F(JogWheel, AWheelOfEachHidFamilyIsPluggedInAndOutAndInAgain) {
         const auto program = monitor({"--json"});
         std::size_t read = 0;
         const auto comes_next = [&](const std::string& part) {
-            return comes([&] {
-                const std::size_t found = program->out().find(part, read);
-                if (found != std::string::npos) read = found + part.size();
-                return found != std::string::npos;
-            });
+            return comes_after(*program, read, part);
         };
         for (int time = 0; time < 2; ++time) {
             const UhidWheel plugged(wheel.kind);
@@ -131,6 +137,30 @@ TEST_F(JogWheel, AWheelOfEachHidFamilyIsPluggedInAndOutAndInAgain) {
         }
         EXPECT_TRUE(comes_next(R"("event":"lost")")) << wheel.kind.name << program->out();
     }
+}
+
+TEST_F(JogWheel, APowerMateIsReadAsTheInputDeviceThatTheKernelMakesOfIt) {
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+    const auto program = monitor({"--json"});
+    std::size_t read = 0;
+    const auto comes_next = [&](const std::string& part) {
+        return comes_after(*program, read, part);
+    };
+    for (int time = 0; time < 2; ++time) {
+        const UinputWheel wheel;
+        ASSERT_TRUE(comes_next(R"("event":"plugged")")) << program->err();
+        wheel.turn(-3);
+        EXPECT_TRUE(comes_next(R"("control":"jog","value":-3.0)")) << program->out();
+        wheel.press(true);
+        EXPECT_TRUE(comes_next(R"("control":"press","value":1.0)")) << program->out();
+        wheel.press(false);
+        EXPECT_TRUE(comes_next(R"("control":"press","value":0.0)")) << program->out();
+        const std::string others = list_as("nogroup", describe_unknown_wheel()).out;
+        EXPECT_THAT(others, HasSubstr("Griffin PowerMate"));
+        EXPECT_THAT(others, HasSubstr("may not be opened by this user: copy "
+                                      "udev/70-vantage-jog.rules"));
+    }
+    EXPECT_TRUE(comes_next(R"("event":"lost")")) << program->out();
 }
 
 TEST_F(JogWheel, OneThatIsOnlyDescribedIsReadToo) {
@@ -164,7 +194,9 @@ TEST_F(JogWheel, OpensASpeedEditorByItsHandshake) {
                        0x08, 0x85, 0x03, 0x09, 0x01, 0x95, 0x06, 0x81, 0x02, 0x09, 0x01, 0x95, 0x06,
                        0x91, 0x02, 0x85, 0x04, 0x09, 0x01, 0x95, 0x0c, 0x81, 0x02, 0x09, 0x01, 0x95,
                        0x01, 0x91, 0x02, 0x85, 0x06, 0x09, 0x01, 0x95, 0x09, 0xb1, 0x02, 0xc0};
-    // The device as its procedure is known: it takes the answer to its challenge and then talks.
+    // The device as its procedure is known: it takes the answer to its challenge, and only then
+    // does it talk.
+    constexpr std::uint64_t right_answer = 0xe5c7b689e9967608;
     auto step = std::make_shared<std::atomic<int>>(-1);
     auto answer = std::make_shared<std::atomic<std::uint64_t>>(0);
     kind.set_feature = [step, answer](std::span<const std::uint8_t> report) {
@@ -174,22 +206,25 @@ TEST_F(JogWheel, OpensASpeedEditorByItsHandshake) {
         for (std::size_t i = 10; i-- > 2;) number = number << 8 | report[i];
         if (report[1] == 3) answer->store(number);
     };
-    kind.get_feature = [step](std::uint8_t) -> std::vector<std::uint8_t> {
-        switch (step->load()) {
-            case 0:
-                return {6, 0, 0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01};
-            case 1:
-                return {6, 2, 0, 0, 0, 0, 0, 0, 0, 0};
-            default:
-                return {6, 4, 0x58, 0x02, 0, 0, 0, 0, 0, 0};
-        }
+    kind.get_feature = [step, answer](std::uint8_t) -> std::vector<std::uint8_t> {
+        if (*step == 0) return {6, 0, 0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01};
+        if (*step == 1) return {6, 2, 0, 0, 0, 0, 0, 0, 0, 0};
+        if (*step == 3 && *answer == right_answer) return {6, 4, 0x58, 0x02, 0, 0, 0, 0, 0, 0};
+        return {};
     };
-    const UhidWheel wheel(kind);
     const auto program = monitor();
-    ASSERT_TRUE(comes([&] { return holds(program->out(), "plugged in"); })) << program->err();
-    EXPECT_EQ(answer->load(), 0xe5c7b689e9967608u);
-    wheel.send({3, 0, 0x00, 0x01, 0, 0, 255});
-    EXPECT_TRUE(comes([&] { return holds(program->out(), "jog +1"); })) << program->out();
+    std::size_t read = 0;
+    for (int time = 0; time < 2; ++time) {
+        answer->store(0);
+        const UhidWheel wheel(kind);
+        ASSERT_TRUE(comes_after(*program, read, "plugged in")) << program->err();
+        ASSERT_EQ(answer->load(), right_answer) << "it is silent";
+        wheel.send({3, 0, 0x00, 0x01, 0, 0, 255});
+        EXPECT_TRUE(comes_after(*program, read, "jog +1")) << program->out();
+        wheel.send({4, 0x1a, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+        EXPECT_TRUE(comes_after(*program, read, "source pressed")) << program->out();
+    }
+    EXPECT_TRUE(comes_after(*program, read, "gone from")) << program->out();
 }
 
 TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
