@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -69,6 +70,7 @@ TEST_F(TriggerLine, CarriesEveryPulseOnTheGridWithItsWidth) {
     while (!edges.empty() && !edges.front().leading) edges.erase(edges.begin());
     ASSERT_EQ(edges.size(), 2 * sent) << "an edge for the begin and the end of every pulse";
     constexpr std::chrono::nanoseconds width = 80ms - 14'260ns, period = 200ms;
+    std::vector<std::chrono::nanoseconds> widths;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         EXPECT_EQ(edges[i].leading, i % 2 == 0) << i;
         EXPECT_EQ(edges[i].lost, 0u) << i;
@@ -76,6 +78,7 @@ TEST_F(TriggerLine, CarriesEveryPulseOnTheGridWithItsWidth) {
         const std::chrono::nanoseconds apart = edges[i].time - edges[i - 1].time;
         if (i % 2 == 1) {
             EXPECT_GE(apart, width - 300us) << "the kernel stamps behind the write";
+            widths.push_back(apart);
             continue;
         }
         // From one leading edge to the next: whole periods, up to the lateness of both.
@@ -84,6 +87,11 @@ TEST_F(TriggerLine, CarriesEveryPulseOnTheGridWithItsWidth) {
         EXPECT_GE(periods, 1) << i;
         EXPECT_LE(std::abs((between - periods * period).count()), 50'000'000) << i;
     }
+    // A busy computer that is emulated ends some pulses late, and the best quarter on time.
+    std::nth_element(widths.begin(), widths.begin() + count / 4, widths.end());
+    std::printf("hil: a quarter of the pulses are at most %.3f ms wide\n",
+                std::chrono::duration<double, std::milli>(widths[count / 4]).count());
+    EXPECT_LT(widths[count / 4], width + 5ms);
 }
 
 TEST_F(TriggerLine, IsFoundByOffsetToo) {
