@@ -27,7 +27,8 @@ struct Options {
     LensOption lens;
     LiveRigOption live;
     std::string side = "left";
-    std::string pictures, output;
+    std::vector<std::string> pictures;
+    std::string output;
     std::string html;
     bool json = false;
 };
@@ -102,7 +103,7 @@ CommandEntry intrinsics_command_entry() {
         const auto options = std::make_shared<Options>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--images", options->pictures, "pictures: 'PATTERN' or folder");
+        command->add_option("--images", options->pictures, "pictures: 'PATTERN', folder or files");
         options->live.add_to(*command);
         command->add_option("--side", options->side, "live: which of its cameras")
             ->check(CLI::IsMember({"left", "right"}))

@@ -22,7 +22,8 @@ struct Options {
     BoardOptions board;
     LensOption lens;
     LiveRigOption live;
-    std::string left, right, output;
+    std::vector<std::string> left, right;
+    std::string output;
     double alpha = 0;
     std::vector<int> rectified_size;
     std::string html;
@@ -104,8 +105,9 @@ CommandEntry stereo_command_entry() {
         const auto options = std::make_shared<Options>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--left", options->left, "left pictures: 'PATTERN' or folder");
-        command->add_option("--right", options->right, "right pictures: 'PATTERN' or folder");
+        command->add_option("--left", options->left, "left pictures: 'PATTERN', folder or files");
+        command->add_option("--right", options->right,
+                            "right pictures: 'PATTERN', folder or files");
         options->live.add_to(*command);
         command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
             ->required();

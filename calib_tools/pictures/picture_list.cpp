@@ -38,6 +38,14 @@ std::vector<long long> numbers_in(const std::filesystem::path& file) {
     return numbers;
 }
 
+void sort_naturally(std::vector<std::filesystem::path>& files) {
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+        const auto key_a = natural_key(a.filename().string());
+        const auto key_b = natural_key(b.filename().string());
+        return std::tie(key_a, a) < std::tie(key_b, b);
+    });
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> expand_pictures(const std::string& pattern) {
@@ -55,11 +63,17 @@ std::vector<std::filesystem::path> expand_pictures(const std::string& pattern) {
     if (files.empty()) fail("no file matches '{}'", pattern);
     if (files.size() > max_pictures)
         fail("'{}' matches {} files; up to {} are taken", pattern, files.size(), max_pictures);
-    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-        const auto key_a = natural_key(a.filename().string());
-        const auto key_b = natural_key(b.filename().string());
-        return std::tie(key_a, a) < std::tie(key_b, b);
-    });
+    sort_naturally(files);
+    return files;
+}
+
+std::vector<std::filesystem::path> expand_pictures(const std::vector<std::string>& patterns) {
+    std::set<std::filesystem::path> distinct;
+    for (const std::string& pattern : patterns)
+        for (std::filesystem::path& file : expand_pictures(pattern))
+            distinct.insert(std::move(file));
+    std::vector<std::filesystem::path> files(distinct.begin(), distinct.end());
+    sort_naturally(files);
     return files;
 }
 

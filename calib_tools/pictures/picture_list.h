@@ -11,6 +11,10 @@ namespace vantage {
 /// (left2 before left10). Throws Error if nothing matches.
 std::vector<std::filesystem::path> expand_pictures(const std::string& pattern);
 
+/// The files of several patterns, each file once: a shell that expands a pattern itself hands over
+/// the files one by one.
+std::vector<std::filesystem::path> expand_pictures(const std::vector<std::string>& patterns);
+
 struct PicturePairs {
     std::vector<std::pair<std::filesystem::path, std::filesystem::path>> pairs;
     std::vector<std::filesystem::path> alone;  ///< without a partner of the same number

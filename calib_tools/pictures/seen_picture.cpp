@@ -149,6 +149,20 @@ void require_one_size(std::vector<SeenPicture>& pictures) {
                                   p.height_px, width, height));
 }
 
+void refuse_repeated(std::vector<SeenPicture>& pictures) {
+    const auto same = [](const BoardCorners& a, const BoardCorners& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](const BoardCorner& x, const BoardCorner& y) {
+                              return x.id == y.id && x.pixel == y.pixel;
+                          });
+    };
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        for (std::size_t k = 0; k < i && pictures[i].sighting.found(); ++k)
+            if (pictures[k].sighting.found() &&
+                same(pictures[i].sighting.corners, pictures[k].sighting.corners))
+                refuse(pictures[i], fmt::format("is the same picture as {}", pictures[k].name()));
+}
+
 void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardSet& boards) {
     std::size_t mirrored = 0, found = 0;
     std::vector<std::filesystem::path> without;

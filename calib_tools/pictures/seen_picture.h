@@ -41,6 +41,10 @@ void judge_blur_and_glare(SeenPicture& picture, const UsualPicture& usual);
 /// The size that most pictures have; pictures of another size are refused with the reason.
 void require_one_size(std::vector<SeenPicture>& pictures);
 
+/// Refuses every picture whose corners are those of an earlier one to the last digit: a file that
+/// was copied weighs double and makes any lens look right on withheld views.
+void refuse_repeated(std::vector<SeenPicture>& pictures);
+
 /// Throws Error if most pictures show a board of one other size, or mirrored markers: the one
 /// sentence that spares a list of reasons.
 void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardSet& boards);

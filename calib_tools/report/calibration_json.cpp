@@ -74,6 +74,7 @@ json common_json(const Calibration& c, const std::vector<std::string>& cameras) 
             {"lens_family", std::string(c.bundle.cameras.front().family->name)},
             {"lens_trials", trials_json(c.trials)},
             {"views", views_json(c.bundle, c.names, cameras)},
+            {"doubts", c.doubts},
             {"advice", c.advice}};
 }
 

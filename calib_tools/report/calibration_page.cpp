@@ -69,6 +69,12 @@ void add_camera(HtmlPage& page, const Bundle& bundle, int camera, const std::str
                 "Residual of every view; dashed: the usual one.");
 }
 
+void add_doubts(HtmlPage& page, const std::vector<std::string>& doubts) {
+    if (doubts.empty()) return;
+    page.heading("Doubtful");
+    page.list(doubts);
+}
+
 template <class Calibration>
 void add_closing(HtmlPage& page, const Calibration& c, const std::vector<Row>& parameters) {
     page.heading("Parameters");
@@ -122,6 +128,7 @@ HtmlPage calibration_page(const CameraCalibration& c) {
                  {fmt::format("{:g}", good_rms_px)},
                  {fmt::format("{:g}", warn_rms_px)}},
                 {{"pictures used"}, {fmt::format("{} of {}", c.views_used, c.views_given)}}});
+    add_doubts(page, c.doubts);
     add_camera(page, c.bundle, 0, "calibrated", c.names);
     std::vector<Row> rows;
     add_parameters(rows, "", c.bundle.cameras[0].model, c.uncertainty.cameras[0]);
@@ -146,6 +153,7 @@ HtmlPage calibration_page(const RigCalibration& c) {
           {fmt::format("{:g}", warn_row_px)}},
          {{"baseline, m"}, {fmt::format("{:.5f} ± {:.5f}", c.baseline_m, c.baseline_sigma_m)}},
          {{"pairs used"}, {fmt::format("{} of {}", c.views_used, c.views_given)}}});
+    add_doubts(page, c.doubts);
     add_camera(page, c.bundle, 0, "left", c.names);
     add_camera(page, c.bundle, 1, "right", c.names);
     std::vector<Row> rows;

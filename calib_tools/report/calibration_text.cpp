@@ -33,6 +33,7 @@ std::string closing_lines(const Calibration& c) {
         text += fmt::format("{} corners beyond six sigma left out\n", c.corners_left_out);
     for (const Refusal& refusal : c.rejected)
         text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
+    for (const std::string& sentence : c.doubts) text += "doubtful: " + sentence + "\n";
     for (const std::string& sentence : c.advice) text += "would help: " + sentence + "\n";
     return text;
 }

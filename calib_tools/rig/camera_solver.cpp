@@ -145,8 +145,13 @@ std::string implausibility(const CameraModel& camera) {
     }();
     constexpr int directions = 16, steps = 400;
     constexpr double max_slope = 3;  // 72 degrees off the axis
-    for (int d = 0; d < directions; ++d) {
-        const double angle = 2 * std::numbers::pi * d / directions;
+    std::vector<double> angles;
+    for (int d = 0; d < directions; ++d) angles.push_back(2 * std::numbers::pi * d / directions);
+    // The picture reaches farthest out in its corners.
+    for (const double x : {-camera.cx_px, camera.width_px - 1 - camera.cx_px})
+        for (const double y : {-camera.cy_px, camera.height_px - 1 - camera.cy_px})
+            angles.push_back(std::atan2(y / camera.fy_px, x / camera.fx_px));
+    for (const double angle : angles) {
         double last = 0;
         for (int s = 1; s <= steps; ++s) {
             const double radius = max_slope * s / steps;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <tuple>
 
 #include "calib_tools/board/chessboard_finder.h"
+#include "calib_tools/rig/doubts.h"
 #include "calib_tools/rig/guidance.h"
 #include "calib_tools/rig/view_rejection.h"
 #include "common/base/error.h"
@@ -20,6 +22,10 @@ constexpr double max_focal_uncertainty = 0.05;
 constexpr double max_rotation_spread_rad = 0.05, max_translation_spread = 0.3;
 /// Corners are measured to a tenth of a pixel; a bad but honest webcam reaches a whole one.
 constexpr double max_rms_share_of_width = 0.004;
+/// Rectified pictures are turned by half of it.
+constexpr double max_roll_deg = 20;
+/// Where each camera alone fits well, pairs that fit as badly as this are none.
+constexpr double max_rms_of_loose_pairs_px = 1;
 
 std::string pair_name(const SeenPicture& left, const SeenPicture& right) {
     return left.name() + ", " + right.name();
@@ -154,7 +160,19 @@ CameraViews shifted(const CameraViews& views, int by) {
         start.translation_spread_m, start.rotation_spread_rad * 57.29578, left_solved.views.size());
 }
 
+/// How far one sensor is turned about its axis against the other.
+double roll_deg(const Pose& right_from_left) {
+    const Eigen::Matrix3d& r = right_from_left.linear();
+    return std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * 180 / std::numbers::pi;
+}
+
 void refuse_impossible_rig(const Pose& right_from_left) {
+    const double roll = roll_deg(right_from_left);
+    if (std::abs(roll) > max_roll_deg)
+        fail(
+            "the right camera is turned by {:.0f} degrees about its axis against the left one, "
+            "more than {:.0f}: mount both the same way up, or turn the pictures of one of them",
+            roll, max_roll_deg);
     const Eigen::Vector3d right_in_left = right_from_left.inverse().translation();
     if (std::abs(right_in_left.y()) > std::abs(right_in_left.x()))
         fail(
@@ -165,13 +183,19 @@ void refuse_impossible_rig(const Pose& right_from_left) {
     if (right_in_left.x() < 0)
         fail(
             "left and right are swapped: the right pictures were taken {:.3f} m to the LEFT of the "
-            "left ones; swap --left and --right (or, if both cameras deliver mirrored pictures, "
-            "turn mirroring off)",
+            "left ones; swap --left and --right (or, if both cameras stand upside down or deliver "
+            "mirrored pictures, turn the pictures, or mirroring off)",
             -right_in_left.x());
 }
 
 LensChoice lenses_for(const std::vector<CameraViews>& cameras, const RigOptions& options) {
     return options.family ? use_lens(cameras, *options.family) : choose_lens(cameras);
+}
+
+double chosen_held_out_px(const LensChoice& lenses) {
+    for (const LensTrial& trial : lenses.trials)
+        if (trial.family == lenses.family) return trial.held_out_rms_px;
+    return 0;
 }
 
 /// A board that looks alike when turned half round is numbered in the right picture as in the left.
@@ -197,6 +221,7 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
     result.views_given = pictures.size();
     require_one_size(pictures);
     refuse_wrong_board(pictures, pattern);
+    refuse_repeated(pictures);
     for (const SeenPicture& p : pictures) {
         result.names.push_back(p.name());
         if (!p.sighting.found()) result.rejected.push_back({p.name(), p.sighting.reason});
@@ -217,6 +242,8 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
     require_enough(result.views_used, result.views_given, result.rejected, pattern, "pictures");
     result.uncertainty = bundle_uncertainty(result.bundle);
     require_trustworthy(result.bundle, result.uncertainty, {"calibrated"});
+    result.doubts = doubts_of(result.bundle, result.uncertainty,
+                              {{"calibrated"}, chosen_held_out_px(lenses), 0});
     result.advice = missing_pictures(result.bundle, 0, "calibrated");
     return result;
 }
@@ -230,6 +257,8 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
     std::vector<SeenPicture> both = left;
     both.insert(both.end(), right.begin(), right.end());
     refuse_wrong_board(both, pattern);
+    refuse_repeated(left);
+    refuse_repeated(right);
     align_numbering(left, right, pattern);
     for (std::size_t i = 0; i < left.size(); ++i) {
         result.names.push_back(pair_name(left[i], right[i]));
@@ -281,6 +310,10 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
     result.views_used = used.size();
     require_enough(result.views_used, result.views_given, result.rejected, pattern, "pairs");
     result.uncertainty = bundle_uncertainty(*pair);
+    const double alone_sigma_px =
+        std::max(robust_sigma_px(lenses.cameras[0]), robust_sigma_px(lenses.cameras[1]));
+    const std::string together = doubt_together(robust_sigma_px(*pair), alone_sigma_px);
+    if (!together.empty() && pair->rms_px() > max_rms_of_loose_pairs_px) fail("{}", together);
     require_trustworthy(*pair, result.uncertainty, {"left", "right"});
 
     StereoCalibration frame;
@@ -298,6 +331,8 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
     result.baseline_m = translation.norm();
     result.baseline_sigma_m =
         result.uncertainty.cameras[1].translation_m.cwiseProduct(translation.normalized()).norm();
+    result.doubts = doubts_of(*pair, result.uncertainty,
+                              {{"left", "right"}, chosen_held_out_px(lenses), alone_sigma_px});
     for (const int side : {0, 1})
         for (std::string& sentence : missing_pictures(*pair, side, side == 0 ? "left" : "right"))
             result.advice.push_back(std::move(sentence));

@@ -54,6 +54,17 @@ TEST(PictureList, sorts_by_number_and_refuses_patterns_without_files) {
     EXPECT_THROW(expand_pictures((folder.path() / "b*.png").string()), Error);
 }
 
+TEST(PictureList, takes_the_files_that_a_shell_expanded_each_once) {
+    const TemporaryFolder folder;
+    touch(folder.path(), {"a10.png", "a9.png", "b1.png"});
+    const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+    const auto files = expand_pictures(
+        std::vector<std::string>{path("a10.png"), path("a9.png"), path("a9.png"), path("b*")});
+    ASSERT_EQ(files.size(), 3u);
+    EXPECT_EQ(files[0].filename(), "a9.png");
+    EXPECT_EQ(files[2].filename(), "b1.png");
+}
+
 TEST(PictureList, pairs_by_number_and_names_pictures_without_partner) {
     const TemporaryFolder folder;
     const auto left = touch(folder.path(), {"cam0_001.png", "cam0_002.png", "cam0_004.png"});

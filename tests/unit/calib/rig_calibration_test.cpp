@@ -101,6 +101,103 @@ TEST(RigCalibration, recovers_small_pictures_whose_pixels_are_not_square) {
         EXPECT_NEAR(solved.fy_px, truth.fy_px, 0.01 * truth.fy_px);
     }
     EXPECT_NEAR(c.baseline_m, rig.right_from_left.translation().norm(), 5 * c.baseline_sigma_m);
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("times as wide as high")));
+}
+
+TEST(RigCalibration, of_a_sound_rig_has_no_doubts) {
+    SyntheticViews views(pattern, 0.1);
+    const SyntheticRig::Series series = SyntheticRig().film(views, 10);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+    EXPECT_THAT(c.doubts, testing::IsEmpty());
+}
+
+TEST(RigCalibration, says_that_it_rests_on_few_views) {
+    SyntheticViews views(pattern, 0.05);
+    const SyntheticRig::Series series = SyntheticRig().film(views, 4);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("radial2")});
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("rests on 4 views")));
+    EXPECT_EQ(to_json(c)["doubts"].size(), c.doubts.size());
+}
+
+TEST(RigCalibration, doubts_boards_that_are_bent) {
+    SyntheticViews views(pattern, 0.05);
+    SyntheticRig::Series series = SyntheticRig().film(views, 10);
+    for (std::vector<SeenPicture>* side : {&series.left, &series.right})
+        for (SeenPicture& picture : *side) {
+            const double bend_px = 3 * std::sin(picture.name().size() + picture.name()[4]);
+            for (BoardCorner& corner : picture.sighting.corners)
+                corner.pixel.y() += bend_px * std::cos(0.9 * (corner.id % pattern.columns));
+        }
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("radial2")});
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("bent")));
+}
+
+/// Pairs whose board moves by up to this much between the left and the right exposure.
+SyntheticRig::Series loose_pairs(double moves_m) {
+    const SyntheticRig rig;
+    SyntheticViews views(pattern, 0.05);
+    SyntheticRig::Series series;
+    for (int i = 0; i < 12; ++i) {
+        Pose pose;
+        SeenPicture left, right;
+        do {
+            pose = views.hold_board(0.8, 0.3);
+            left = views.see(rig.left, pose, "left" + std::to_string(i) + ".png");
+            pose.translation() += moves_m * Eigen::Vector3d(std::sin(3 * i), std::cos(2 * i), 0);
+            right = views.see(rig.right, rig.right_from_left * pose,
+                              "right" + std::to_string(i) + ".png");
+        } while (!left.sighting.found() || !right.sighting.found());
+        series.left.push_back(left);
+        series.right.push_back(right);
+    }
+    return series;
+}
+
+TEST(RigCalibration, doubts_pairs_that_are_not_quite_of_one_instant) {
+    const SyntheticRig::Series series = loose_pairs(0.002);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("not of one instant")));
+}
+
+TEST(RigCalibration, refuses_pairs_that_are_not_of_one_instant) {
+    EXPECT_THAT(failure_of(loose_pairs(0.012)), HasSubstr("not of one instant"));
+}
+
+TEST(RigCalibration, names_a_camera_that_is_upside_down) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 8);
+    for (SeenPicture& picture : series.right)
+        for (BoardCorner& corner : picture.sighting.corners)
+            corner.pixel =
+                Eigen::Vector2d(picture.width_px - 1, picture.height_px - 1) - corner.pixel;
+    EXPECT_THAT(failure_of(series), HasSubstr("turned by"));
+}
+
+TEST(RigCalibration, leaves_out_copies_of_a_picture_and_says_of_which) {
+    SyntheticViews views(pattern);
+    SyntheticRig::Series series = SyntheticRig().film(views, 9);
+    for (const std::size_t copy : {3u, 6u}) {
+        series.left[copy].sighting = series.left[0].sighting;
+        series.right[copy].sighting = series.right[0].sighting;
+    }
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+    EXPECT_EQ(c.views_used, 7u);
+    ASSERT_EQ(c.rejected.size(), 4u);
+    EXPECT_EQ(c.rejected[0].name, "left3.png");
+    EXPECT_THAT(c.rejected[0].reason, HasSubstr("the same picture as left0.png"));
+}
+
+TEST(Lens, that_folds_the_picture_over_in_its_corners_alone_is_implausible) {
+    CameraModel camera = synthetic_camera(340, 340, -0.32);
+    camera.distortion = {-0.32, 0.12, 0, 0, -0.018};
+    EXPECT_THAT(implausibility(camera), HasSubstr("folds"));
+    camera.distortion = {-0.2, 0.05, 0, 0, 0};
+    EXPECT_EQ(implausibility(camera), "");
 }
 
 TEST(RigCalibration, chooses_a_lens_that_predicts_withheld_views) {
