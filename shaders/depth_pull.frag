@@ -1,5 +1,5 @@
 // Halves a depth map with holes: the average inverse depth of the farther ones among the known pixels of a window.
-uniform sampler2D depth_map;  // metres, 0 = unknown
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
 
 layout(location = 0) out float half_depth;
 

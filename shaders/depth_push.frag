@@ -1,5 +1,6 @@
-// Keeps known depth and guesses the rest, with a negative sign, from the map of half the size.
-uniform sampler2D depth_map;  // metres, 0 = unknown
+// Keeps known depth, and guesses that there are, and guesses the rest, with a negative sign, from the map of half the
+// size.
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
 uniform sampler2D coarse;     // metres; its guesses are negative
 
 layout(location = 0) out float closed;
@@ -7,7 +8,7 @@ layout(location = 0) out float closed;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float z = texelFetch(depth_map, at, 0).r;
-    if (z > 0.0) {
+    if (z != 0.0) {
         closed = z;
         return;
     }

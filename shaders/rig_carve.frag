@@ -1,6 +1,8 @@
 // A rig's depth as the other rigs leave it: carved away where they see through it, that is, where none of them has a
-// surface and one sees a farther one. With MOVES 0, where the others stand no farther apart than this rig's own cameras,
-// what none of them confirms is taken for unmatched too, if the map is faulty. With MOVES 1 it first goes along with its half-size map, which was refined.
+// surface and one sees a farther one. A rig confirms a surface if it has one at the same place that looks alike: what
+// repeats, or shows nothing, both rigs' matchers may take for the same wrong place. With MOVES 0, where the others stand
+// no farther apart than this rig's own cameras, what none of them confirms becomes a guess (negative), if the map is
+// faulty. With MOVES 1 it first goes along with its half-size map, which was refined.
 #ifndef MOVES
 #define MOVES 1
 #endif
@@ -14,6 +16,9 @@ layout(location = 0) out float carved;
 // Share of a map that others see through from which on it needs their support: measured depth has a tenth of it, that
 // of a stereo matcher, whose guesses behind depth edges are as likely wrong as right, thrice.
 const float faulty = 0.005;
+const float window_px = 1.5;    // from the middle to the sides of what is compared
+const float like_colour = 0.05; // mean difference (0..1) of pictures of one surface, at most
+const float most_unlike = 0.2;  // beyond which nothing is more unlike: one edge does not decide
 
 #if MOVES
 uniform sampler2D half_before;  // metres: the half-size map before it was refined, and after; 0 = unknown
@@ -44,7 +49,20 @@ float moved(ivec2 at, float z, vec4 share) {
 }
 #endif
 
-void examine(int i, sampler2D map, vec2 pixel, float z, inout float support, inout float through, inout float looks) {
+// Whether what a rig shows around a place looks like what this one shows around a pixel.
+bool is_alike(sampler2D colours, vec2 uv, vec2 texel, vec2 pixel) {
+    vec2 own_texel = 1.0 / vec2(textureSize(depth_map, 0));
+    float unlike = 0.0;
+    for (int k = 0; k < 9; ++k) {
+        vec2 aside = window_px * (vec2(k % 3, k / 3) - 1.0);
+        vec3 own = textureLod(picture, (pixel + 0.5 + aside) * own_texel, 0.0).rgb;
+        vec3 off = abs(own - textureLod(colours, uv + aside * texel, 0.0).rgb);
+        unlike += min(dot(off, vec3(1.0 / 3.0)), most_unlike);
+    }
+    return unlike < 9.0 * like_colour;
+}
+
+void examine(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout float support, inout float through, inout float looks) {
     vec4 q = other_from_pixel[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / other_size[i];
@@ -54,7 +72,8 @@ void examine(int i, sampler2D map, vec2 pixel, float z, inout float support, ino
     vec4 there = textureGather(map, uv);
     vec4 off = there / q.z - 1.0;
     float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
-    if (any(lessThan(abs(off), vec4(tolerance)))) support += 1.0;
+    bool is_there = any(lessThan(abs(off), vec4(tolerance)));
+    if (is_there && is_alike(colours, uv, 1.0 / other_size[i], pixel)) support += 1.0;
     if (all(greaterThan(off, vec4(tolerance)))) through += 1.0;
 }
 
@@ -67,10 +86,10 @@ void main() {
     carved = moved(at, carved, share);
 #endif
     float support = 0.0, through = 0.0, looks = 0.0;
-#define EXAMINE(i) examine(i, other_depth[i], vec2(at), carved, support, through, looks);
+#define EXAMINE(i) examine(i, other_depth[i], other_colour[i], vec2(at), carved, support, through, looks);
     FOR_OTHERS(EXAMINE)
     if (through > support) carved = 0.0;
 #if !MOVES
-    if (looks > 0.0 && support == 0.0 && share.g > faulty * share.b) carved = 0.0;
+    if (looks > 0.0 && support == 0.0 && share.g > faulty * share.b) carved = -carved;
 #endif
 }

@@ -15,8 +15,8 @@ class DepthCloser {
   public:
     explicit DepthCloser(const ShaderLibrary& library);
 
-    /// `depth_m`: r32f, 0 = unknown. Into `closed`, r32f of the same size: what was known, and the
-    /// guesses with a negative sign.
+    /// `depth_m`: r32f, 0 = unknown, negative = guessed, and left so. Into `closed`, r32f of the
+    /// same size: what was known, and the guesses with a negative sign.
     void close(const Texture& depth_m, const Framebuffer& closed);
 
   private:

@@ -23,8 +23,8 @@ class RigConsensus {
     explicit RigConsensus(const ShaderLibrary& library);
 
     /// The view's steady depth, bettered; as it is where no other view looks at the same things.
-    /// r32f, metres, 0 = unknown; valid until the next call. `all` may hold the view itself; their
-    /// steady depths are those of the same instant.
+    /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
+    /// view itself; their steady depths are those of the same instant.
     const Texture& better(const GpuView& view, std::span<const std::unique_ptr<GpuView>> all);
 
   private:

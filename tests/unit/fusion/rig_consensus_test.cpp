@@ -51,7 +51,7 @@ TEST_F(FaultyPairTest, KeepsWhatTheOtherCannotConfirmWhereThePairHardlyErrs) {
     EXPECT_EQ(cv::norm(kept, own.depth_m, cv::NORM_INF), 0);
 }
 
-TEST_F(FaultyPairTest, LosesWhatTheOtherCannotConfirmWhereThePairErrs) {
+TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) {
     DepthView own = wall(0);
     own.depth_m(behind) = 1.5f * wall_m;
     // A tenth of the map is before the wall, and the other camera sees the wall through it.
@@ -59,10 +59,20 @@ TEST_F(FaultyPairTest, LosesWhatTheOtherCannotConfirmWhereThePairErrs) {
     own.depth_m(before) = 0.9f * wall_m;
     const DepthImage left = bettered(own, wall(baseline_m));
     EXPECT_EQ(cv::countNonZero(left(before)), 0);
-    EXPECT_EQ(cv::countNonZero(left(behind)), 0);
+    EXPECT_EQ(cv::countNonZero(left(behind) != -1.5f * wall_m), 0);
     // What it does confirm, and what is outside its picture, stays.
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != wall_m), 0);
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, height_px)) != wall_m), 0);
+}
+
+/// Both matchers may be wrong in the same way: then the surfaces meet and the colours do not.
+TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
+    DepthView own = wall(0);
+    own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.9f * wall_m;
+    own.colour(behind).setTo(cv::Scalar(200, 20, 20, 255));
+    const DepthImage left = bettered(own, wall(baseline_m));
+    EXPECT_EQ(cv::countNonZero(left(behind) != -wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != wall_m), 0);
 }
 
 /// From farther away than a rig's own baseline the same tells nothing of what is merely
