@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -116,12 +117,18 @@ bool can_have_realtime_priority() {
     return refused == 0;
 }
 
+/// Tried as well, as the trigger does it: a limit and a capability may each decide.
+bool can_lock_memory() {
+    if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) return false;
+    ::munlockall();
+    return true;
+}
+
 void add_scheduling(ProbePart& part) {
     const bool is_realtime_kernel = first_line("/sys/kernel/realtime") == "1";
-    rlimit priority{}, memory{};
+    rlimit priority{};
     ::getrlimit(RLIMIT_RTPRIO, &priority);
-    ::getrlimit(RLIMIT_MEMLOCK, &memory);
-    const bool may_lock_all = memory.rlim_cur == RLIM_INFINITY;
+    const bool may_lock_all = can_lock_memory();
     const bool may_be_realtime = can_have_realtime_priority();
     part.facts["scheduling"] = {{"realtime_kernel", is_realtime_kernel},
                                 {"may_have_realtime_priority", may_be_realtime},
