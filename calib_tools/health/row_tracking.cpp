@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <opencv2/imgproc.hpp>
+
+#include "calib_tools/health/patch_search.h"
 
 namespace vantage {
 namespace {
 
 constexpr int half_patch_px = 7, rows_px = 6;
-constexpr double good_match = 0.9, rival_share = 0.93;
-
-/// Where a parabola through three neighbouring values has its top, -0.5 to 0.5.
-double top_of(float before, float at, float after) {
-    const double curve = before - 2.0 * at + after;
-    return curve < 0 ? std::clamp(0.5 * (before - after) / curve, -0.5, 0.5) : 0;
-}
+constexpr double good_match = 0.9;
 
 }  // namespace
 
@@ -35,23 +32,9 @@ std::vector<TrackedRow> track_rows(const GreyImage& left, const GreyImage& right
         const int reach = std::min(x - margin, left.cols / 3);
         const cv::Rect area(patch.x - reach, patch.y - rows_px, patch.width + reach + 1,
                             patch.height + 2 * rows_px);
-        cv::Mat1f fit;
-        cv::matchTemplate(right(area), left(patch), fit, cv::TM_CCOEFF_NORMED);
-        double best = 0;
-        cv::Point at;
-        cv::minMaxLoc(fit, nullptr, &best, nullptr, &at);
-        if (best < good_match || at.x < 1 || at.y < 1 || at.x >= fit.cols - 1 ||
-            at.y >= fit.rows - 1)
-            continue;
-        const TrackedRow row{
-            {x, y},
-            reach - at.x - top_of(fit(at.y, at.x - 1), fit(at), fit(at.y, at.x + 1)),
-            at.y - rows_px + top_of(fit(at.y - 1, at.x), fit(at), fit(at.y + 1, at.x))};
-        // The same texture elsewhere in the row would make it a guess.
-        cv::circle(fit, at, 3, cv::Scalar(-1), cv::FILLED);
-        double rival = 0;
-        cv::minMaxLoc(fit, nullptr, &rival);
-        if (rival < rival_share * best) rows.push_back(row);
+        const std::optional<Eigen::Vector2d> found =
+            find_patch(right(area), left(patch), good_match);
+        if (found) rows.push_back({{x, y}, reach - found->x(), found->y() - rows_px});
     }
     return rows;
 }

@@ -5,6 +5,8 @@
 
 #include "calib_tools/board/median.h"
 #include "calib_tools/colour/cielab.h"
+#include "calib_tools/health/place_tracking.h"
+#include "calib_tools/rig/pair_solver.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"
 
@@ -21,6 +23,10 @@ constexpr double colour_warn = 2.0, colour_bad = 5.0;
 // Farther apart than this two depths are of two surfaces.
 constexpr double same_surface_share = 0.15;
 constexpr int fields_a_side = 4, fewest_in_field = 8;
+// Patches seen from two sides are found to a few tenths of a pixel; a good stage's calibration is
+// as good as that in small pictures, and in large ones by the angle that a pixel is.
+constexpr int fewest_places = 10, fewest_places_in_field = 3;
+constexpr double place_warn_px = 0.5, place_warn_share_of_width = 0.0007;
 
 /// The measure with its verdict: unknown for fewer samples than `fewest`, with the sentence
 /// `too_few`; where it is not good, with the sentence `not_good`.
@@ -42,10 +48,7 @@ HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>
     for (const TrackedRow& row : rows) misses.push_back(std::abs(row.row_miss_px));
     std::sort(misses.begin(), misses.end());
     misses.resize(misses.size() - misses.size() / 10);
-    double squares = 0;
-    for (const double miss : misses) squares += miss * miss;
-    const double rms_px =
-        misses.empty() ? 0 : std::sqrt(squares / static_cast<double>(misses.size()));
+    const double rms_px = root_mean_square(misses);
     return judged(
         {"rows", rig.name, rms_px, "px", row_warn_px, row_bad_px, static_cast<int>(rows.size())},
         fewest_rows, "too few features to follow from the left to the right picture",
@@ -54,41 +57,81 @@ HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>
                     rig.name, rms_px));
 }
 
-/// Depth differences of two rigs by fields of the picture: noise of the matcher has no side it
-/// prefers, a rig that was moved has, though not the same one in every field.
+/// Values by the fields of the picture: noise has no side that it prefers, a rig that was moved
+/// has, though not the same one in every field.
+class Fields {
+  public:
+    explicit Fields(const cv::Size& size) : size_(size) {}
+
+    void add(const Eigen::Vector2d& pixel, double value) {
+        values_[place(pixel.y(), size_.height)][place(pixel.x(), size_.width)].push_back(value);
+    }
+    /// The median of every field that holds at least `fewest`.
+    std::vector<double> medians(std::size_t fewest) const {
+        std::vector<double> medians;
+        for (const auto& row : values_)
+            for (const std::vector<double>& field : row)
+                if (field.size() >= fewest) medians.push_back(median(field));
+        return medians;
+    }
+
+  private:
+    static int place(double at, int size_px) {
+        return std::clamp(static_cast<int>(at * fields_a_side / size_px), 0, fields_a_side - 1);
+    }
+    cv::Size size_;
+    std::vector<double> values_[fields_a_side][fields_a_side];
+};
+
+/// Depth differences of two rigs by fields of the picture.
 HealthMeasure measure_depth(const std::string& names, const cv::Size& size,
                             const std::vector<const OverlapSample*>& samples) {
-    std::vector<double> fields[fields_a_side][fields_a_side], bias_shares;
+    Fields fields(size);
+    std::vector<double> bias_shares;
     int count = 0;
     for (const OverlapSample* s : samples) {
         const double share = (s->measured_m - s->predicted_m) / s->predicted_m;
         if (std::abs(share) > same_surface_share) continue;
         ++count;
-        const int column = std::clamp(static_cast<int>(s->b_px.x() * fields_a_side / size.width), 0,
-                                      fields_a_side - 1);
-        const int row = std::clamp(static_cast<int>(s->b_px.y() * fields_a_side / size.height), 0,
-                                   fields_a_side - 1);
-        fields[row][column].push_back(share);
+        fields.add(s->b_px, share);
         // What a third of a pixel of disparity makes of this place's depth.
         if (s->disparity_miss != 0)
             bias_shares.push_back(std::abs(share / s->disparity_miss) * matcher_bias_px);
     }
-    double squares = 0;
-    int used = 0;
-    for (const auto& row : fields)
-        for (const std::vector<double>& field : row) {
-            if (static_cast<int>(field.size()) < fewest_in_field) continue;
-            squares += std::pow(median(field), 2);
-            ++used;
-        }
     const double warn_percent = 100 * std::max(depth_warn_share, median(bias_shares));
-    const double apart_percent = used > 0 ? 100 * std::sqrt(squares / used) : 0;
+    const double apart_percent = 100 * root_mean_square(fields.medians(fewest_in_field));
     return judged({"depth", names, apart_percent, "% of depth", warn_percent,
                    bad_times_warn * warn_percent, count},
                   fewest_overlap, "the two rigs see too little of the same surfaces",
                   fmt::format("rigs {} see one surface {:.1f} % of its depth apart: one of them "
                               "has been moved; place them again (stage)",
                               names, apart_percent));
+}
+
+/// How far features lie beside their epipolar lines, from each of two rigs into the other.
+HealthMeasure measure_place(const RigSnapshot& a, const RigSnapshot& b, const std::string& names) {
+    std::vector<double> medians;
+    int count = 0;
+    for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+        Fields fields(to->left.size());
+        for (const TrackedPlace& place :
+             track_places(from->overlap_view(), to->overlap_view(), features)) {
+            fields.add(place.b_px, place.miss_px);
+            ++count;
+        }
+        const std::vector<double> of_fields = fields.medians(fewest_places_in_field);
+        medians.insert(medians.end(), of_fields.begin(), of_fields.end());
+    }
+    const double warn_px =
+        std::max(place_warn_px, place_warn_share_of_width * std::max(a.left.cols, b.left.cols));
+    const double apart_px = root_mean_square(medians);
+    return judged(
+        {"place", names, apart_px, "px", warn_px, bad_times_warn * warn_px, count},
+        medians.empty() ? std::max(count + 1, fewest_places) : fewest_places,
+        "too few features that both rigs see to judge their places by",
+        fmt::format("rigs {} show one feature {:.1f} px beside where their places put it: one of "
+                    "them has been moved or turned; place them again (stage)",
+                    names, apart_px));
 }
 
 void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealth& health) {
@@ -107,6 +150,7 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
         }
     }
     health.measures.push_back(measure_depth(names, rig_b.left.size(), samples));
+    health.measures.push_back(measure_place(rigs[static_cast<std::size_t>(a)], rig_b, names));
     const double apart = coloured > 0 ? delta_e / coloured : 0;
     health.measures.push_back(
         judged({"colour", names, apart, "CIEDE2000", colour_warn, colour_bad, coloured},

@@ -14,7 +14,7 @@ std::string_view verdict_name(Verdict verdict);
 
 /// One number about a rig, or about two that see one surface, and what it is worth.
 struct HealthMeasure {
-    std::string what;  ///< "rows", "depth", "colour"
+    std::string what;  ///< "rows", "depth", "place", "colour"
     std::string rigs;  ///< "A", or "A-B"
     double value = 0;
     std::string unit;
@@ -34,7 +34,8 @@ struct StageHealth {
 
 /// Without any board: rows (RMS, px, of features tracked from the left to the right picture, the
 /// worst tenth left out), depth (RMS over the fields of the picture of the median difference
-/// between two rigs' depths of one surface, % of the depth) and colour (mean CIEDE2000 of one
+/// between two rigs' depths of one surface, % of the depth), place (the same of the distances
+/// of features from their epipolar lines, px) and colour (mean CIEDE2000 of one
 /// surface in two rigs).
 StageHealth check_stage(const std::vector<RigSnapshot>& rigs);
 

@@ -131,6 +131,26 @@ TEST_F(CheckCommandTest, tells_a_bent_rig_from_a_moved_one_and_from_odd_colours)
                 0.15);
 }
 
+TEST_F(CheckCommandTest, names_rigs_one_of_which_was_knocked_by_half_a_degree_or_a_centimetre) {
+    const Pose world_from_b = rigs_[1].world_from_left;
+    for (const int i : {0, 2}) {
+        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+        StereoCalibration turned = rigs_[1];
+        turned.world_from_left = world_from_b * Eigen::AngleAxisd(0.00873, axis);
+        write(turned);
+        const ProgramResult result = run("check", {});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_THAT(verdict(result, "place", "A-B"),
+                    testing::AnyOf(testing::StartsWith("warn"), testing::StartsWith("bad")));
+    }
+    StereoCalibration lifted = rigs_[1];
+    lifted.world_from_left.translation() += Eigen::Vector3d(0, 0.01, 0);
+    write(lifted);
+    const ProgramResult result = run("check", {});
+    EXPECT_THAT(verdict(result, "place", "A-B"), testing::StartsWith("warn"));
+    EXPECT_THAT(result.out, HasSubstr("moved or turned"));
+}
+
 TEST_F(CheckCommandTest, refuses_damaged_files_in_one_sentence) {
     write(rigs_[1]);
     std::ofstream(folder_.path() / "h.jsonl") << "{\"version\": 1}\n";

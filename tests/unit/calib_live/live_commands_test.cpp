@@ -340,9 +340,12 @@ TEST_F(LiveCheck, judges_a_running_stage_and_notices_a_rig_that_was_moved) {
     const ProgramResult good = run("check", {"--history", file("history.jsonl")});
     ASSERT_EQ(good.status, 0) << good.err << rigs_[0]->err();
     const auto measures = nlohmann::json::parse(good.out).at("measures");
-    ASSERT_EQ(measures.size(), 4u);
+    ASSERT_EQ(measures.size(), 5u);
     for (const auto& m : measures) {
-        EXPECT_EQ(m.at("verdict"), "good") << m;
+        // Pictures as small as these hold few features that both rigs see.
+        EXPECT_TRUE(m.at("verdict") == "good" ||
+                    (m.at("what") == "place" && m.at("verdict") == "unknown"))
+            << m;
         EXPECT_FALSE(m.at("unit").get<std::string>().empty());
     }
     EXPECT_THAT(good.err, Not(HasSubstr("works with calibration"))) << good.err;
