@@ -210,7 +210,7 @@ std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
         }
         film.pulses.push_back(instant->pulse);
         const std::vector<std::string> missing = advice(film);
-        log_info("{} kept (pulse {}); {}", film.pulses.size(), instant->pulse,
+        log_info("{} kept of {} (pulse {}); {}", film.pulses.size(), most, instant->pulse,
                  missing.empty() ? "nothing is missing" : "still missing: " + joined(missing));
         if (missing.empty()) return "the film is complete";
     }

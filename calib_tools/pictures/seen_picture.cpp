@@ -17,13 +17,30 @@
 namespace vantage {
 namespace {
 
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto place = values.begin() +
+                       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+/// The slope of the steepest edges in the contrast of the picture. Noise, which has much fine
+/// detail, hardly adds to edges of tens of grey levels.
+double sharpness_of(const GreyImage& grey) {
+    constexpr double steepest = 0.999, darkest = 0.001;
+    cv::Mat1f right, down;
+    cv::Sobel(grey, right, CV_32F, 1, 0, 1, 0.5);
+    cv::Sobel(grey, down, CV_32F, 0, 1, 1, 0.5);
+    cv::Mat1f slope;
+    cv::magnitude(right, down, slope);
+    const std::vector<double> slopes(slope.begin(), slope.end()), levels(grey.begin(), grey.end());
+    const double contrast = quantile(levels, steepest) - quantile(levels, darkest);
+    return quantile(slopes, steepest) / std::max(1.0, contrast);
+}
+
 void judge(const GreyImage& grey, SeenPicture& picture) {
-    cv::Mat1f detail;
-    cv::Laplacian(grey, detail, CV_32F);
-    cv::Scalar mean, deviation, unused, detail_deviation;
-    cv::meanStdDev(grey, mean, deviation);
-    cv::meanStdDev(detail, unused, detail_deviation);
-    picture.sharpness = detail_deviation[0] / std::max(1.0, deviation[0]);
+    picture.sharpness = sharpness_of(grey);
     picture.saturated =
         static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
 }
@@ -44,14 +61,6 @@ void look_at(SeenPicture& picture, const BoardSet& boards) {
 void refuse(SeenPicture& picture, std::string reason) {
     picture.sighting.corners.clear();
     picture.sighting.reason = std::move(reason);
-}
-
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto place = values.begin() +
-                       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ struct SeenPicture {
     std::filesystem::path path;
     int width_px = 0, height_px = 0;
     BoardSighting sighting;  ///< without corners: its reason says why, whatever it is
-    double sharpness = 0;    ///< energy of the finest detail in the energy of the picture
+    double sharpness = 0;    ///< slope of its steepest edges, of its contrast per pixel
     double saturated = 0;    ///< share of pixels at the top of the range
     std::string name() const { return path.filename().string(); }
 };

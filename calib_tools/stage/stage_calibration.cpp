@@ -383,6 +383,9 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given, const Board
                 rig.name);
         stage.rigs.push_back(rig);
     }
+    const int shown = start.bodies.front().boards.front();
+    stage.next_picture = most_helpful_picture(
+        bundle, uncertainty, boards.boards[static_cast<std::size_t>(shown)], shown);
     advise(stage);
     for (StageCalibration::Body& body : stage.bodies) {
         if (body.boards.size() < 2) continue;

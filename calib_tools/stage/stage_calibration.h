@@ -7,6 +7,7 @@
 
 #include "calib_tools/board/board_set.h"
 #include "calib_tools/rig/rig_calibration.h"
+#include "calib_tools/stage/next_picture.h"
 #include "common/config/calibration_file.h"
 
 namespace vantage {
@@ -42,8 +43,9 @@ struct StageCalibration {
     };
     std::vector<Rig> rigs;
     std::vector<Tie> ties;
-    std::vector<Refusal> rejected;    ///< instants
-    std::vector<std::string> advice;  ///< weakly tied rigs and the picture that would help
+    std::vector<Refusal> rejected;            ///< instants
+    std::vector<std::string> advice;          ///< weakly tied rigs and the picture that would help
+    std::optional<NextPicture> next_picture;  ///< that would help most
     double rms_px = 0;
     std::size_t instants_given = 0;  ///< at which a board was seen anew
     std::size_t instants_used = 0;

@@ -8,6 +8,7 @@
 #include "calib_tools/board/median.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
+#include "calib_tools/stage/stage_report.h"
 
 namespace vantage {
 namespace {
@@ -98,6 +99,8 @@ HtmlPage stage_page(const StageCalibration& stage) {
     }
     page.figure(draw_bars(bars, "px RMS", median(values)),
                 "Residual of every instant; dashed: the usual one.");
+    if (const std::string next = next_picture_sentence(stage); !next.empty())
+        page.paragraph(next + ".");
     add_refusals(page, stage.rejected, stage.advice);
     return page;
 }

@@ -51,7 +51,15 @@ nlohmann::json to_json(const StageCalibration& stage) {
         }
         bodies.push_back({{"name", body.name}, {"boards", faces}});
     }
-    return {{"rms_px", stage.rms_px},
+    json next;
+    if (stage.next_picture)
+        next = {{"rigs",
+                 {stage.rigs[stage.next_picture->a].name, stage.rigs[stage.next_picture->b].name}},
+                {"gains_most", stage.rigs[stage.next_picture->rig].name},
+                {"translation_sigma_now_m", stage.next_picture->sigma_now_m},
+                {"translation_sigma_then_m", stage.next_picture->sigma_then_m}};
+    return {{"next_picture", next},
+            {"rms_px", stage.rms_px},
             {"instants_given", stage.instants_given},
             {"instants_used", stage.instants_used},
             {"world", stage.has_floor ? "board on the floor" : "left camera of the first rig"},
@@ -60,6 +68,16 @@ nlohmann::json to_json(const StageCalibration& stage) {
             {"bodies", bodies},
             {"rejected", rejected},
             {"advice", stage.advice}};
+}
+
+std::string next_picture_sentence(const StageCalibration& stage) {
+    if (!stage.next_picture) return {};
+    const NextPicture& next = *stage.next_picture;
+    return fmt::format(
+        "one more picture helps most where {} and {} both see the board: it would make the place "
+        "of {} certain to {:.2f} mm instead of {:.2f} mm",
+        stage.rigs[next.a].name, stage.rigs[next.b].name, stage.rigs[next.rig].name,
+        1000 * next.sigma_then_m, 1000 * next.sigma_now_m);
 }
 
 std::string describe(const StageCalibration& stage) {
@@ -87,6 +105,7 @@ std::string describe(const StageCalibration& stage) {
     for (const Refusal& refusal : stage.rejected)
         text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
     for (const std::string& sentence : stage.advice) text += "would help: " + sentence + "\n";
+    if (const std::string next = next_picture_sentence(stage); !next.empty()) text += next + "\n";
     return text;
 }
 

@@ -150,6 +150,11 @@ TEST(StageCalibration, says_which_rig_is_weakly_tied) {
     const StageCalibration stage = calibrate_stage(filmed.rigs, pattern, std::nullopt);
     ASSERT_FALSE(stage.advice.empty());
     EXPECT_THAT(stage.advice.back(), HasSubstr("rig D is weakly tied"));
+    // Its neighbour sees a board with it at a better angle than the others do.
+    ASSERT_TRUE(stage.next_picture);
+    EXPECT_EQ(stage.next_picture->b, 3u);
+    EXPECT_EQ(stage.next_picture->rig, 3u);
+    EXPECT_LT(stage.next_picture->sigma_then_m, 0.9 * stage.next_picture->sigma_now_m);
 }
 
 TEST(StageCalibration, counts_a_board_that_lies_still_once) {
