@@ -90,10 +90,10 @@ LiveFilm film_live(const Options& options, const BoardSet& boards,
         log_info(
             "lay the board on the floor, face up: the first instant kept is the world's floor");
     const bool floor_is_filmed = options.floor_first && !options.live.go_on;
-    const BoardFilm film =
-        film_board(live, cameras, boards, options.live.film(),
-                   floor_is_filmed ? floor_first(boards, options.floor_board) : two_rigs_see_board,
-                   tie_advice(names));
+    const BoardFilm film = film_board(
+        live, cameras, boards, options.live.film(),
+        floor_is_filmed ? floor_first(boards, options.floor_board) : two_rigs_see_board(boards),
+        tie_advice(boards, names));
     const std::vector<long long> numbers(film.pulses.begin(), film.pulses.end());
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         StageRig& rig = rigs[i];

@@ -69,14 +69,14 @@ std::string all_see_board(const std::vector<SeenPicture>& pictures);
 /// What every camera's lens still needs (coverage, tilt, distance), by a calibration on the way.
 FilmAdvice lens_advice(std::vector<std::string> camera_names);
 
-/// At least two rigs have to see the board; cameras 2i and 2i + 1 are of rig i.
-std::string two_rigs_see_board(const std::vector<SeenPicture>& pictures);
+/// At least two rigs have to see one board or body; cameras 2i and 2i + 1 are of rig i.
+FilmRule two_rigs_see_board(const BoardSet& boards);
 
 /// The same, and the first instant has to show the board that lies on the floor: the one that is
 /// named, or, without a name, one board only that is no part of a body.
 FilmRule floor_first(const BoardSet& boards, std::string floor_board);
 
 /// Which rigs are not tied to the others by enough instants yet.
-FilmAdvice tie_advice(std::vector<std::string> rig_names);
+FilmAdvice tie_advice(const BoardSet& boards, std::vector<std::string> rig_names);
 
 }  // namespace vantage

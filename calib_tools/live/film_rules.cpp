@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
 #include "calib_tools/live/board_film.h"
 #include "calib_tools/rig/camera_solver.h"
 #include "calib_tools/rig/guidance.h"
+#include "calib_tools/stage/repeated_sightings.h"
 #include "calib_tools/stage/stage_calibration.h"
 #include "common/base/error.h"
 
@@ -53,22 +55,31 @@ FilmAdvice lens_advice(std::vector<std::string> camera_names) {
     };
 }
 
-std::string two_rigs_see_board(const std::vector<SeenPicture>& pictures) {
-    std::size_t seeing = 0;
-    for (std::size_t c = 0; c + 1 < pictures.size(); c += 2)
-        seeing += pictures[c].sighting.found() || pictures[c + 1].sighting.found() ? 1 : 0;
-    if (seeing >= 2) return {};
-    for (const SeenPicture& picture : pictures)
-        if (!picture.sighting.found() && picture.sighting.reason.starts_with("is blurred"))
-            return fault_of(picture);
-    return fmt::format("{} sees the board: hold it where two rigs see it",
-                       seeing == 0 ? "no rig" : "only one rig");
+FilmRule two_rigs_see_board(const BoardSet& boards) {
+    return [boards](const std::vector<SeenPicture>& pictures) -> std::string {
+        std::map<int, std::set<std::size_t>> rigs_of_body;
+        std::size_t most = 0;
+        for (std::size_t c = 0; c < pictures.size(); ++c)
+            for (const BoardCorner& corner : pictures[c].sighting.corners) {
+                std::set<std::size_t>& rigs = rigs_of_body[boards.body_of(corner.board)];
+                rigs.insert(c / 2);
+                most = std::max(most, rigs.size());
+            }
+        if (most >= 2) return {};
+        for (const SeenPicture& picture : pictures)
+            if (!picture.sighting.found() && picture.sighting.reason.starts_with("is blurred"))
+                return fault_of(picture);
+        return fmt::format("{} sees the board: hold it where two rigs see it",
+                           most == 0                 ? "no rig"
+                           : rigs_of_body.size() > 1 ? "of every board only one rig"
+                                                     : "only one rig");
+    };
 }
 
 FilmRule floor_first(const BoardSet& boards, std::string floor_board) {
-    return [boards, name = std::move(floor_board),
+    return [boards, two_rigs_see = two_rigs_see_board(boards), name = std::move(floor_board),
             is_first = true](const std::vector<SeenPicture>& pictures) mutable -> std::string {
-        std::string fault = two_rigs_see_board(pictures);
+        std::string fault = two_rigs_see(pictures);
         if (!fault.empty() || !is_first) return fault;
         std::set<std::string> flat;
         for (const SeenPicture& picture : pictures)
@@ -87,23 +98,38 @@ FilmRule floor_first(const BoardSet& boards, std::string floor_board) {
     };
 }
 
-FilmAdvice tie_advice(std::vector<std::string> rig_names) {
-    return [names = std::move(rig_names)](const BoardFilm& film) {
+FilmAdvice tie_advice(const BoardSet& boards, std::vector<std::string> rig_names) {
+    return [boards, names = std::move(rig_names)](const BoardFilm& film) {
         const std::size_t count = names.size();
         struct Tie {
             int shared;
             std::size_t a, b;
         };
         std::vector<Tie> ties;
-        const auto sees = [&](std::size_t rig, std::size_t instant) {
-            return film.pictures[2 * rig][instant].sighting.found() ||
-                   film.pictures[2 * rig + 1][instant].sighting.found();
+        // As the calibration will count: what lies still is seen once, and two rigs have to see the
+        // same board.
+        std::vector<StageRig> rigs(count);
+        for (std::size_t k = 0; k < film.pulses.size(); ++k)
+            for (std::size_t c = 0; c < 2 * count; ++c)
+                if (film.pictures[c][k].sighting.found())
+                    (c % 2 == 0 ? rigs[c / 2].left : rigs[c / 2].right)[static_cast<long long>(k)] =
+                        film.pictures[c][k].sighting.corners;
+        rigs = without_repeats(std::move(rigs), std::nullopt);
+        std::vector<std::map<long long, std::set<int>>> bodies(count);
+        for (std::size_t rig = 0; rig < count; ++rig)
+            for (const auto* series : {&rigs[rig].left, &rigs[rig].right})
+                for (const auto& [instant, corners] : *series)
+                    for (const BoardCorner& corner : corners)
+                        bodies[rig][instant].insert(boards.body_of(corner.board));
+        const auto share = [&](std::size_t a, std::size_t b, long long instant) {
+            return std::any_of(bodies[a][instant].begin(), bodies[a][instant].end(),
+                               [&](int body) { return bodies[b][instant].contains(body); });
         };
         for (std::size_t a = 0; a < count; ++a)
             for (std::size_t b = a + 1; b < count; ++b) {
                 Tie tie{0, a, b};
                 for (std::size_t k = 0; k < film.pulses.size(); ++k)
-                    tie.shared += sees(a, k) && sees(b, k) ? 1 : 0;
+                    tie.shared += share(a, b, static_cast<long long>(k)) ? 1 : 0;
                 ties.push_back(tie);
             }
         // The strongest ties that reach every rig (Kruskal); the weak ones among them are missing.
