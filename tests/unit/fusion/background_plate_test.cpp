@@ -7,36 +7,18 @@
 #include "host_app/fusion/image_metrics.h"
 #include "host_app/fusion/novelty_overlay.h"
 #include "host_app/fusion/synthesiser.h"
+#include "tests/unit/fusion/wall_and_square.h"
 
 namespace vantage {
 namespace {
 
 constexpr int width_px = 161, height_px = 121;
-constexpr double wall_m = 4, square_m = 2;
 
-/// A patterned wall and, before it, a red square of 1 m around (square_x, 0), which walks; seen
-/// from (x, 0, 0) along z.
-DepthView film(double x_m, double square_x_m, const std::string& name = "only") {
-    DepthView view;
-    view.name = name;
-    view.K << 130, 0, 80, 0, 130, 60, 0, 0, 1;
-    view.world_from_camera.translation().x() = x_m;
-    view.colour.create(height_px, width_px);
-    view.depth_m.create(height_px, width_px);
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
-            const double dx = (u - view.K(0, 2)) / view.K(0, 0);
-            const double dy = (v - view.K(1, 2)) / view.K(1, 1);
-            const bool is_square =
-                std::abs(x_m + square_m * dx - square_x_m) < 0.5 && std::abs(square_m * dy) < 0.5;
-            const double wall_x = x_m + wall_m * dx, wall_y = wall_m * dy;
-            view.depth_m(v, u) = static_cast<float>(is_square ? square_m : wall_m);
-            view.colour(v, u) =
-                is_square
-                    ? cv::Vec4b(220, 30, 30, 255)
-                    : cv::Vec4b(20, cv::saturate_cast<uchar>(128 + 100 * std::sin(4 * wall_x)),
-                                cv::saturate_cast<uchar>(128 + 50 * wall_y), 255);
-        }
+/// A patterned wall and, before it, a square around square_x_m, which walks.
+DepthView film(double x_m, double square_x_m) {
+    DepthView view =
+        wall_and_square(x_m, width_px, height_px, {.square_x_m = square_x_m, .waves = true});
+    view.name = "only";
     return view;
 }
 

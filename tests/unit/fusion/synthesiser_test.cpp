@@ -11,39 +11,10 @@
 #include "host_app/fusion/image_metrics.h"
 #include "host_app/fusion/view_set.h"
 #include "tests/support/data_folder.h"
+#include "tests/unit/fusion/wall_and_square.h"
 
 namespace vantage {
 namespace {
-
-Eigen::Matrix3d intrinsics(double f_px, double width_px, double height_px) {
-    Eigen::Matrix3d K;
-    K << f_px, 0, 0.5 * (width_px - 1), 0, f_px, 0.5 * (height_px - 1), 0, 0, 1;
-    return K;
-}
-
-/// A wall at z = 4 m with a colour gradient, and a red square of 1 m before it at z = 2 m; seen
-/// from (x, 0, 0) along z.
-DepthView wall_and_square(double x_m, int width_px, int height_px) {
-    DepthView view;
-    view.name = "at " + std::to_string(x_m);
-    view.K = intrinsics(0.8 * width_px, width_px, height_px);
-    view.world_from_camera.translation().x() = x_m;
-    view.colour.create(height_px, width_px);
-    view.depth_m.create(height_px, width_px);
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
-            const double dx = (u - view.K(0, 2)) / view.K(0, 0);
-            const double dy = (v - view.K(1, 2)) / view.K(1, 1);
-            const bool square = std::abs(x_m + 2 * dx) < 0.5 && std::abs(2 * dy) < 0.5;
-            const double wall_x = x_m + 4 * dx, wall_y = 4 * dy;
-            view.depth_m(v, u) = square ? 2.0f : 4.0f;
-            view.colour(v, u) = square
-                                    ? cv::Vec4b(220, 30, 30, 255)
-                                    : cv::Vec4b(20, cv::saturate_cast<uchar>(128 + 30 * wall_x),
-                                                cv::saturate_cast<uchar>(128 + 30 * wall_y), 255);
-        }
-    return view;
-}
 
 VirtualView target_of(const DepthView& view) {
     return {view.colour.cols, view.colour.rows, view.K, view.world_from_camera};
