@@ -26,6 +26,7 @@ const float direct_support = 0.01;
 const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's word on what is hidden means little
 
 const float least_share = 0.05;       // of the colour so far, from which on it matters how a rig's picture is resampled
+const float fine_share = 0.2;         // likewise, from which on a colour is made as sharp as the virtual camera's
 
 struct Evidence {
     vec3 sum, squares;
@@ -92,7 +93,10 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     if (weight > least_share * e.weight) {
         float lod = detail_level(pixel_from_target[i], z, q.z);
         c = sharp(picture, uv, lod);
-        if (lod <= smooth_from_lod) c = clamp(c + respread(picture, uv, 1.0 / colour_size[i], right, down, middle.rgb), 0.0, 1.0);
+        float share = weight / max(e.weight, 1e-20);
+        float finesse = clamp(share / fine_share - 1.0, 0.0, 1.0);
+        if (lod <= smooth_from_lod && finesse > 0.0)
+            c = clamp(c + finesse * respread(picture, uv, 1.0 / colour_size[i], right, down, middle.rgb), 0.0, 1.0);
     }
     e.sum += weight * c;
     e.squares += weight * c * c;
