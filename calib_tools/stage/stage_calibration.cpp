@@ -379,7 +379,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given, const Board
         if (rig.instants == 0)
             fail(
                 "every picture of rig {} contradicts the other rigs: its calibration is not its "
-                "own, or it was moved",
+                "own, its left and right pictures are swapped, or it was moved",
                 rig.name);
         stage.rigs.push_back(rig);
     }
