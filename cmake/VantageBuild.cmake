@@ -7,7 +7,6 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -15,9 +14,9 @@ endif()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # base_dir lets several checkouts of Vantage share one cache.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-    CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=true ${CCACHE_PROGRAM})
+  # base_dir lets several checkouts of Vantage share one cache; ccache takes precompiled headers if told so.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=true
+    CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 add_library(vantage_options INTERFACE)
@@ -27,7 +26,7 @@ target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wpedantic -Wshad
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # False alarms of GCC's flow analysis inside the standard library and OpenCV at -O2.
   target_compile_options(vantage_options INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow
-    -Wno-array-bounds -Wno-restrict -Wno-dangling-reference)
+    -Wno-stringop-overread -Wno-array-bounds -Wno-restrict -Wno-dangling-reference)
 endif()
 if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -39,11 +38,31 @@ endif()
 
 # Lets a library stand before its first source file does.
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cpp CONTENT "")
+# The headers that most sources come to include take most of the time to compile them: they are read once for the
+# libraries and once, with GoogleTest, for the tests.
+function(vantage_precompiled name)
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/empty.cpp)
+  target_link_libraries(${name} PRIVATE vantage_options fmt::fmt nlohmann_json::nlohmann_json Eigen3::Eigen
+    vantage_opencv Threads::Threads)
+  target_precompile_headers(${name} PRIVATE <algorithm> <array> <chrono> <filesystem> <functional> <map> <memory>
+    <mutex> <optional> <span> <string> <thread> <vector> <fmt/format.h> <nlohmann/json.hpp> <Eigen/Geometry>
+    <opencv2/core.hpp> ${ARGN})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${name} PRIVATE -fpch-preprocess)
+  endif()
+endfunction()
+function(vantage_use_precompiled name headers)
+  if(TARGET ${headers})
+    target_precompile_headers(${name} REUSE_FROM ${headers})
+  endif()
+endfunction()
+
 function(vantage_library name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
+  vantage_use_precompiled(${name} vantage_headers)
 endfunction()
 
 # vantage_registry(TARGET vantage_rig_stereo TYPE MatcherEntry FUNCTION matcher_entries
@@ -79,12 +98,15 @@ ${calls}    return entries;
   target_sources(${ARG_TARGET} PRIVATE ${generated})
 endfunction()
 
-# Everything that tools/sanitize.sh builds: all unit tests, and those of code that shares data between threads.
+# All unit tests; what tools/sanitize.sh builds, those of code that shares data between threads; and what tools/arm64.sh
+# does.
 add_custom_target(vantage_unit_tests)
 add_custom_target(vantage_thread_tests)
+add_custom_target(vantage_arm64_tests)
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
-# Every test carries the label `unit`; `threads` marks those that ThreadSanitizer runs too.
+# Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
+# those that only the latter does.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -93,9 +115,13 @@ function(vantage_unit_test name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} vantage_test_support GTest::gtest_main)
+  vantage_use_precompiled(${name} vantage_test_headers)
   add_dependencies(vantage_unit_tests ${name})
   if("threads" IN_LIST ARG_LABELS)
     add_dependencies(vantage_thread_tests ${name})
+    add_dependencies(vantage_arm64_tests ${name})
+  elseif("arm64" IN_LIST ARG_LABELS)
+    add_dependencies(vantage_arm64_tests ${name})
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
   string(JOIN "-" labels unit ${ARG_LABELS})

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds for computers with a 64-bit ARM processor on another computer: the Debian packages in build/arm64/packages, and
-# the tests of wire and threads, which it runs under qemu-user.
+# the tests of the rig's wire, threads, capture, clocks and files, which it runs under qemu-user.
 #   tools/arm64.sh        vantage-rig, vantage and vantage-calib
 #   tools/arm64.sh rig    only vantage-rig: what a rig computer needs
 # The packages are for the Debian release that this computer runs.
@@ -17,11 +17,11 @@ if [ "$(uname -m)" = aarch64 ]; then
 fi
 tools/install_packages.sh test
 tools/arm64_sysroot.sh build/arm64-sysroot
-tools/build.sh arm64 "${programs[@]}" vantage_thread_tests
+tools/build.sh arm64 "${programs[@]}" vantage_arm64_tests
 rm -rf build/arm64/packages
 (cd build/arm64 && cpack -D CPACK_COMPONENTS_ALL="$components" >packages.log 2>&1) || { tail -20 build/arm64/packages.log >&2; exit 1; }
 for package in build/arm64/packages/*_arm64.deb; do
   echo "$package needs: $(dpkg-deb -f "$package" Depends)"
 done
 # Death tests start themselves anew, which the kernel refuses where binfmt knows no qemu.
-tools/run_ctest.sh arm64 -L threads -E DeathTest
+tools/run_ctest.sh arm64 -L 'threads|arm64' -E DeathTest
