@@ -1,8 +1,5 @@
 #include <iostream>
 #include <memory>
-#include <span>
-
-#include <opencv2/core.hpp>
 
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/lens_option.h"
@@ -13,11 +10,10 @@
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/rig/rig_calibration.h"
-#include "common/base/atomic_file.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/geometry/opencv_bridge.h"
+#include "common/config/intrinsics_file.h"
 
 namespace vantage {
 namespace {
@@ -32,27 +28,6 @@ struct Options {
     std::string html;
     bool json = false;
 };
-
-/// The names that OpenCV's own calibration sample uses, so that its tools read the file.
-void save_intrinsics(const std::string& path, const CameraCalibration& result) {
-    const CameraModel& m = result.bundle.cameras.front().model;
-    cv::FileStorage file("camera.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
-    file << "kind"
-         << "vantage camera intrinsics"
-         << "version" << 1;
-    file << "units"
-         << "pixels, pixel centres at integers, origin top-left; distortion in OpenCV's order";
-    file << "date" << date_now() << "tool"
-         << "vantage-calib intrinsics";
-    file << "image_width" << m.width_px << "image_height" << m.height_px;
-    file << "lens" << (m.lens == LensModel::fisheye ? "fisheye" : "pinhole");
-    file << "camera_matrix" << cv::Mat(to_cv(m.K()));
-    file << "distortion_coefficients" << cv::Mat(m.distortion, true);
-    file << "avg_reprojection_error" << result.bundle.rms_px();
-    file << "views_used" << static_cast<int>(result.views_used);
-    const std::string text = file.releaseAndGetString();
-    write_file_atomically(path, std::as_bytes(std::span(text)));
-}
 
 struct SeenSeries {
     std::vector<SeenPicture> pictures;
@@ -81,7 +56,13 @@ void run(const Options& options) {
         return calibrate_camera(std::move(seen.pictures), pattern, rig_options);
     });
     if (!options.output.empty()) {
-        save_intrinsics(options.output, result);
+        const Bundle& bundle = result.bundle;
+        save_intrinsics(options.output, bundle.cameras.front().model,
+                        {.date = date_now(),
+                         .tool = "vantage-calib intrinsics",
+                         .rms_px = bundle.rms_px(),
+                         .views_used = static_cast<int>(result.views_used),
+                         .sigma = camera_sigma(result.uncertainty.cameras.front())});
         log_info("{} written", options.output);
     }
     if (!options.html.empty()) {

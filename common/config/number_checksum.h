@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "common/geometry/camera_model.h"
+#include "common/geometry/pose.h"
+
+namespace vantage {
+
+/// The checksum of calibration files (FNV-1a, 64 bits) over their numbers, each in the shortest
+/// decimal form that reads back as the same; -0 counts as 0.
+class NumberChecksum {
+  public:
+    void add(double number);
+    void add(std::string_view text);
+    void add(const CameraModel& camera);
+    void add(const Pose& pose);
+    template <class Derived>
+    void add_rows(const Eigen::MatrixBase<Derived>& m) {
+        for (Eigen::Index r = 0; r < m.rows(); ++r)
+            for (Eigen::Index c = 0; c < m.cols(); ++c) add(m(r, c));
+    }
+
+    /// 16 hexadecimal digits.
+    std::string hex() const;
+
+  private:
+    std::uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+/// As files name it.
+const char* lens_name(LensModel lens);
+
+/// Throws Error unless `stated` is the checksum with these digits, as files have it.
+void require_checksum(const std::string& stated, const std::string& hex);
+/// "fnv1a64:" and the digits.
+std::string checksum_text(const std::string& hex);
+
+}  // namespace vantage
