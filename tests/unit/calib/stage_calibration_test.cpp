@@ -175,7 +175,8 @@ TEST(StageCalibration, counts_a_board_that_lies_still_once) {
     const StageCalibration once = calibrate_stage(filmed.rigs, pattern, floor_number);
     const StageCalibration often = calibrate_stage(lying.rigs, pattern, floor_number);
     EXPECT_EQ(often.instants_given, once.instants_given);
-    EXPECT_DOUBLE_EQ(often.rigs[3].translation_sigma_m, once.rigs[3].translation_sigma_m);
+    // Two threads solve, and add up in any order.
+    EXPECT_NEAR(often.rigs[3].translation_sigma_m / once.rigs[3].translation_sigma_m, 1, 1e-6);
 }
 
 TEST(StageCalibration, names_a_board_of_another_size_than_its_description) {
