@@ -60,6 +60,17 @@ std::vector<Pose> cube_faces(const BoardPattern& face) {
     return faces;
 }
 
+std::vector<BoardPattern> floor_and_hand_board() {
+    std::vector<BoardPattern> patterns(2, chessboard_pattern("5x4", 0.15));
+    for (BoardPattern& pattern : patterns) {
+        pattern.kind = BoardKind::charuco;
+        pattern.marker_m = 0.105;
+        pattern.dictionary = "4X4_50";
+    }
+    patterns[1].first_marker = 20;
+    return patterns;
+}
+
 RenderedStage::RenderedStage(const std::vector<BoardPattern>& patterns, int width_px,
                              std::uint64_t seed)
     : pattern_(patterns.front()), random_(seed) {

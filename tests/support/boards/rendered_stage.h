@@ -14,6 +14,9 @@ namespace vantage {
 /// The first four go round it, the fifth is on top; each board fills its face with its margin.
 std::vector<Pose> cube_faces(const BoardPattern& face);
 
+/// Two ChArUco boards of 5x4 corners that share no marker: one to lie on the floor, one to carry.
+std::vector<BoardPattern> floor_and_hand_board();
+
 /// Four rigs on an arc of 120 degrees, 4 m from the middle of a stage, each with two lenses of its
 /// own, and where an assistant holds boards before them.
 class RenderedStage {

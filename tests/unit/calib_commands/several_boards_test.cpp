@@ -55,13 +55,7 @@ class SeveralBoardsCommand : public testing::Test {
     static constexpr int first_rig = 1;
 
     SeveralBoardsCommand() {
-        std::vector<BoardPattern> patterns(2, chessboard_pattern("5x4", 0.15));
-        for (BoardPattern& pattern : patterns) {
-            pattern.kind = BoardKind::charuco;
-            pattern.marker_m = 0.105;
-            pattern.dictionary = "4X4_50";
-        }
-        patterns[1].first_marker = 20;
+        const std::vector<BoardPattern> patterns = floor_and_hand_board();
         save_board(file("floor.toml"), patterns[0]);
         save_board(file("hand.toml"), patterns[1]);
         RenderedStage stage(patterns, 480, 9);

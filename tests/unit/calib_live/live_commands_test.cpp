@@ -230,13 +230,7 @@ TEST_F(LiveCalibration, places_two_rigs_by_what_both_see_at_the_same_pulse) {
 }
 
 TEST_F(LiveCalibration, waits_for_the_board_on_the_floor_that_gives_the_world_its_place) {
-    std::vector<BoardPattern> patterns(2, chessboard_pattern("5x4", 0.15));
-    for (BoardPattern& pattern : patterns) {
-        pattern.kind = BoardKind::charuco;
-        pattern.marker_m = 0.105;
-        pattern.dictionary = "4X4_50";
-    }
-    patterns[1].first_marker = 20;
+    const std::vector<BoardPattern> patterns = floor_and_hand_board();
     save_board(file("floor.toml"), patterns[0]);
     save_board(file("hand.toml"), patterns[1]);
     RenderedStage stage(patterns, 480, 9);
