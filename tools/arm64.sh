@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds for computers with a 64-bit ARM processor on another computer: the Debian packages in build/arm64/packages, and
-# the tests of the rig's wire, threads, capture, clocks and files, which it runs under qemu-user.
+# the tests of the rig's wire, threads, clocks and files, which it runs under qemu-user.
 #   tools/arm64.sh        vantage-rig, vantage and vantage-calib
 #   tools/arm64.sh rig    only vantage-rig: what a rig computer needs
 # The packages are for the Debian release that this computer runs.
