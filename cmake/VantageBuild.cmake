@@ -38,6 +38,7 @@ endif()
 
 # Lets a library stand before its first source file does.
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cpp CONTENT "")
+
 # The headers that most sources come to include take most of the time to compile them: they are read once for the
 # libraries and once, with GoogleTest, for the tests.
 function(vantage_precompiled name)
@@ -119,8 +120,8 @@ function(vantage_unit_test name)
   add_dependencies(vantage_unit_tests ${name})
   if("threads" IN_LIST ARG_LABELS)
     add_dependencies(vantage_thread_tests ${name})
-    add_dependencies(vantage_arm64_tests ${name})
-  elseif("arm64" IN_LIST ARG_LABELS)
+  endif()
+  if(ARG_LABELS MATCHES "threads|arm64")
     add_dependencies(vantage_arm64_tests ${name})
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.

@@ -9,12 +9,11 @@ mkdir -p "${1:?arm64_sysroot.sh FOLDER}"
 root=$(cd "$1" && pwd)
 
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
-packages=() backported=()
+packages=()
 while read -r name flags; do
   case "$name" in lib* | *-dev) ;; *) continue ;; esac
   case " $flags " in *' amd64 '*) continue ;; esac
   packages+=("$name")
-  case " $flags " in *' backports '*) backported+=("$name") ;; esac
 done <packages.txt
 
 stamp="$codename $(cat tools/arm64_sysroot.sh packages.txt | cksum)"

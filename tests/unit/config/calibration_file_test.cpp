@@ -2,14 +2,13 @@
 
 #include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/config/saved_file.h"
 
 namespace vantage {
 namespace {
@@ -43,20 +42,10 @@ StereoCalibration odd_calibration() {
     return c;
 }
 
-class CalibrationFileTest : public testing::Test {
+class CalibrationFileTest : public SavedFile {
   protected:
-    std::string text() const {
-        std::ostringstream out;
-        out << std::ifstream(file_).rdbuf();
-        return out.str();
-    }
-    void replace(const std::string& from, const std::string& to) {
-        std::string content = text();
-        const std::size_t at = content.find(from);
-        ASSERT_NE(at, std::string::npos) << from;
-        content.replace(at, from.size(), to);
-        std::ofstream(file_) << content;
-    }
+    CalibrationFileTest() : SavedFile("calib.yaml") {}
+
     std::string fault() const {
         std::string sentence = thrown_sentence([&] { load_calibration(file_); });
         const std::string prefix = file_.string() + ": ";
@@ -67,8 +56,6 @@ class CalibrationFileTest : public testing::Test {
         save_calibration(file_, c, record_);
     }
 
-    TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "calib.yaml";
     CalibrationRecord record_ = {.date = "2026-01-02T03:04:05Z",
                                  .tool = "vantage-calib \"stereo\" 1",
                                  .rms_px = 0.21,

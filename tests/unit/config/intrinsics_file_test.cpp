@@ -1,32 +1,20 @@
 #include "common/config/intrinsics_file.h"
 
-#include <fstream>
-#include <sstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/config/saved_file.h"
 
 namespace vantage {
 namespace {
 
-class IntrinsicsFileTest : public testing::Test {
+class IntrinsicsFileTest : public SavedFile {
   protected:
+    IntrinsicsFileTest() : SavedFile("left.yaml") {}
+
     void save() const { save_intrinsics(file_, camera_, record_); }
-    std::string text() const {
-        std::ostringstream out;
-        out << std::ifstream(file_).rdbuf();
-        return out.str();
-    }
-    void replace(const std::string& from, const std::string& to) const {
-        std::string content = text();
-        const std::size_t at = content.find(from);
-        ASSERT_NE(at, std::string::npos) << from;
-        std::ofstream(file_) << content.replace(at, from.size(), to);
-    }
     std::string fault() const {
         return thrown_sentence([this] { load_intrinsics(file_); });
     }
@@ -48,8 +36,6 @@ class IntrinsicsFileTest : public testing::Test {
                                        .cx_px = 1,
                                        .cy_px = 2,
                                        .distortion = {0.1, 0.2, 0.3, 0.4, 0.5}}};
-    TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "left.yaml";
 };
 
 TEST_F(IntrinsicsFileTest, GivesBackEveryBit) {
