@@ -5,6 +5,11 @@
 // What lies behind the picture has no permeability and does no harm.
 #include "perm_common.glsl"
 
+// 1: costs are given, a byte each as sums are, slab after slab.
+#ifndef GIVEN
+#define GIVEN 0
+#endif
+
 #if LANE_MAPPING == LANES_DISPARITIES
 #define SUMS uvec2  // half a slab an invocation
 #define REACH 8
@@ -16,8 +21,13 @@
 #endif
 
 layout(local_size_x = LANES) in;
+#if GIVEN
+layout(std430, binding = 0) readonly buffer Costs { SUMS costs[]; };
+uniform int plane;  // pixels of a slab of costs
+#else
 layout(std430, binding = 0) readonly buffer LeftFeatures { uvec4 left_features[]; };
 layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
+#endif
 layout(std430, binding = 2) readonly buffer Permeability { uint permeability[]; };  // a byte each
 layout(std430, binding = 3) buffer Volume { SUMS volume[]; };
 layout(std430, binding = 4) buffer Marks { uvec4 marks[]; };  // the sums from the left of a step
@@ -25,6 +35,20 @@ uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
 
+#if GIVEN
+// What a pixel has to be compared by are its costs.
+#define LEFT SUMS
+#define COSTS_A(l, pixel) pairs_of(l.xy)
+#define COSTS_B(l, pixel) pairs_of(l.zw)
+#define LEFT_WORDS                                                                      \
+    int costs_at = (first_disparity >> 4) * plane * (3 - PARTS) + SUMS_AT(x);           \
+    LEFT l0 = costs[costs_at], l1 = costs[costs_at + 3 - PARTS];                        \
+    LEFT l2 = costs[costs_at + 2 * (3 - PARTS)], l3 = costs[costs_at + 3 * (3 - PARTS)];
+#else
+#define LEFT uint
+#define LEFT_WORDS                                      \
+    uvec4 l = left_features[(row + x) >> 2];            \
+    LEFT l0 = l.x, l1 = l.y, l2 = l.z, l3 = l.w;
 // The right-hand words that four pixels see: column x - shift - REACH + i of pixel column x is R(i).
 uvec4 r0, r1, r2, r3, r4;
 #define R(i) ((i) < 4 ? r0 : (i) < 8 ? r1 : (i) < 12 ? r2 : (i) < 16 ? r3 : r4)[(i) & 3]
@@ -34,6 +58,7 @@ uvec4 r0, r1, r2, r3, r4;
 #define COSTS_B(l, pixel) COSTS(l, REACH - 8 + pixel)
 
 uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
+#endif
 
 uvec4 permeabilities(int at) {
     uint four = permeability[at >> 2];
@@ -79,27 +104,32 @@ void main() {
 #endif
     if (y >= size.y) return;
     int row = y * stride, last = (size.x - 1) & ~3;
+#if !GIVEN
     r0 = r1 = r2 = r3 = r4 = uvec4(outside_word);
+#endif
     a = b = uvec4(0u);
 
     for (int x = 0; x <= last; x += 4) {
-#if LANE_MAPPING == LANES_DISPARITIES
+#if GIVEN
+#elif LANE_MAPPING == LANES_DISPARITIES
         r0 = r1, r1 = r2, r2 = right_at(row, x - shift);
 #else
         r0 = r1, r1 = r2, r2 = r3, r3 = r4, r4 = right_at(row, x - shift);
 #endif
-        uvec4 l = left_features[(row + x) >> 2], m = permeabilities(row + x);
+        LEFT_WORDS
+        uvec4 m = permeabilities(row + x);
         marks[MARK_AT(x)] = a;
 #if PARTS == 2
         marks[MARK_AT(x) + 1] = b;
 #endif
-        FORTH(0, l.x, m.x) FORTH(1, l.y, m.y) FORTH(2, l.z, m.z) FORTH(3, l.w, m.w)
+        FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w)
     }
 
     // The words slide the other way.
     back_a = back_b = uvec4(0u);
     for (int x = last; x >= 0; x -= 4) {
-        uvec4 l = left_features[(row + x) >> 2], m = permeabilities(row + x);
+        LEFT_WORDS
+        uvec4 m = permeabilities(row + x);
         int at = SUMS_AT(x);
         a = marks[MARK_AT(x)];
 #if PARTS == 2
@@ -107,13 +137,15 @@ void main() {
 #endif
         uvec4 own_a0, own_a1, own_a2, own_a3, own_b0, own_b1, own_b2, own_b3;
         uvec4 a0, a1, a2, a3, b0, b1, b2, b3;
-        FORTH_AGAIN(0, l.x, m.x, own_a0, own_b0, a0, b0) FORTH_AGAIN(1, l.y, m.y, own_a1, own_b1, a1, b1)
-        FORTH_AGAIN(2, l.z, m.z, own_a2, own_b2, a2, b2) FORTH_AGAIN(3, l.w, m.w, own_a3, own_b3, a3, b3)
+        FORTH_AGAIN(0, l0, m.x, own_a0, own_b0, a0, b0) FORTH_AGAIN(1, l1, m.y, own_a1, own_b1, a1, b1)
+        FORTH_AGAIN(2, l2, m.z, own_a2, own_b2, a2, b2) FORTH_AGAIN(3, l3, m.w, own_a3, own_b3, a3, b3)
         BACK(3, m.w, own_a3, own_b3, a3, b3) BACK(2, m.z, own_a2, own_b2, a2, b2)
         BACK(1, m.y, own_a1, own_b1, a1, b1) BACK(0, m.x, own_a0, own_b0, a0, b0)
+#if !GIVEN
 #if LANE_MAPPING != LANES_DISPARITIES
         r4 = r3, r3 = r2;
 #endif
         r2 = r1, r1 = r0, r0 = right_at(row, x - 4 - shift - REACH);
+#endif
     }
 }

@@ -1,10 +1,5 @@
-// Half the size: the rounded mean of 2x2 lumas, in the same padded form. With SHIFTED 1 of the picture whose rows are
-// put where votes say that they should lie.
+// Half the size: the rounded mean of 2x2 lumas, in the same padded form.
 #include "stereo_common.glsl"
-
-#ifndef SHIFTED
-#define SHIFTED 0
-#endif
 
 layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer Fine { uint fine[]; };
@@ -14,26 +9,19 @@ uniform int fine_row_words;
 uniform ivec2 coarse_size;
 uniform int coarse_row_words;
 
-#if SHIFTED
-#include "row_shift.glsl"
-#endif
-int shift = 0;
-uint fine_word(int y, int word) { return fine[clamp(y + shift, 0, fine_size.y - 1) * fine_row_words + word]; }
+uint fine_word(int y, int word) { return fine[min(y, fine_size.y - 1) * fine_row_words + word]; }
 
 uint mean_of(int x, int y) {
     int xf = 2 * clamp(x, 0, coarse_size.x - 1);
     // Pixel xf is byte xf % 4 of word xf / 4 + 1; its partner is in the same word.
     int word = (xf >> 2) + 1, first = xf & 3;
-    uint a = fine_word(2 * y, word), b = fine_word(min(2 * y + 1, fine_size.y - 1), word);
+    uint a = fine_word(2 * y, word), b = fine_word(2 * y + 1, word);
     return (byte_of(a, first) + byte_of(a, first + 1) + byte_of(b, first) + byte_of(b, first + 1) + 2u) >> 2;
 }
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= coarse_row_words || at.y >= coarse_size.y) return;
-#if SHIFTED
-    shift = row_shift();
-#endif
     int x = (at.x - 1) * 4;
     coarse[at.y * coarse_row_words + at.x] = mean_of(x, at.y) | (mean_of(x + 1, at.y) << 8) |
                                              (mean_of(x + 2, at.y) << 16) | (mean_of(x + 3, at.y) << 24);

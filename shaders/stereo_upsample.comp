@@ -1,15 +1,13 @@
 // Twice the size. Where a coarse pixel's four neighbours are all near it, disparity lies on the plane through them.
-// Else each pixel takes the disparity of that one of the five which is near, looks most like it, and matches best at
-// full size, so that depth edges move to where they are. One invocation four coarse pixels, 8x2 results.
-#include "perm_common.glsl"
+// Else each pixel takes the disparity of that one of the five which is near and looks most like it, so that depth edges
+// move to where they are. One invocation four coarse pixels, 8x2 results.
+#include "stereo_common.glsl"
 
 layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer CoarseDisparity { uvec4 coarse_disparity[]; };
 layout(std430, binding = 1) readonly buffer CoarseLuma { uint coarse_luma[]; };
 layout(std430, binding = 2) readonly buffer FineLuma { uint fine_luma[]; };
 layout(std430, binding = 3) writeonly buffer FineDisparity { uvec4 fine_disparity[]; };
-layout(std430, binding = 4) readonly buffer LeftFeatures { uvec4 left_features[]; };
-layout(std430, binding = 5) readonly buffer RightFeatures { uint right_features[]; };
 uniform ivec2 coarse_size;
 uniform int coarse_stride;
 uniform int coarse_row_words;
@@ -25,16 +23,14 @@ struct Cross {
     int luma_here, luma_left, luma_right, luma_above, luma_below;
 };
 
-// A candidate is as unlike as it is far (in quarters of a coarse pixel), looks different, and matches badly.
-#define TRY(d, l, far)                                                                          \
-    {                                                                                           \
-        int x_right = x - int(((d & 0xffffu) + 8u) >> 4);                                       \
-        uint right = x_right >= 0 ? right_features[row + max(x_right, 0)] : outside_word;       \
-        int unlike = abs(luma - (l)) + (far) + 3 * int(cost_of(left, right));                   \
-        if (unlike < least) best = (d);                                                         \
-        least = min(least, unlike);                                                             \
+// A candidate is as unlike as it is far (in quarters of a coarse pixel) and looks different.
+#define TRY(d, l, far)                          \
+    {                                           \
+        int unlike = abs(luma - (l)) + (far);   \
+        if (unlike < least) best = (d);         \
+        least = min(least, unlike);             \
     }
-uint chosen(Cross c, uint left, int luma, int row, int x, int i, int j) {
+uint chosen(Cross c, int luma, int i, int j) {
     int left_far = i == 0 ? 4 : 6, right_far = 10 - left_far, above_far = j == 0 ? 4 : 6, below_far = 10 - above_far;
     int least = 1 << 20;
     uint best = 0u;
@@ -56,11 +52,11 @@ uint on_plane(uint here, uint beside, uint beyond) {
 }
 
 // Two pixels of a row.
-uvec2 two(Cross c, bool flat_here, uvec2 left, uvec2 luma, int row, int x, int j) {
+uvec2 two(Cross c, bool flat_here, uvec2 luma, int j) {
     uint vertical = j == 0 ? c.above : c.below;
     uvec2 result = uvec2(on_plane(c.here, c.left, vertical), on_plane(c.here, c.right, vertical));
     if (!flat_here)
-        result = uvec2(chosen(c, left.x, int(luma.x), row, x, 0, j), chosen(c, left.y, int(luma.y), row, x + 1, 1, j));
+        result = uvec2(chosen(c, int(luma.x), 0, j), chosen(c, int(luma.y), 1, j));
     return result;
 }
 
@@ -102,13 +98,10 @@ void main() {
         if (fine_y >= fine_size.y) return;
         int fine_word = fine_y * fine_row_words + (fine_x >> 2) + 1, row = fine_y * fine_stride;
         int at = (row + fine_x) >> 2;
-        uvec4 luma = bytes_of_word(fine_luma[fine_word]), left = left_features[at];
-        fine_disparity[at] = uvec4(two(a, a_flat, left.xy, luma.xy, row, fine_x, j),
-                                   two(b, b_flat, left.zw, luma.zw, row, fine_x + 2, j));
+        uvec4 luma = bytes_of_word(fine_luma[fine_word]);
+        fine_disparity[at] = uvec4(two(a, a_flat, luma.xy, j), two(b, b_flat, luma.zw, j));
         if (fine_x + 4 >= fine_stride) continue;
         luma = bytes_of_word(fine_luma[fine_word + 1]);
-        left = left_features[at + 1];
-        fine_disparity[at + 1] = uvec4(two(c, c_flat, left.xy, luma.xy, row, fine_x + 4, j),
-                                       two(d, d_flat, left.zw, luma.zw, row, fine_x + 6, j));
+        fine_disparity[at + 1] = uvec4(two(c, c_flat, luma.xy, j), two(d, d_flat, luma.zw, j));
     }
 }

@@ -1,4 +1,7 @@
 #include "rig_firmware/stereo/engine_matcher.h"
+#include "rig_firmware/stereo/passes/halve_pass.h"
+#include "rig_firmware/stereo/passes/halved_cost_pass.h"
+#include "rig_firmware/stereo/passes/halved_cost_reference.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/sgm_pass.h"
 #include "rig_firmware/stereo/passes/upsample_pass.h"
@@ -6,25 +9,13 @@
 namespace vantage {
 namespace {
 
-StereoLayout halved_layout(const MatchSettings& settings) {
-    return {(settings.width_px + 1) / 2, (settings.height_px + 1) / 2};
-}
-
-/// The whole search range on the half-size pair (an eighth of the volume), then full-size edges.
+/// The whole search range on a grid of half the size (an eighth of the volume), with the costs of
+/// full-size pixels; then full-size edges.
 class CoarseMatcher : public EngineMatcher {
   public:
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings)
-        : EngineMatcher(library, settings),
-          fine_features_(library, layout_of(settings), sigma, settings.disparities),
-          luma_(library, halved_layout(settings)),
-          features_(library, halved_layout(settings), sigma, 0),
-          perm_(library, halved_layout(settings), (settings.disparities + 1) / 2,
-                PermOutput::costs),
-          paths_(library, halved_layout(settings), (settings.disparities + 1) / 2,
-                 {.p1 = 4, .p2 = 20, .columns = false}, perm_.large_scratch(),
-                 perm_.small_scratch()),
-          check_(library, halved_layout(settings), settings.fill),
-          upsample_(library, halved_layout(settings), layout_of(settings)) {}
+        : CoarseMatcher(library, settings, layout_of(settings), halved(layout_of(settings)),
+                        halved_disparities(settings.disparities)) {}
 
     std::size_t cost_volume_bytes() const override {
         return perm_.volume_bytes() + paths_.volume_bytes();
@@ -32,26 +23,41 @@ class CoarseMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 6;
+    static constexpr double sigma = 4.5;
 
-    const Buffer& search(PassProfiler& profiler, const LumaPass& fine_luma) override {
-        fine_features_.run_words(profiler, fine_luma);
-        luma_.run_halved(profiler, fine_luma, fine_features_.row_shift_votes());
-        features_.run(profiler, luma_);
-        perm_.run(profiler, features_);
+    CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
+                  const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities)
+        : EngineMatcher(library, settings),
+          features_(library, fine, settings.disparities),
+          halve_(library, fine),
+          permeability_(library, coarse, sigma),
+          cost_(library, fine, settings.disparities),
+          perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
+          paths_(library, coarse, coarse_disparities, {.p1 = 4, .p2 = 20, .columns = false},
+                 perm_.large_scratch(), perm_.small_scratch()),
+          check_(library, coarse, settings.fill),
+          upsample_(library, coarse, fine) {}
+
+    const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
+        features_.run(profiler, luma);
+        halve_.run(profiler, luma.left());
+        permeability_.run(profiler, halve_.luma());
+        cost_.run(profiler, features_, perm_.costs());
+        perm_.run(profiler, permeability_);
         paths_.run(profiler, perm_.costs());
-        upsample_.run(profiler, check_.run(profiler, paths_.winners(), nullptr), luma_.left(),
-                      fine_luma.left(), fine_features_);
+        upsample_.run(profiler, check_.run(profiler, paths_.winners(), nullptr), halve_.luma(),
+                      luma.left());
         return upsample_.disparity();
     }
     std::size_t search_bytes() const override {
-        return fine_features_.gpu_bytes() + luma_.gpu_bytes() + features_.gpu_bytes() +
+        return features_.gpu_bytes() + halve_.gpu_bytes() + permeability_.gpu_bytes() +
                perm_.gpu_bytes() + paths_.gpu_bytes() + check_.gpu_bytes() + upsample_.gpu_bytes();
     }
 
-    FeaturePass fine_features_;
-    LumaPass luma_;
     FeaturePass features_;
+    HalvePass halve_;
+    PermeabilityPass permeability_;
+    HalvedCostPass cost_;
     PermPass perm_;
     SgmPass paths_;
     CheckAndFill check_;
@@ -62,7 +68,7 @@ class CoarseMatcher : public EngineMatcher {
 
 MatcherEntry coarse_matcher_entry() {
     return engine_entry<CoarseMatcher>(
-        "coarse", "perm on the half-size pair, snapped to the edges of the full-size picture");
+        "coarse", "perm_sgm on a grid of half the size, snapped to the edges of the picture");
 }
 
 }  // namespace vantage

@@ -9,7 +9,8 @@ class PermMatcher : public EngineMatcher {
   public:
     PermMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), sigma, settings.disparities),
+          features_(library, layout_of(settings), settings.disparities),
+          permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities),
           check_(library, layout_of(settings), settings.fill) {}
 
@@ -21,14 +22,17 @@ class PermMatcher : public EngineMatcher {
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);
-        perm_.run(profiler, features_);
+        permeability_.run(profiler, luma.left());
+        perm_.run(profiler, features_, permeability_);
         return check_.run(profiler, perm_.winners(), &perm_.weight());
     }
     std::size_t search_bytes() const override {
-        return features_.gpu_bytes() + perm_.gpu_bytes() + check_.gpu_bytes();
+        return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +
+               check_.gpu_bytes();
     }
 
     FeaturePass features_;
+    PermeabilityPass permeability_;
     PermPass perm_;
     CheckAndFill check_;
 };

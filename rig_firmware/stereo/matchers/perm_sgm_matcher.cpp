@@ -11,7 +11,8 @@ class PermSgmMatcher : public EngineMatcher {
   public:
     PermSgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), sigma, settings.disparities),
+          features_(library, layout_of(settings), settings.disparities),
+          permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
           paths_(library, layout_of(settings), settings.disparities,
                  {.p1 = 7, .p2 = 30, .columns = false}, perm_.large_scratch(),
@@ -28,15 +29,18 @@ class PermSgmMatcher : public EngineMatcher {
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);
-        perm_.run(profiler, features_);
+        permeability_.run(profiler, luma.left());
+        perm_.run(profiler, features_, permeability_);
         paths_.run(profiler, perm_.costs());
         return check_.run(profiler, paths_.winners(), nullptr);
     }
     std::size_t search_bytes() const override {
-        return features_.gpu_bytes() + perm_.gpu_bytes() + paths_.gpu_bytes() + check_.gpu_bytes();
+        return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +
+               paths_.gpu_bytes() + check_.gpu_bytes();
     }
 
     FeaturePass features_;
+    PermeabilityPass permeability_;
     PermPass perm_;
     SgmPass paths_;
     CheckAndFill check_;

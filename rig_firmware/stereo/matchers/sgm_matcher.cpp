@@ -9,7 +9,7 @@ class SgmMatcher : public EngineMatcher {
   public:
     SgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), 1, settings.disparities),
+          features_(library, layout_of(settings), settings.disparities),
           cost_(library, layout_of(settings), settings.disparities, 1),
           paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
           check_(library, layout_of(settings), settings.fill) {}
@@ -20,7 +20,7 @@ class SgmMatcher : public EngineMatcher {
 
   private:
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
-        features_.run_words(profiler, luma);
+        features_.run(profiler, luma);
         cost_.run(profiler, features_);
         paths_.run(profiler, cost_.costs());
         return check_.run(profiler, paths_.winners(), nullptr);

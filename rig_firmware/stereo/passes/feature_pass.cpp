@@ -8,15 +8,9 @@ namespace {
 /// Of the census, which slides its neighbourhood down the picture.
 constexpr int rows_an_invocation = 16;
 
-/// Of four rows, whose permeabilities are words.
-std::size_t row_groups(const StereoLayout& layout) {
-    return static_cast<std::size_t>((layout.height_px + 3) / 4);
-}
-
 }  // namespace
 
-FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, double sigma,
-                         int disparities)
+FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities)
     : layout_(layout),
       disparities_(disparities),
       features_program_(Program::compute(library, "stereo_features.comp",
@@ -26,14 +20,8 @@ FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layou
                            {{"ROWS", std::to_string(rows_an_invocation)}, {"SHIFTED", "1"}})),
       clear_program_(Program::compute(library, "stereo_clear.comp")),
       votes_program_(Program::compute(library, "row_shift_votes.comp")),
-      median_program_(Program::compute(library, "stereo_median_luma.comp")),
-      permeability_program_(Program::compute(library, "stereo_permeability.comp")),
-      guide_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
       left_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       right_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
-      along_(layout.pixels(), GL_DYNAMIC_COPY),
-      down_(row_groups(layout) * static_cast<std::size_t>(layout.stride_px()) * 4, GL_DYNAMIC_COPY),
-      table_(Buffer::of<std::uint32_t>(permeability_table(sigma))),
       votes_(8 * 4, GL_DYNAMIC_COPY) {}
 
 void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& words) {
@@ -47,14 +35,13 @@ void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& w
                           (layout_.height_px + rows_an_invocation - 1) / rows_an_invocation);
 }
 
-void FeaturePass::run_words(PassProfiler& profiler, const LumaPass& luma) {
+void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
     const std::size_t pixels = layout_.pixels();
     profiler.run("census and gradient", {pixels * 10, static_cast<double>(pixels) * 220}, [&] {
         features(features_program_, luma.left(), left_features_);
         features(features_program_, luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
-    if (disparities_ == 0) return;
     constexpr std::size_t sampling = 8 * 16;
     const std::size_t compared = pixels / sampling * static_cast<std::size_t>(disparities_) * 5;
     profiler.run("row shift", {compared * 4, static_cast<double>(compared) * 4}, [&] {
@@ -78,34 +65,8 @@ void FeaturePass::run_words(PassProfiler& profiler, const LumaPass& luma) {
     });
 }
 
-void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
-    run_words(profiler, luma);
-    const std::size_t pixels = layout_.pixels();
-    profiler.run("permeability", {pixels * 7, static_cast<double>(pixels) * 55}, [&] {
-        median_program_.use();
-        median_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        median_program_.set("row_words", layout_.luma_row_words());
-        luma.left().bind_storage(0);
-        guide_.bind_storage(1);
-        median_program_.dispatch_over(layout_.luma_row_words(), layout_.height_px);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        permeability_program_.use();
-        permeability_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        permeability_program_.set("row_words", layout_.luma_row_words());
-        permeability_program_.set("stride", layout_.stride_px());
-        guide_.bind_storage(0);
-        along_.bind_storage(1);
-        down_.bind_storage(2);
-        table_.bind_storage(3);
-        permeability_program_.dispatch_over(layout_.stride_px() / 4,
-                                            static_cast<int>(row_groups(layout_)));
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    });
-}
-
 std::size_t FeaturePass::gpu_bytes() const {
-    return guide_.bytes() + left_features_.bytes() + right_features_.bytes() + along_.bytes() +
-           down_.bytes() + table_.bytes() + votes_.bytes();
+    return left_features_.bytes() + right_features_.bytes() + votes_.bytes();
 }
 
 }  // namespace vantage

@@ -15,9 +15,6 @@ class LumaPass {
 
     /// From rgba8 textures of the layout's size.
     void run(PassProfiler& profiler, const Texture& left, const Texture& right);
-    /// From a layout of twice this size (rounded up), the right picture with its rows put where
-    /// FeaturePass's votes say that they should lie.
-    void run_halved(PassProfiler& profiler, const LumaPass& fine, const Buffer& row_shift_votes);
 
     const Buffer& left() const { return left_; }
     const Buffer& right() const { return right_; }
@@ -25,7 +22,7 @@ class LumaPass {
 
   private:
     StereoLayout layout_;
-    Program luma_program_, halve_program_, halve_shifted_program_;
+    Program program_;
     Buffer left_, right_;
 };
 

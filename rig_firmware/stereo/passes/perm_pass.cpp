@@ -17,14 +17,20 @@ ShaderDefines column_defines(PermOutput output, int valid) {
     return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
 }
 
+ShaderDefines row_defines(PermCosts costs) {
+    ShaderDefines defines = lane_defines();
+    defines.emplace_back("GIVEN", costs == PermCosts::given ? "1" : "0");
+    return defines;
+}
+
 }  // namespace
 
 PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                   PermOutput output)
+                   PermOutput output, PermCosts costs)
     : layout_(layout),
       disparities_(disparities),
       kind_(output),
-      rows_(Program::compute(library, "perm_rows.comp", lane_defines())),
+      rows_(Program::compute(library, "perm_rows.comp", row_defines(costs))),
       full_columns_(
           Program::compute(library, "perm_columns.comp", column_defines(output, slab_disparities))),
       last_columns_(Program::compute(library, "perm_columns.comp",
@@ -68,30 +74,40 @@ void PermPass::run_line_pass(Program& program, int lines, int first_disparity) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void PermPass::run(PassProfiler& profiler, const FeaturePass& features) {
+void PermPass::run(PassProfiler& profiler, const FeaturePass& features,
+                   const PermeabilityPass& permeability) {
+    run(profiler, &features, permeability);
+}
+
+void PermPass::run(PassProfiler& profiler, const PermeabilityPass& permeability) {
+    run(profiler, nullptr, permeability);
+}
+
+void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
+                   const PermeabilityPass& permeability) {
     const std::size_t pixels = layout_.pixels();
     const double evaluations = static_cast<double>(pixels) * slab_disparities;
     const int row_lanes =
         lane_mapping() == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
     profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
-        features.permeability_along().bind_storage(0);
+        permeability.along().bind_storage(0);
         weight_.bind_storage(1);
         run_line_pass(weight_rows_, layout_.height_px, 0);
-        features.permeability_down().bind_storage(0);
+        permeability.down().bind_storage(0);
         run_line_pass(weight_columns_, layout_.stride_px() / 4, 0);
     });
     for (int first = 0; first < disparities_; first += slab_disparities) {
         profiler.run("cost and rows", {pixels * (16 + 2 * 8 + 24), evaluations * 32}, [&] {
-            features.left_features().bind_storage(0);
-            features.right_features().bind_storage(1);
-            features.permeability_along().bind_storage(2);
+            (features ? features->left_features() : output_).bind_storage(0);
+            if (features) features->right_features().bind_storage(1);
+            permeability.along().bind_storage(2);
             volume_.bind_storage(3);
             down_.bind_storage(4);
             run_line_pass(rows_, row_lanes, first);
         });
         profiler.run(
             "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 17}, [&] {
-                features.permeability_down().bind_storage(0);
+                permeability.down().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);
                 output_.bind_storage(3);

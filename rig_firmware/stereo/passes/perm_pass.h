@@ -7,6 +7,7 @@
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
+#include "rig_firmware/stereo/passes/permeability_pass.h"
 #include "rig_firmware/stereo/passes/stereo_layout.h"
 
 namespace vantage {
@@ -17,6 +18,13 @@ enum class PermOutput {
     costs,    ///< a cost of a byte a disparity, divided by the pixel's weight, for SgmPass
 };
 
+/// Where PermPass has the matching costs from.
+enum class PermCosts {
+    found,  ///< from feature words, as it goes
+    given,  ///< in costs() before run(): 16 bytes a pixel in the order of perm_common.glsl, pixels
+            ///< in blocks, slab after slab; of PermOutput::costs, which replace them
+};
+
 /// Cost, permeability aggregation and winner takes all over the whole search range. Aggregation
 /// does not mix disparities, so that slabs follow one another and only the winner so far stays.
 /// After C. Cigla, A. A. Alatan, "Information permeability for stereo matching", Signal Processing:
@@ -24,9 +32,12 @@ enum class PermOutput {
 class PermPass {
   public:
     PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-             PermOutput output = PermOutput::winners);
+             PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found);
 
-    void run(PassProfiler& profiler, const FeaturePass& features);
+    void run(PassProfiler& profiler, const FeaturePass& features,
+             const PermeabilityPass& permeability);
+    /// Of PermCosts::given.
+    void run(PassProfiler& profiler, const PermeabilityPass& permeability);
 
     /// uvec2 a pixel in blocks (StereoLayout), see winner_takes_all.glsl; of PermOutput::winners.
     const Buffer& winners() const { return output_; }
@@ -44,6 +55,8 @@ class PermPass {
     std::size_t gpu_bytes() const;
 
   private:
+    void run(PassProfiler& profiler, const FeaturePass* features,
+             const PermeabilityPass& permeability);
     void run_line_pass(Program& program, int lines, int first_disparity);
 
     StereoLayout layout_;

@@ -120,11 +120,21 @@ Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_feat
 
 std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                   const cv::Mat1b& permeability, int disparities) {
-    const cv::Mat1i weight = weight_of(permeability);
     std::vector<cv::Mat1b> costs;
-    for (int d = 0; d < disparities; ++d) {
-        const cv::Mat1i sums = perm_sums(left_features, right_features, permeability, d);
-        cv::Mat1b& codes = costs.emplace_back(sums.size());
+    for (int d = 0; d < disparities; ++d)
+        matching_cost(left_features, right_features, d).convertTo(costs.emplace_back(), CV_8U);
+    return perm_costs(costs, permeability);
+}
+
+std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
+                                  const cv::Mat1b& permeability) {
+    const cv::Mat1i weight = weight_of(permeability);
+    std::vector<cv::Mat1b> result;
+    for (const cv::Mat1b& picture : costs) {
+        cv::Mat1i sums;
+        picture.convertTo(sums, CV_32S);
+        permeate_picture(sums, permeability);
+        cv::Mat1b& codes = result.emplace_back(sums.size());
         for (int y = 0; y < sums.rows; ++y)
             for (int x = 0; x < sums.cols; ++x) {
                 const CostScale by = scale_of(weight(y, x));
@@ -132,7 +142,7 @@ std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1
                     static_cast<unsigned char>(((sums(y, x) >> by.shift) * by.factor) >> 8);
             }
     }
-    return costs;
+    return result;
 }
 
 }  // namespace vantage

@@ -32,6 +32,10 @@ inline constexpr int most_perm_code = 48;
 std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                   const cv::Mat1b& permeability, int disparities);
 
+/// The same from given costs, a picture a disparity.
+std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
+                                  const cv::Mat1b& permeability);
+
 /// Truncated census distance plus truncated gradient difference of two feature words, 0..26.
 int feature_cost(int left, int right);
 

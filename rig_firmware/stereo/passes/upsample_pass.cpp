@@ -10,10 +10,9 @@ UpsamplePass::UpsamplePass(const ShaderLibrary& library, const StereoLayout& coa
       disparity_(fine.pixels() * 4, GL_DYNAMIC_COPY) {}
 
 void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
-                       const Buffer& coarse_luma, const Buffer& fine_luma,
-                       const FeaturePass& fine_features) {
+                       const Buffer& coarse_luma, const Buffer& fine_luma) {
     const std::size_t pixels = fine_.pixels();
-    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 60}, [&] {
+    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 40}, [&] {
         program_.use();
         program_.set("coarse_size", Eigen::Vector2i(coarse_.width_px, coarse_.height_px));
         program_.set("coarse_stride", coarse_.stride_px());
@@ -25,8 +24,6 @@ void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
         coarse_luma.bind_storage(1);
         fine_luma.bind_storage(2);
         disparity_.bind_storage(3);
-        fine_features.left_features().bind_storage(4);
-        fine_features.right_features().bind_storage(5);
         program_.dispatch_over((coarse_.width_px + 3) / 4, coarse_.height_px);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });

@@ -3,24 +3,19 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "rig_firmware/stereo/passes/perm_reference.h"
-
 namespace vantage {
 
 DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_luma,
-                         const FinePictures& fine) {
-    DisparityImage result(fine.left_luma.size());
+                         const GreyImage& fine_luma) {
+    DisparityImage result(fine_luma.size());
     for (int y = 0; y < result.rows; ++y)
         for (int x = 0; x < result.cols; ++x) {
             // In quarters of a coarse pixel: a fine pixel lies a quarter beside its coarse one's
             // middle.
             const auto far = [](int step, int odd) { return std::abs(4 * step - (odd ? 1 : -1)); };
             const auto unlike = [&](int dx, int dy, int cx, int cy) {
-                // Two coarse steps of 1/32 px are one of 1/16 px at full size.
-                const int x_right = x - ((coarse(cy, cx) + 8) >> 4);
-                const int right = x_right >= 0 ? fine.right_features(y, x_right) : outside_feature;
-                return std::abs(fine.left_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
-                       far(dy, y % 2) + 3 * feature_cost(fine.left_features(y, x), right);
+                return std::abs(fine_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
+                       far(dy, y % 2);
             };
             const int own = coarse(y / 2, x / 2);
             const auto beside_at = [&](int dx, int dy) {

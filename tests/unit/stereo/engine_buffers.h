@@ -67,18 +67,28 @@ inline cv::Mat1i as_int(const cv::Mat& image) {
     return result;
 }
 
+/// How 16 disparities lie in their 16 bytes: one after the other, or as perm_common.glsl has them.
+enum class ByteOrder { plain, of_sums };
+
+inline std::size_t byte_of_disparity(std::size_t d, ByteOrder order) {
+    if (order == ByteOrder::plain) return d;
+    const std::size_t in_half = d % 8;
+    return d / 8 * 8 + in_half / 2 % 2 * 4 + in_half % 2 * 2 + in_half / 4;
+}
+
 /// costs: 16 bytes a pixel, pixels in blocks, slab after slab; what lies beyond the last disparity
 /// may be anything.
 inline void expect_equal_costs(const Buffer& buffer, const StereoLayout& layout,
-                               const std::vector<cv::Mat1b>& costs) {
+                               const std::vector<cv::Mat1b>& costs,
+                               ByteOrder order = ByteOrder::plain) {
     std::vector<unsigned char> bytes(buffer.bytes());
     buffer.read(0, std::as_writable_bytes(std::span(bytes)));
     for (int y = 0; y < layout.height_px; ++y)
         for (int x = 0; x < layout.width_px; ++x)
             for (std::size_t d = 0; d < costs.size(); ++d)
-                ASSERT_EQ(
-                    bytes[(d / 16 * layout.block_pixels() + layout.block_at(x, y)) * 16 + d % 16],
-                    costs[d](y, x))
+                ASSERT_EQ(bytes[(d / 16 * layout.block_pixels() + layout.block_at(x, y)) * 16 +
+                                byte_of_disparity(d % 16, order)],
+                          costs[d](y, x))
                     << "disparity " << d << " at " << x << ", " << y;
 }
 

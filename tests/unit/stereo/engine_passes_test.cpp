@@ -6,6 +6,9 @@
 #include "rig_firmware/stereo/passes/feature_pass.h"
 #include "rig_firmware/stereo/passes/fill_pass.h"
 #include "rig_firmware/stereo/passes/fill_reference.h"
+#include "rig_firmware/stereo/passes/halve_pass.h"
+#include "rig_firmware/stereo/passes/halved_cost_pass.h"
+#include "rig_firmware/stereo/passes/halved_cost_reference.h"
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/left_right_reference.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
@@ -23,11 +26,10 @@ namespace {
 
 class EnginePassesTest : public EnginePassTest {
   protected:
-    void expect_permeabilities(const FeaturePass& features, const cv::Mat1b& permeability) const {
-        std::vector<unsigned char> along(features.permeability_along().bytes()),
-            down(features.permeability_down().bytes());
-        features.permeability_along().read(0, std::as_writable_bytes(std::span(along)));
-        features.permeability_down().read(0, std::as_writable_bytes(std::span(down)));
+    void expect_permeabilities(const PermeabilityPass& pass, const cv::Mat1b& permeability) const {
+        std::vector<unsigned char> along(pass.along().bytes()), down(pass.down().bytes());
+        pass.along().read(0, std::as_writable_bytes(std::span(along)));
+        pass.down().read(0, std::as_writable_bytes(std::span(down)));
         for (int y = 0; y < permeability.rows; ++y)
             for (int x = 0; x < permeability.cols; ++x) {
                 const int row_at = y * layout_.stride_px() + x,
@@ -44,10 +46,12 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     left.upload(pair_.left);
     right.upload(pair_.right);
     constexpr double sigma = 20;
-    FeaturePass features(library_, layout_, sigma, GetParam().disparities);
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    PermeabilityPass permeabilities(library_, layout_, sigma);
     LumaPass luma(library_, layout_);
     luma.run(profiler_, left, right);
     features.run(profiler_, luma);
+    permeabilities.run(profiler_, luma.left());
     const cv::Mat1i left_words = feature_words(left_luma_);
     const GreyImage right_rows = rows_shifted(
         right_luma_, row_shift(left_words, feature_words(right_luma_), GetParam().disparities));
@@ -56,10 +60,10 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(channel_of(features.right_features(), layout_, 1, 0), right_words,
                  "right feature");
     const cv::Mat1b permeability = permeability_of(guide_of(left_luma_), permeability_table(sigma));
-    expect_permeabilities(features, permeability);
+    expect_permeabilities(permeabilities, permeability);
 
     PermPass perm(library_, layout_, GetParam().disparities);
-    perm.run(profiler_, features);
+    perm.run(profiler_, features, permeabilities);
     const Winners winners =
         perm_winners(left_words, right_words, permeability, GetParam().disparities);
     expect_equal(channel_of(perm.weight(), layout_, 1, 0), winners.weight, "weight");
@@ -143,8 +147,8 @@ TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
         right.upload(right_picture);
         LumaPass luma(library_, layout_);
         luma.run(profiler_, left, right);
-        FeaturePass features(library_, layout_, 20, GetParam().disparities);
-        features.run_words(profiler_, luma);
+        FeaturePass features(library_, layout_, GetParam().disparities);
+        features.run(profiler_, luma);
         expect_equal(channel_of(features.right_features(), layout_, 1, 0),
                      feature_words(rows_shifted(lower, found)), "right feature");
     }
@@ -152,28 +156,20 @@ TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
 
 TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
-    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     left.upload(pair_.left);
-    ColourImage lower(pair_.right.size());
-    for (int y = 0; y < lower.rows; ++y) pair_.right.row(std::max(y - 1, 0)).copyTo(lower.row(y));
-    right.upload(lower);
-    const GreyImage lower_luma = to_grey(lower);
-    const GreyImage right_luma = rows_shifted(
-        lower_luma,
-        row_shift(feature_words(left_luma_), feature_words(lower_luma), GetParam().disparities));
     LumaPass fine(library_, layout_);
-    fine.run(profiler_, left, right);
-    FeaturePass fine_features(library_, layout_, 20, GetParam().disparities);
-    fine_features.run_words(profiler_, fine);
-    const StereoLayout half{(layout_.width_px + 1) / 2, (layout_.height_px + 1) / 2};
-    LumaPass coarse(library_, half);
-    coarse.run_halved(profiler_, fine, fine_features.row_shift_votes());
-    FeaturePass features(library_, half, 20, 0);
-    features.run(profiler_, coarse);
-    expect_equal(channel_of(features.left_features(), half, 1, 0),
-                 feature_words(halved(left_luma_)), "half-size feature");
-    expect_equal(channel_of(features.right_features(), half, 1, 0),
-                 feature_words(halved(right_luma)), "half-size feature of a picture put right");
+    fine.run(profiler_, left, left);
+    HalvePass halve(library_, layout_);
+    halve.run(profiler_, fine.left());
+    const StereoLayout half = halved(layout_);
+    const GreyImage half_luma = halved(left_luma_);
+    std::vector<unsigned char> bytes(halve.luma().bytes());
+    halve.luma().read(0, std::as_writable_bytes(std::span(bytes)));
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = -4; x < half.width_px + 4; ++x)
+            ASSERT_EQ(bytes[static_cast<std::size_t>(4 * y * half.luma_row_words() + 4 + x)],
+                      half_luma(y, std::clamp(x, 0, half.width_px - 1)))
+                << x << ", " << y;
 
     std::vector<std::uint32_t> words(half.pixels());
     DisparityImage disparity(half.height_px, half.width_px);
@@ -185,20 +181,54 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
             words[static_cast<std::size_t>(y * half.stride_px() + x)] = disparity(y, x) | 77U << 16;
         }
     UpsamplePass upsample(library_, half, layout_);
-    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), coarse.left(), fine.left(),
-                 fine_features);
+    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), halve.luma(), fine.left());
     const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
-    const FinePictures pictures{left_luma_, feature_words(left_luma_), feature_words(right_luma)};
-    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, halved(left_luma_), pictures)),
+    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_luma, left_luma_)),
                  "upsampled");
     expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
+}
+
+TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBitForBit) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    features.run(profiler_, luma);
+    HalvePass halve(library_, layout_);
+    halve.run(profiler_, luma.left());
+    const StereoLayout half = halved(layout_);
+    constexpr double sigma = 5;
+    PermeabilityPass permeabilities(library_, half, sigma);
+    permeabilities.run(profiler_, halve.luma());
+    const auto words_of_even_width = [](const GreyImage& picture) {
+        GreyImage even;
+        cv::copyMakeBorder(picture, even, 0, 0, 0, picture.cols % 2, cv::BORDER_REPLICATE);
+        return feature_words(even);
+    };
+    const std::vector<cv::Mat1b> costs = halved_costs(
+        words_of_even_width(left_luma_), words_of_even_width(right_luma_), GetParam().disparities);
+    HalvedCostPass cost(library_, layout_, GetParam().disparities);
+    PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
+                  PermCosts::given);
+    cost.run(profiler_, features, perm.costs());
+    expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
+    perm.run(profiler_, permeabilities);
+    expect_equal_costs(perm.costs(), half,
+                       perm_costs(costs, permeability_of(guide_of(halved(left_luma_)),
+                                                         permeability_table(sigma))));
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
                          testing::Values(PassCase{61, 47, 13}, PassCase{16, 16, 16},
                                          PassCase{131, 38, 37}, PassCase{311, 239, 21}));
 
-TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
+class PermRows : public testing::TestWithParam<PermCosts> {};
+
+TEST_P(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
+    const bool given = GetParam() == PermCosts::given;
     const EglContext context;
     const ShaderLibrary library;
     const StereoLayout layout{53, 21};
@@ -214,16 +244,21 @@ TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
     const auto left_buffer = Buffer::of<std::uint32_t>(left),
                right_buffer = Buffer::of<std::uint32_t>(right),
                mu_buffer = Buffer::of<unsigned char>(mu);
+    std::vector<unsigned char> costs(layout.block_pixels() * 32);
+    for (unsigned char& cost : costs) cost = static_cast<unsigned char>(random.uniform(0, 27));
+    const auto cost_buffer = Buffer::of<unsigned char>(costs);
     std::vector<std::vector<std::uint32_t>> slabs;
     for (const int lanes : {0, 1}) {
         const Buffer volume(layout.block_pixels() * 16, GL_DYNAMIC_COPY);
-        Program program =
-            Program::compute(library, "perm_rows.comp", {{"LANE_MAPPING", std::to_string(lanes)}});
+        Program program = Program::compute(
+            library, "perm_rows.comp",
+            {{"LANE_MAPPING", std::to_string(lanes)}, {"GIVEN", given ? "1" : "0"}});
         program.use();
+        if (given) program.set("plane", static_cast<int>(layout.block_pixels()));
         program.set("size", Eigen::Vector2i(layout.width_px, layout.height_px));
         program.set("stride", layout.stride_px());
         program.set("first_disparity", 16);
-        left_buffer.bind_storage(0);
+        (given ? cost_buffer : left_buffer).bind_storage(0);
         right_buffer.bind_storage(1);
         mu_buffer.bind_storage(2);
         const Buffer marks(layout.pixels() * 8, GL_DYNAMIC_COPY);
@@ -241,6 +276,8 @@ TEST(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
                 ASSERT_EQ(slabs[0][at], slabs[1][at]) << "word " << i << " of " << x << ", " << y;
             }
 }
+
+INSTANTIATE_TEST_SUITE_P(Costs, PermRows, testing::Values(PermCosts::found, PermCosts::given));
 
 }  // namespace
 }  // namespace vantage

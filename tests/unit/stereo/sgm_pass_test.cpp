@@ -18,6 +18,7 @@ class SgmPassTest : public EnginePassTest {
         right.upload(pair_.right);
         luma_.run(profiler_, left, right);
         features_.run(profiler_, luma_);
+        permeability_.run(profiler_, luma_.left());
     }
 
     void expect_winners(const Buffer& buffer, const Winners& winners) {
@@ -30,7 +31,8 @@ class SgmPassTest : public EnginePassTest {
     }
 
     LumaPass luma_{library_, layout_};
-    FeaturePass features_{library_, layout_, 9, GetParam().disparities};
+    FeaturePass features_{library_, layout_, GetParam().disparities};
+    PermeabilityPass permeability_{library_, layout_, 9};
     const cv::Mat1i left_words_ = feature_words(left_luma_),
                     right_words_ = feature_words(right_luma_);
 };
@@ -50,7 +52,7 @@ TEST_P(SgmPassTest, FourPathsOverTheMatchingCostAgreeWithTheCpuBitForBit) {
 TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
     const SgmSettings settings{.p1 = 4, .p2 = 20, .columns = false};
     PermPass perm(library_, layout_, GetParam().disparities, PermOutput::costs);
-    perm.run(profiler_, features_);
+    perm.run(profiler_, features_, permeability_);
     const std::vector<cv::Mat1b> costs = perm_costs(
         left_words_, right_words_, permeability_of(guide_of(left_luma_), permeability_table(9)),
         GetParam().disparities);

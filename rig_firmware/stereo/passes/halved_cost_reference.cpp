@@ -1,0 +1,33 @@
+#include "rig_firmware/stereo/passes/halved_cost_reference.h"
+
+#include <algorithm>
+
+#include "rig_firmware/stereo/passes/perm_reference.h"
+
+namespace vantage {
+
+std::vector<cv::Mat1b> halved_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                                    int disparities) {
+    const auto least_around = [&](int x, int y, int d) {
+        int least = 26;
+        for (int near = std::max(d - 1, 0); near <= d + 1; ++near)
+            least = std::min(
+                least, feature_cost(left_features(y, x),
+                                    x >= near ? right_features(y, x - near) : outside_feature));
+        return least;
+    };
+    std::vector<cv::Mat1b> costs;
+    for (int d = 0; d < halved_disparities(disparities); ++d) {
+        cv::Mat1b& picture =
+            costs.emplace_back((left_features.rows + 1) / 2, left_features.cols / 2);
+        for (int y = 0; y < picture.rows; ++y)
+            for (int x = 0; x < picture.cols; ++x)
+                picture(y, x) = static_cast<unsigned char>(
+                    (least_around(2 * x + 1, 2 * y, 2 * d) +
+                     least_around(2 * x, std::min(2 * y + 1, left_features.rows - 1), 2 * d) + 1) >>
+                    1);
+    }
+    return costs;
+}
+
+}  // namespace vantage

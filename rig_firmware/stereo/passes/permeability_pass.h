@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/gl/buffer.h"
+#include "common/gl/program.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/passes/stereo_layout.h"
+
+namespace vantage {
+
+/// How much of a sum passes from each pixel of a picture to the next, along rows and down columns.
+class PermeabilityPass {
+  public:
+    /// sigma: grey levels of the guide over which a sum falls to 1/e.
+    PermeabilityPass(const ShaderLibrary& library, const StereoLayout& layout, double sigma);
+
+    /// luma: in LumaPass's form.
+    void run(PassProfiler& profiler, const Buffer& luma);
+
+    /// From the left neighbour: four pixels of a row a word, a byte each of 0..15 sixteenths.
+    const Buffer& along() const { return along_; }
+    /// From the upper neighbour: four rows of a column a word, stride_px words a group of rows.
+    const Buffer& down() const { return down_; }
+    std::size_t gpu_bytes() const {
+        return guide_.bytes() + along_.bytes() + down_.bytes() + table_.bytes();
+    }
+
+  private:
+    StereoLayout layout_;
+    Program median_program_, permeability_program_;
+    Buffer guide_, along_, down_, table_;
+};
+
+}  // namespace vantage
