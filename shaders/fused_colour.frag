@@ -3,13 +3,19 @@
 // there and its distance from depth edges (an unstructured lumigraph: Buehler et al., 2001). Close to a depth edge the
 // two surfaces are mixed by the share that lens and sensor would see of each, and, since depth is least to be trusted
 // there, by how well the rigs' colours agree on either. What only rigs from far aside show counts as seen if some rig
-// has seen that nothing stands before it.
+// has seen that nothing stands before it. The first two rigs are the most useful ones: where one of them sees a
+// place well, and no other from nearly as close, the others have no say.
+#ifndef EDGES
+#define EDGES 1  // 1: for pixels beside depth edges; 0: for those within a surface
+#endif
+#ifndef FIRST_RIGS_ONLY
+#define FIRST_RIGS_ONLY 0  // 1: leaves out the pixels where other rigs than the first two have a say
+#endif
+#include "fused_around.glsl"
 #include "rig_layers.glsl"
 #include "sharp_sample.glsl"
 
-uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = guessed
-uniform float softness;         // relative depth within which two surfaces are one
-uniform float edge_ratio;       // two depths whose ratio is larger lie on two surfaces
+uniform float softness;  // relative depth within which two surfaces are one
 
 layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
@@ -23,6 +29,8 @@ const float hidden_doubt = 0.35;   // it lies behind one that a rig shows right 
 const float decisiveness = 4.0;   // how fast a surface fades with its doubt
 const float blur_px = 0.75;         // standard deviation of what lens and sensor spread
 const float direct_support = 0.01;
+const vec2 well_seen = vec2(0.15, 0.5);  // by one of the first two rigs, from where to where others lose their say
+const vec2 as_close = vec2(0.3, 0.6);    // by which share of those two's closeness others gain it back
 const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's word on what is hidden means little
 
 const float least_share = 0.05;       // of the colour so far, from which on it matters how a rig's picture is resampled
@@ -36,6 +44,8 @@ struct Evidence {
     float through;   // rigs that see through it
     float direct;    // the best support by a rig whose depth map has it right there
     float apart;     // from the nearest line of sight that supports it
+    float say;       // of the next rig, 0..1
+    float seen;      // how well that one sees it that does best, 0..1
 };
 
 // The share of a rig's four pixels around a point that lie on its surface.
@@ -53,7 +63,10 @@ float agreement(sampler2D map, vec2 uv, float z, float tolerance) {
 // As long as a pixel may be of use as a measure of the spread: depth is not exact.
 vec2 limited(vec2 pixel) { return pixel * min(1.0, 1.6 / max(length(pixel), 1e-6)); }
 
-void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slope, bool near_edge, inout Evidence e) {
+float closeness(float away) { return 1.0 / (away + 1e-5); }
+
+void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slope, bool near_edge,
+         bool fine, inout Evidence e) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
@@ -86,7 +99,9 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     vec2 right = limited(across.xy - at * across.z), down = limited(along.xy - at * along.z);
     float finer = clamp(abs(right.x * down.y - right.y * down.x), 0.1, 1.0);
     float away = apart(point, centre[i]);
-    float weight = presence[i] * sure * middle.a * finer * finer * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
+    float seen = presence[i] * sure * middle.a * (smoothstep(0.0, 0.04, inside) + 0.001);
+    float weight = e.say * seen * finer * finer * closeness(away);
+    e.seen = max(e.seen, seen);
     e.apart = min(e.apart, away);
     // The most useful rigs come first; finesse is lost on what hardly counts beside them.
     vec3 c = middle.rgb;
@@ -95,7 +110,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
         c = sharp(picture, uv, lod);
         float share = weight / max(e.weight, 1e-20);
         float finesse = clamp(share / fine_share - 1.0, 0.0, 1.0);
-        if (lod <= smooth_from_lod && finesse > 0.0)
+        if (fine && lod <= smooth_from_lod && finesse > 0.0)
             c = clamp(c + finesse * respread(picture, uv, 1.0 / colour_size[i], right, down, middle.rgb), 0.0, 1.0);
     }
     e.sum += weight * c;
@@ -105,10 +120,38 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     e.rigs += min(40.0 * sure, 1.0);
 }
 
+#if LAYERS > 2
+// What the rigs after the first two have to say of a point that those have been asked about.
+float say_of_others(vec2 pixel, float z, Evidence e) {
+    vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
+    float first = 0.5 * (closeness(apart(point, centre[0])) + closeness(apart(point, centre[1])));
+    float next = closeness(apart(point, centre[2]));
+#if LAYERS > 3
+    next = max(next, closeness(apart(point, centre[3])));
+#endif
+    float are_less_close = 1.0 - smoothstep(as_close.x, as_close.y, next / first);
+    return e.apart > far_aside ? 1.0 : 1.0 - smoothstep(well_seen.x, well_seen.y, e.seen) * are_less_close;
+}
+#endif
+
 Evidence gather(vec2 pixel, float z, vec2 slope, bool near_edge) {
-    Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0);
-#define ADD(i) add(i, colour[i], source_depth[i], pixel, z, slope, near_edge, e);
-    FOR_LAYERS(ADD)
+    Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0);
+    // Within a surface, where others have a say, the first two see little.
+    const bool are_first_fine = EDGES == 1 || FIRST_RIGS_ONLY == 1 || LAYERS <= 2;
+#define ADD(i) add(i, colour[i], source_depth[i], pixel, z, slope, near_edge, i >= 2 || are_first_fine, e);
+    ADD(0)
+#if LAYERS > 1
+    ADD(1)
+#endif
+#if LAYERS > 2
+    e.say = say_of_others(pixel, z, e);
+#if !FIRST_RIGS_ONLY
+    ADD(2)
+#if LAYERS > 3
+    ADD(3)
+#endif
+#endif
+#endif
     return e;
 }
 
@@ -142,8 +185,6 @@ bool is_clear(vec2 pixel, float z) {
     return true;
 }
 
-bool same_surface(float a, float b) { return max(a, b) < min(a, b) * edge_ratio; }
-
 // The slope of inverse depth from one pixel to the next on one surface.
 float slope_of(float before, float z, float after) {
     float a = before > 0.0 && same_surface(before, z) ? 1.0 / z - 1.0 / before : 0.0;
@@ -151,57 +192,34 @@ float slope_of(float before, float z, float after) {
     return a == 0.0 ? b : b == 0.0 ? a : 0.5 * (a + b);
 }
 
+void tell(vec4 colour, float z, vec4 shares) {
+    fused = colour;
+    fused_z = z;
+    tell_origins(shares);
+}
+
+#if EDGES
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
-    ivec2 last = textureSize(fused_depth, 0) - 1;
-    float around[25];
-    float own = texelFetch(fused_depth, at, 0).r, other = 0.0, nearest = 1e9;
-    bool is_known = own > 0.0;
-    float z = abs(own);
-    for (int k = 0; k < 25; ++k) {
-        ivec2 off = ivec2(k % 5, k / 5) - 2;
-        around[k] = texelFetch(fused_depth, clamp(at + off, ivec2(0), last), 0).r;
-        float away = float(off.x * off.x + off.y * off.y);
-        if (around[k] <= 0.0 || away >= nearest) continue;
-        if (z == 0.0) {
-            z = around[k];
-            nearest = away;
-        }
-        if (same_surface(around[k], z)) continue;
-        other = around[k];
-        nearest = away;
-    }
-    fused = vec4(0.0);
-    fused_z = 0.0;
-    tell_origins(vec4(0.0));
-    if (z == 0.0) return;
-    vec2 slope = vec2(slope_of(around[11], z, around[13]), slope_of(around[7], z, around[17]));
-    if (other == 0.0) {
-        if (own == 0.0) return;
-        Evidence e = gather(pixel, z, slope, false);
-        if (e.weight > 0.0) {
-            if (e.apart > far_aside && !is_clear(pixel, z)) is_known = false;
-            fused = vec4(e.sum / e.weight, is_known ? 1.0 : 0.25);
-            fused_z = z;
-            tell_origins(e.shares / e.weight);
-        }
-        return;
-    }
+    Around near = look_around(at);
+    float z = near.here, other = near.other;
+    tell(vec4(0.0), 0.0, vec4(0.0));
     // The share of either surface in what lens and sensor would see here.
     float mine = 0.0, its = 0.0, its_nearness = 0.0;
     for (int k = 0; k < 25; ++k) {
-        if (around[k] <= 0.0) continue;
+        if (near.z[k] <= 0.0) continue;
         ivec2 off = ivec2(k % 5, k / 5) - 2;
         float w = exp(-float(off.x * off.x + off.y * off.y) / (2.0 * blur_px * blur_px));
-        if (same_surface(around[k], z)) {
+        if (same_surface(near.z[k], z)) {
             mine += w;
-        } else if (same_surface(around[k], other)) {
+        } else if (same_surface(near.z[k], other)) {
             its += w;
-            its_nearness += w / around[k];
+            its_nearness += w / near.z[k];
         }
     }
     other = its / its_nearness;
+    vec2 slope = vec2(slope_of(near.z[11], z, near.z[13]), slope_of(near.z[7], z, near.z[17]));
     Evidence a = gather(pixel, z, slope, true), b = gather(pixel, other, vec2(0.0), true);
     float doubt_a = doubt(a), doubt_b = doubt(b);
     if (z < other)
@@ -212,16 +230,37 @@ void main() {
     float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (doubt_a - least_doubt)) : 0.0;
     float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (doubt_b - least_doubt)) : 0.0;
     // Where nothing was drawn, only the surface behind reaches in, and only if a rig shows it right here.
-    if (own == 0.0) {
+    if (near.own == 0.0) {
         if (z < other || a.direct == 0.0) wa = 0.0;
         if (z > other || b.direct == 0.0) wb = 0.0;
     }
     if (wa + wb == 0.0) return;
     vec3 c = (wa > 0.0 ? wa * a.sum / a.weight : vec3(0.0)) + (wb > 0.0 ? wb * b.sum / b.weight : vec3(0.0));
+    bool is_known = near.own > 0.0;
     if (wa > wb ? a.apart > far_aside && !is_clear(pixel, z) : b.apart > far_aside && !is_clear(pixel, other))
         is_known = false;
-    fused = vec4(c / (wa + wb), is_known ? 1.0 : 0.25);
-    fused_z = wa > wb ? z : other;
-    tell_origins((wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
-                 (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
+    tell(vec4(c / (wa + wb), is_known ? 1.0 : 0.25), wa > wb ? z : other,
+         (wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
+             (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
 }
+#else
+float z_at(ivec2 at) { return texelFetch(fused_depth, clamp(at, ivec2(0), textureSize(fused_depth, 0) - 1), 0).r; }
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec2 pixel = vec2(at);
+    float own = z_at(at), z = abs(own);
+    vec2 slope = vec2(slope_of(z_at(at - ivec2(1, 0)), z, z_at(at + ivec2(1, 0))),
+                      slope_of(z_at(at - ivec2(0, 1)), z, z_at(at + ivec2(0, 1))));
+    Evidence e = gather(pixel, z, slope, false);
+    tell(vec4(0.0), 0.0, vec4(0.0));
+#if FIRST_RIGS_ONLY
+    if (e.say > 0.0) discard;
+    bool is_known = own > 0.0;
+#else
+    if (e.weight == 0.0) return;
+    bool is_known = own > 0.0 && (e.apart <= far_aside || is_clear(pixel, z));
+#endif
+    tell(vec4(e.sum / e.weight, is_known ? 1.0 : 0.25), z, e.shares / e.weight);
+}
+#endif

@@ -13,9 +13,33 @@ Program& FullscreenPass::use() {
 }
 
 void FullscreenPass::draw(const Framebuffer& target) {
+    glDisable(GL_DEPTH_TEST);
+    draw_triangle(target);
+}
+
+void FullscreenPass::draw_depth(const Framebuffer& target) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    draw_triangle(target);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void FullscreenPass::draw_where(const Framebuffer& target, GLenum comparison, float depth,
+                                bool writes) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(comparison);
+    glDepthMask(writes ? GL_TRUE : GL_FALSE);
+    glDepthRangef(depth, depth);
+    draw_triangle(target);
+    glDepthRangef(0, 1);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void FullscreenPass::draw_triangle(const Framebuffer& target) {
     target.bind();
     vertices_.bind();
-    glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -17,8 +17,16 @@ class FullscreenPass {
     Program& use();
     /// Draws with the program in use; depth test, blending and culling off.
     void draw(const Framebuffer& target);
+    /// The same with a shader that writes gl_FragDepth into the target's depth texture.
+    void draw_depth(const Framebuffer& target);
+    /// Draws only those pixels where `depth` compares so (GL_LESS, GL_GREATER, ...) with the
+    /// target's depth texture, and, with `writes`, puts it there unless the shader discards the
+    /// pixel: a shader that only some pixels need runs for no others.
+    void draw_where(const Framebuffer& target, GLenum comparison, float depth, bool writes);
 
   private:
+    void draw_triangle(const Framebuffer& target);
+
     Program program_;
     VertexArray vertices_;
 };

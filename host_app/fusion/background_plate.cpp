@@ -6,9 +6,6 @@
 
 namespace vantage {
 
-BackgroundPlates::Layer::Layer(cv::Size size)
-    : depth(TextureFormat::depth24, size.width, size.height), target({}, &depth) {}
-
 BackgroundPlates::BackgroundPlates(const ShaderLibrary& library)
     : library_(&library), learn_(library, "plate_learn.frag"), rasteriser_(library) {}
 
@@ -50,14 +47,14 @@ const DepthPicture& BackgroundPlates::show(const DepthPicture& picture, const Ri
         LearntPlate& plate = view->plate();
         if (!plate.is_known() || view->triangle_indices(QuadGrid::coarse) == 0) continue;
         if (count == most_shown) break;
-        if (!layer_ || layer_->depth.size() != size) layer_ = std::make_unique<Layer>(size);
+        layer_.resize(size);
         shown_[count].resize(size);
         const DepthGrid grid{plate.now().depth_m(),
                              plate.triangles(view->triangle_indices(QuadGrid::coarse)),
                              view->K_depth(), view->camera().world_from_camera, QuadGrid::coarse};
         if (!plate.has_triangles()) rasteriser_.build_triangles(grid);
         plate.set_has_triangles();
-        rasteriser_.draw_depth(grid, target, near_m, layer_->target);
+        rasteriser_.draw_depth(grid, target, near_m, layer_.target());
 
         FullscreenPass& showing = pass(layers.used().size());
         Program& program = showing.use();
@@ -69,7 +66,7 @@ const DepthPicture& BackgroundPlates::show(const DepthPicture& picture, const Ri
         };
         bind("picture", shown->colour());
         bind("picture_depth", shown->depth_m());
-        bind("plate_layer", layer_->depth);
+        bind("plate_layer", layer_.texture());
         bind("plate_colour", plate.now().colour());
         DepthView camera = view->camera();
         camera.K = view->K_depth();

@@ -32,18 +32,13 @@ class BackgroundPlates {
   private:
     static constexpr std::size_t most_shown = 2;
 
-    struct Layer {
-        Texture depth;
-        Framebuffer target;
-        explicit Layer(cv::Size size);
-    };
     FullscreenPass& pass(std::size_t layers);
 
     const ShaderLibrary* library_;
     FullscreenPass learn_;
     MeshRasteriser rasteriser_;
     std::array<std::optional<FullscreenPass>, RigLayers::max_layers> show_;
-    std::unique_ptr<Layer> layer_;
+    DrawnDepth layer_;
     std::array<DepthPicture, most_shown> shown_;
 };
 

@@ -11,19 +11,24 @@ namespace vantage {
 /// there), r32f depth in metres and, where wanted, the rigs' shares in the colour (PixelOrigins).
 class DepthPicture {
   public:
-    /// Keeps what there is if the size stays.
-    void resize(cv::Size size, bool with_shares = false) {
-        if (colour_ && colour_->size() == size && shares_.has_value() == with_shares) return;
+    /// Keeps what there is if the size stays. `depth_test`: the target's depth texture, if it is to
+    /// have one.
+    void resize(cv::Size size, bool with_shares = false, const Texture* depth_test = nullptr) {
+        if (colour_ && colour_->size() == size && shares_.has_value() == with_shares &&
+            depth_test_ == (depth_test ? depth_test->name() : 0))
+            return;
+        depth_test_ = depth_test ? depth_test->name() : 0;
         target_.reset();
         shares_.reset();
         colour_.emplace(TextureFormat::rgba8, size.width, size.height, Filter::linear);
         depth_m_.emplace(TextureFormat::r32f, size.width, size.height);
         if (with_shares) {
             shares_.emplace(TextureFormat::rgba8, size.width, size.height);
-            target_.emplace(
-                std::initializer_list<const Texture*>{&*colour_, &*depth_m_, &*shares_});
+            target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_, &*shares_},
+                            depth_test);
         } else {
-            target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_});
+            target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_},
+                            depth_test);
         }
     }
 
@@ -44,6 +49,7 @@ class DepthPicture {
   private:
     std::optional<Texture> colour_, depth_m_, shares_;
     std::optional<Framebuffer> target_;
+    GLuint depth_test_ = 0;  ///< 0: none
 };
 
 }  // namespace vantage

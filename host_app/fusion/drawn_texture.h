@@ -34,4 +34,21 @@ class DrawnTexture {
     std::optional<Framebuffer> target_;
 };
 
+/// The same for depth alone: depth24.
+class DrawnDepth {
+  public:
+    void resize(cv::Size size) {
+        if (texture_ && texture_->size() == size) return;
+        target_.reset();
+        texture_.emplace(TextureFormat::depth24, size.width, size.height);
+        target_.emplace(std::initializer_list<const Texture*>{}, &*texture_);
+    }
+    const Texture& texture() const { return *texture_; }
+    const Framebuffer& target() const { return *target_; }
+
+  private:
+    std::optional<Texture> texture_;
+    std::optional<Framebuffer> target_;
+};
+
 }  // namespace vantage

@@ -21,21 +21,17 @@ float depth_spread(const DepthView& camera) {
     return f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f;
 }
 
-RigLayers::Layer::Layer(cv::Size size)
-    : depth(TextureFormat::depth24, size.width, size.height), target({}, &depth) {}
-
 void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& target,
                      std::size_t fine) {
     assert(views.size() <= max_layers);
     used_.assign(views.begin(), views.end());
     target_ = target;
     near_m_ = near_plane_m(views);
-    const cv::Size size(target.width_px, target.height_px);
-    if (!layers_.empty() && layers_.front()->depth.size() != size) layers_.clear();
-    while (layers_.size() < views.size()) layers_.push_back(std::make_unique<Layer>(size));
-    for (std::size_t i = 0; i < views.size(); ++i)
-        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i]->target,
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        layers_[i].resize({target.width_px, target.height_px});
+        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i].target(),
                                i < fine ? QuadGrid::fine : QuadGrid::coarse);
+    }
 }
 
 void RigLayers::bind(Program& program) const {
@@ -58,7 +54,7 @@ void RigLayers::bind(Program& program) const {
         set("centre", Eigen::Vector3f(centre.cast<float>()));
         set("spread", depth_spread(camera));
         set("presence", view.presence());
-        layers_[static_cast<std::size_t>(i)]->depth.bind(i);
+        layers_[static_cast<std::size_t>(i)].texture().bind(i);
         view.trusted_colour().bind(count + i);
         view.surface().bind(2 * count + i);
     }

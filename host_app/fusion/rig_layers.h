@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
+#include <array>
 #include <span>
 #include <vector>
 
-#include "common/gl/framebuffer.h"
 #include "common/gl/program.h"
+#include "host_app/fusion/drawn_texture.h"
 #include "host_app/fusion/mesh_rasteriser.h"
 
 namespace vantage {
@@ -39,14 +39,8 @@ class RigLayers {
     std::span<const GpuView* const> used() const { return used_; }
 
   private:
-    struct Layer {
-        Texture depth;
-        Framebuffer target;
-        explicit Layer(cv::Size size);
-    };
-
     MeshRasteriser rasteriser_;
-    std::vector<std::unique_ptr<Layer>> layers_;
+    std::array<DrawnDepth, max_layers> layers_;
     std::vector<const GpuView*> used_;
     VirtualView target_;
     double near_m_ = 0;

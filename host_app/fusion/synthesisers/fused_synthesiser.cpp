@@ -7,6 +7,7 @@
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_steadier.h"
 #include "host_app/fusion/edge_trust.h"
+#include "host_app/fusion/fused_colour.h"
 #include "host_app/fusion/gpu_view.h"
 #include "host_app/fusion/layer_blender.h"
 #include "host_app/fusion/rig_consensus.h"
@@ -19,8 +20,6 @@ namespace {
 
 /// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
 constexpr float softness = 0.005f;
-/// Depths that differ by more than this ratio lie on two surfaces.
-constexpr float edge_ratio = 1.03f;
 /// Where there are more rigs than a picture takes, the surfaces of so many are drawn by every
 /// pixel: the others mostly fill what these leave, and a quarter of the quads does for that.
 constexpr std::size_t finely_drawn = 2;
@@ -36,7 +35,8 @@ class FusedSynthesiser final : public Synthesiser {
           consensus_(library),
           edge_trust_(library),
           plates_(library),
-          blender_(library, "fused_colour.frag", softness) {
+          colour_(library),
+          blender_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
             depth_pass_.emplace_back(library, "fused_depth.frag",
                                      ShaderDefines{{"LAYERS", std::to_string(layers)}});
@@ -62,17 +62,20 @@ class FusedSynthesiser final : public Synthesiser {
         layers.draw(used, view,
                     views_.size() > RigLayers::max_layers ? finely_drawn : RigLayers::max_layers);
         fused_depth_.resize({view.width_px, view.height_px});
-        if (!layers.used().empty()) find_depth();
+        const Texture* kinds = nullptr;
+        if (!layers.used().empty()) {
+            find_depth();
+            kinds = &colour_.sort(fused_depth_.texture());
+        }
         return blender_.blend(
             view,
-            [&](Program& colour, int unit) {
-                colour.set("fused_depth", unit);
-                colour.set("edge_ratio", edge_ratio);
-                fused_depth_.texture().bind(unit);
+            [&](const DepthPicture& into, bool notes_origins) {
+                colour_.draw(layers, fused_depth_.texture(), into, notes_origins);
             },
             [&](const DepthPicture& blended) -> const DepthPicture& {
                 return plates_.show(blended, layers, view);
-            });
+            },
+            kinds);
     }
 
     bool note_origins(bool noted) override {
@@ -108,6 +111,7 @@ class FusedSynthesiser final : public Synthesiser {
     RigConsensus consensus_;
     EdgeTrust edge_trust_;
     BackgroundPlates plates_;
+    FusedColour colour_;
     LayerBlender blender_;
     std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers
     DrawnTexture fused_depth_{TextureFormat::r32f};

@@ -20,7 +20,9 @@ constexpr std::size_t blended_views = 2;
 class LayeredSynthesiser final : public Synthesiser {
   public:
     explicit LayeredSynthesiser(const ShaderLibrary& library)
-        : splitter_(library), blender_(library, "layered_blend.frag", softness, 2) {}
+        : splitter_(library),
+          blend_(library, "layered_blend.frag", softness, {}, 2),
+          blender_(library) {}
 
     void set_views(std::span<const DepthView> views) override {
         upload_views(views, mains_);
@@ -41,7 +43,7 @@ class LayeredSynthesiser final : public Synthesiser {
             used.push_back(boundaries_[static_cast<std::size_t>(at - mains_.begin())].get());
         }
         blender_.layers().draw(used, view);
-        return blender_.blend(view);
+        return blender_.blend(view, blend_);
     }
 
     bool note_origins(bool noted) override {
@@ -53,6 +55,7 @@ class LayeredSynthesiser final : public Synthesiser {
   private:
     std::vector<std::unique_ptr<GpuView>> mains_, boundaries_;  ///< in the same order
     LayerSplitter splitter_;
+    LayerPass blend_;
     LayerBlender blender_;
 };
 

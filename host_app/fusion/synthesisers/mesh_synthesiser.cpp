@@ -18,7 +18,7 @@ constexpr float softness = 0.005f;
 class MeshSynthesiser final : public Synthesiser {
   public:
     explicit MeshSynthesiser(const ShaderLibrary& library)
-        : blender_(library, "mesh_blend.frag", softness) {}
+        : blend_(library, "mesh_blend.frag", softness), blender_(library) {}
 
     void set_views(std::span<const DepthView> views) override {
         upload_views(views, views_);
@@ -27,7 +27,7 @@ class MeshSynthesiser final : public Synthesiser {
 
     const Texture& render(const VirtualView& view) override {
         blender_.layers().draw(most_useful(views_, view, RigLayers::max_layers), view);
-        return blender_.blend(view);
+        return blender_.blend(view, blend_);
     }
 
     bool note_origins(bool noted) override {
@@ -38,6 +38,7 @@ class MeshSynthesiser final : public Synthesiser {
 
   private:
     std::vector<std::unique_ptr<GpuView>> views_;
+    LayerPass blend_;
     LayerBlender blender_;
 };
 

@@ -173,6 +173,43 @@ TEST(FusedSynthesiser, IsNoWorseWithMoreRigsThanAPictureTakes) {
     EXPECT_GT(coverage(pictures[1]), coverage(pictures[0]) - 0.005);
 }
 
+/// A grey wall at z = 4 m, seen along z.
+DepthView grey_wall(const Eigen::Vector3d& from_m, double f_px, uchar grey) {
+    DepthView view;
+    view.name = std::to_string(grey);
+    view.K = intrinsics(f_px, 121, 91);
+    view.world_from_camera.translation() = from_m;
+    view.depth_m = DepthImage(91, 121, static_cast<float>(4 - from_m.z()));
+    view.colour = ColourImage(91, 121, cv::Vec4b(grey, grey, grey, 255));
+    return view;
+}
+
+TEST(FusedSynthesiser, AsksOtherRigsOnlyWhereTheTwoMostUsefulOnesSeeNothing) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    // The third sees more of the wall, but from aside.
+    const DepthView views[] = {grey_wall({-0.1, 0, 0}, 180, 100), grey_wall({0.1, 0, 0}, 180, 100),
+                               grey_wall({1, 0, 0}, 80, 200)};
+    synthesiser->set_views(views);
+    const ColourImage picture = synthesiser->render(target_of(grey_wall({}, 96, 0))).download();
+    EXPECT_EQ(picture(45, 60)[0], 100);
+    EXPECT_EQ(picture(45, 75)[0], 100);
+    EXPECT_GT(picture(45, 115)[0], 190);
+    EXPECT_EQ(picture(45, 115)[3], 255) << "is covered";
+}
+
+TEST(FusedSynthesiser, AsksAllRigsThatAreAboutAsClose) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    const DepthView views[] = {grey_wall({-0.2, 0, 0}, 96, 100), grey_wall({0.2, 0, 0}, 96, 100),
+                               grey_wall({0, 0.21, 0}, 96, 200)};
+    synthesiser->set_views(views);
+    const ColourImage picture = synthesiser->render(target_of(grey_wall({}, 96, 0))).download();
+    EXPECT_NEAR(picture(45, 60)[0], 132, 8);
+}
+
 /// A black post of a pixel's width before the wall.
 TEST(FusedSynthesiser, ShowsAPostOfOnePixel) {
     constexpr int post_px = 14;
