@@ -1,6 +1,6 @@
 // Permeability aggregation (Cigla, Alatan 2013). Sums live in registers as 16-bit pairs, four words for 8 disparities;
 // horizontal sums lie in memory as bytes, two words: half of the range in the even bytes, half in the odd ones. A cost
-// is at most 26, a horizontal sum 26 * 31 / 8, a vertical one 16 times that: the 12 bits that permeate() takes are
+// is at most 31, a horizontal sum 31 * 31 / 8, a vertical one 16 times that: the 12 bits that permeate() takes are
 // never left. Vertical sums keep all their bits: what is lost there decides in untextured places.
 #include "stereo_common.glsl"
 
@@ -11,9 +11,15 @@ const uint low_bytes = 0x00ff00ffu;
 uvec2 bytes_of(uvec4 pairs) { return (pairs.xy & low_bytes) | ((pairs.zw & low_bytes) << 8); }
 uvec4 pairs_of(uvec2 bytes) { return uvec4(bytes & low_bytes, (bytes >> 8) & low_bytes); }
 
-// Truncated census distance plus truncated gradient difference, 0..26.
+// The shorter way between the upper five bits, on a circle of 32.
+uint way(uint a, uint b) {
+    const uint upper = 0xf8000000u;
+    return uint(abs(int((a & upper) - (b & upper)) >> 27));
+}
+
+// Truncated census distance plus truncated differences of both gradients and of colour, 0..31.
 uint cost_of(uint left, uint right) {
-    uint census = uint(bitCount((left ^ right) & 0x07ffffffu));
-    uint gradient = uint(abs(int(left >> 27) - int(right >> 27)));
-    return min(census, 16u) + min(2u * gradient, 10u);
+    uint census = uint(bitCount((left ^ right) & 0x1ffffu));
+    uint down = way(left << 10, right << 10), colour = way(left << 5, right << 5), across = way(left, right);
+    return min(census, 9u) + 2u * (min(across, 3u) + min(down, 4u) + min(colour, 4u));
 }

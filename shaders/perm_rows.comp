@@ -57,7 +57,11 @@ uvec4 r0, r1, r2, r3, r4;
 #define COSTS_A(l, pixel) COSTS(l, REACH + pixel)
 #define COSTS_B(l, pixel) COSTS(l, REACH - 8 + pixel)
 
-uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
+// Before the picture its first column repeats: a word that matches nothing much would pull neighbours along.
+uvec4 right_at(int row, int x) {
+    uvec4 four = right_features[(row + max(x, 0)) >> 2];
+    return x >= 0 ? four : four.xxxx;
+}
 #endif
 
 uvec4 permeabilities(int at) {
@@ -105,7 +109,7 @@ void main() {
     if (y >= size.y) return;
     int row = y * stride, last = (size.x - 1) & ~3;
 #if !GIVEN
-    r0 = r1 = r2 = r3 = r4 = uvec4(outside_word);
+    r0 = r1 = r2 = r3 = r4 = right_at(row, -4);
 #endif
     a = b = uvec4(0u);
 

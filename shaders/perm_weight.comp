@@ -1,6 +1,6 @@
-// The sum that a cost of 16 everywhere would have: what a pixel's aggregated costs must be divided by before they
+// The sum that the largest cost everywhere would have: what a pixel's aggregated costs must be divided by before they
 // are compared with another pixel's. ALONG 0 walks rows and fills the buffer, ALONG 1 then walks columns. With MOST, ALONG 1
-// leaves in place of a weight how sums become costs of about MOST where every cost is the largest: shift << 16 | factor,
+// leaves in place of a weight how sums become costs of at most MOST, which is where every cost is the largest: shift << 16 | factor,
 // cost = (sum >> shift) * factor >> 8.
 #include "stereo_common.glsl"
 
@@ -12,6 +12,7 @@
 #endif
 
 layout(local_size_x = LANES) in;
+const uint most_cost = 31u;
 uniform ivec2 size;
 uniform int stride;
 
@@ -31,21 +32,21 @@ void main() {
     uvec4 a = uvec4(0u);
     for (int at = first; at <= last; ++at) {
         uvec4 mu = permeabilities(at);
-        a.x = 16u + ((a.w * mu.x) >> 4);
-        a.y = 16u + ((a.x * mu.y) >> 4);
-        a.z = 16u + ((a.y * mu.z) >> 4);
-        a.w = 16u + ((a.z * mu.w) >> 4);
+        a.x = most_cost + ((a.w * mu.x) >> 4);
+        a.y = most_cost + ((a.x * mu.y) >> 4);
+        a.z = most_cost + ((a.y * mu.z) >> 4);
+        a.w = most_cost + ((a.z * mu.w) >> 4);
         weight[at] = a;
     }
     uint back = 0u, mu_after = 0u;  // nothing passes from behind the picture
     for (int at = last; at >= first; --at) {
         uvec4 mu = permeabilities(at), b;
         b.w = (back * mu_after) >> 4;
-        b.z = ((b.w + 16u) * mu.w) >> 4;
-        b.y = ((b.z + 16u) * mu.z) >> 4;
-        b.x = ((b.y + 16u) * mu.y) >> 4;
+        b.z = ((b.w + most_cost) * mu.w) >> 4;
+        b.y = ((b.z + most_cost) * mu.z) >> 4;
+        b.x = ((b.y + most_cost) * mu.y) >> 4;
         weight[at] = (weight[at] + b) >> 3;
-        back = b.x + 16u;
+        back = b.x + most_cost;
         mu_after = mu.x;
     }
 }
@@ -71,11 +72,10 @@ void main() {
         if (y == size.y - 1 || (y & 3) == 3) four = permeability[(y >> 2) * step + x];
         uvec4 mu = (four >> (8 * (y & 3))) & 255u, above = weight[max(at - step, 0)];
 #if MOST
-        // A sum comes to little more than twice its weight.
         ivec4 sum = ivec4(a + back);
-        ivec4 shift = ivec4(greaterThanEqual(sum, ivec4(128))) + ivec4(greaterThanEqual(sum, ivec4(256))) +
-                      ivec4(greaterThanEqual(sum, ivec4(512))) + ivec4(greaterThanEqual(sum, ivec4(1024)));
-        vec4 factor = float(MOST) * 256.0 * 16.0 / 26.0 * vec4(ivec4(1) << shift) / vec4(max(sum, ivec4(1)));
+        ivec4 shift = ivec4(greaterThanEqual(sum, ivec4(256))) + ivec4(greaterThanEqual(sum, ivec4(512))) +
+                      ivec4(greaterThanEqual(sum, ivec4(1024))) + ivec4(greaterThanEqual(sum, ivec4(2048)));
+        vec4 factor = float(MOST) * 256.0 * vec4(ivec4(1) << shift) / vec4(max(sum, ivec4(1)));
         weight[at] = uvec4(shift << 16) | uvec4(ivec4(factor));
 #else
         weight[at] = a + back;

@@ -1,6 +1,6 @@
 // How badly the right picture matches when it is taken to lie 2 .. -2 rows lower: for one pixel in 8x16, the least
-// census distance over the search range, summed into votes[shift + 2] (which start at ~0, one below nothing).
-#include "stereo_common.glsl"
+// matching cost over the search range, summed into votes[shift + 2] (which start at ~0, one below nothing).
+#include "perm_common.glsl"
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer LeftFeatures { uint left_features[]; };
@@ -17,7 +17,7 @@ void main() {
     int r0 = max(y - 2, 0) * stride + x, r1 = max(y - 1, 0) * stride + x, r2 = y * stride + x;
     int r3 = min(y + 1, size.y - 1) * stride + x, r4 = min(y + 2, size.y - 1) * stride + x;
     int l0 = 32, l1 = 32, l2 = 32, l3 = 32, l4 = 32;
-#define DISTANCE(r) bitCount((left ^ right_features[r - d]) & 0x07ffffffu)
+#define DISTANCE(r) int(cost_of(left, right_features[r - d]))
     int most = min(disparities - 1, x);
     for (int d = 0; d <= most; ++d) {
         l0 = min(l0, DISTANCE(r0));

@@ -21,7 +21,11 @@ uvec4 r0, r1, r2, r3, r4;
 #define PIXEL(l, pixel) \
     costs[at + pixel] = uvec4(FOUR(l, 16 + pixel), FOUR(l, 12 + pixel), FOUR(l, 8 + pixel), FOUR(l, 4 + pixel));
 
-uvec4 right_at(int row, int x) { return x >= 0 ? right_features[(row + max(x, 0)) >> 2] : uvec4(outside_word); }
+// Before the picture its first column repeats.
+uvec4 right_at(int row, int x) {
+    uvec4 four = right_features[(row + max(x, 0)) >> 2];
+    return x >= 0 ? four : four.xxxx;
+}
 
 void main() {
     int x = int(gl_GlobalInvocationID.x) * 4, y = int(gl_GlobalInvocationID.y), slab = int(gl_GlobalInvocationID.z);

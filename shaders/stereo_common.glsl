@@ -15,9 +15,6 @@
 #define LANE_MAPPING LANES_PIXELS
 #endif
 
-// The right-hand feature of a pixel outside the picture: half its census bits agree with anything.
-const uint outside_word = 0x82aaaaaau;
-
 // Words to be stored, none of which is ~0. Without a last operation that has no simple form llvmpipe's compiler takes
 // the ones before it apart into scalar ones, lane by lane. (Measured; it pays where much is packed into each word.)
 uint whole(uint word) { return min(word, 0xfffffffeu); }

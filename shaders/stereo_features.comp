@@ -1,7 +1,9 @@
-// The word that stands for a pixel in matching: 27 census bits (the odd squares of a 9x7 chessboard without its
-// corners and its topmost middle, set where the neighbour is not darker; raster order from bit 0) and above them 5 bits of horizontal Sobel
-// gradient in steps of 4, clamped. Both are blind to the brightness of the sensor, and nearly so to its gain. An
-// invocation walks down ROWS rows of four pixels, which are compared four at a time, a byte each.
+// The word that stands for a pixel in matching: 17 census bits (the odd squares of a 7x5 chessboard without its upper
+// right corner, set where the neighbour is not darker; raster order from bit 0), and above them 5 bits each of
+// vertical Sobel gradient, of red - blue, and of horizontal Sobel gradient, in steps of 4, modulo 32: differences are
+// truncated long before a way around the circle is the shorter one by mistake. All are blind to the brightness of
+// the sensor, and nearly so to its gain. An invocation walks down ROWS rows of four pixels, which are compared four
+// at a time, a byte each.
 #include "stereo_common.glsl"
 
 #ifndef ROWS
@@ -46,20 +48,28 @@ uvec3 row_at(int y, int column) {
     return uvec3(luma[base], luma[base + 1], luma[base + 2]);
 }
 
-// Rows weighted 1, 2, 1, a 16-bit pair a word: x of the even columns, y of the odd ones.
-#define SUMS(part)                                                                                       \
-    uvec2((a.part & low_bytes) + 2u * (b.part & low_bytes) + (c.part & low_bytes),                        \
-          ((a.part >> 8) & low_bytes) + 2u * ((b.part >> 8) & low_bytes) + ((c.part >> 8) & low_bytes))
+// A 16-bit pair a word: x of a word's even columns, y of its odd ones.
+uvec2 pairs_of_word(uint word) { return uvec2(word, word >> 8) & low_bytes; }
 
-// In each byte's upper five bits.
-uint gradients(uvec3 a, uvec3 b, uvec3 c) {
-    uvec2 before = SUMS(x), here = SUMS(y), after = SUMS(z);
+// Levels modulo 32 of four pixels' gradients, likewise in pairs. Biases are whole turns of the circle.
+const uint levels = 0x001f001fu;
+
+// Rows weighted 1, 2, 1.
+uvec2 sums(uint a, uint b, uint c) { return pairs_of_word(a) + 2u * pairs_of_word(b) + pairs_of_word(c); }
+uvec2 across(uvec3 a, uvec3 b, uvec3 c) {
+    uvec2 before = sums(a.x, b.x, c.x), here = sums(a.y, b.y, c.y), after = sums(a.z, b.z, c.z);
     const uint bias = 0x08000800u;
     uint even = here.y + bias - ((here.y << 16) | (before.y >> 16));
     uint odd = ((here.x >> 16) | (after.x << 16)) + bias - here.x;
-    ivec4 steps = ivec4(even & 0xffffu, odd & 0xffffu, even >> 16, odd >> 16) - 2048;
-    uvec4 levels = uvec4(clamp((steps >> 2) + 16, ivec4(0), ivec4(31)));
-    return (levels.x << 3) | (levels.y << 11) | (levels.z << 19) | (levels.w << 27);
+    return (uvec2(even, odd) >> 2) & levels;
+}
+
+uvec2 steps(uint a, uint c) { return pairs_of_word(c) + 0x01000100u - pairs_of_word(a); }
+uvec2 down(uvec3 a, uvec3 c) {
+    uvec2 before = steps(a.x, c.x), here = steps(a.y, c.y), after = steps(a.z, c.z);
+    uint even = ((here.y << 16) | (before.y >> 16)) + 2u * here.x + here.y;
+    uint odd = here.x + 2u * here.y + ((here.x >> 16) | (after.x << 16));
+    return (uvec2(even, odd) >> 2) & levels;
 }
 
 void main() {
@@ -74,27 +84,24 @@ void main() {
             features[y * (stride / 4) + column] = uvec4(0u);
         return;
     }
-    uvec3 a = row_at(first_row - 4, column), b = row_at(first_row - 3, column), c = row_at(first_row - 2, column);
-    uvec3 d = row_at(first_row - 1, column), e = row_at(first_row, column), f = row_at(first_row + 1, column);
-    uvec3 g = row_at(first_row + 2, column);
+    uvec3 a, b = row_at(first_row - 2, column), c = row_at(first_row - 1, column), d = row_at(first_row, column);
+    uvec3 e = row_at(first_row + 1, column);
     for (int y = first_row; y < min(first_row + ROWS, size.y); ++y) {
-        a = b, b = c, c = d, d = e, e = f, f = g;
-        g = row_at(y + 3, column);
-        uint bright = ~d.y, low = d.y & ~high;
-        uint p = 0u, q = 0u, r = 0u, s = 0u;
-        BIT(p, a, -2) BIT(p, a, 2)
-        BIT(p, b, -3) BIT(p, b, -1) BIT(p, b, 1) BIT(p, b, 3)
-        BIT(p, c, -4) BIT(p, c, -2) BIT(q, c, 0) BIT(q, c, 2) BIT(q, c, 4)
-        BIT(q, d, -3) BIT(q, d, -1) BIT(q, d, 1) BIT(q, d, 3)
-        BIT(q, e, -4) BIT(r, e, -2) BIT(r, e, 0) BIT(r, e, 2) BIT(r, e, 4)
-        BIT(r, f, -3) BIT(r, f, -1) BIT(r, f, 1) BIT(r, f, 3)
-        BIT(s, g, -2) BIT(s, g, 0) BIT(s, g, 2)
-        s = ((s >> 5) & 0x07070707u) | gradients(c, d, e);
-        // Bytes of four pixels a word become a word a pixel.
-        uvec2 even = (uvec2(p, r) & low_bytes) | ((uvec2(q, s) & low_bytes) << 8);
-        uvec2 odd = ((uvec2(p, r) >> 8) & low_bytes) | (uvec2(q, s) & ~low_bytes);
-        features[y * (stride / 4) + column] =
-            uvec4((even.x & 0xffffu) | (even.y << 16), (odd.x & 0xffffu) | (odd.y << 16),
-                  (even.x >> 16) | (even.y & 0xffff0000u), (odd.x >> 16) | (odd.y & 0xffff0000u));
+        a = b, b = c, c = d, d = e;
+        e = row_at(y + 2, column);
+        uint bright = ~c.y, low = c.y & ~high;
+        uint p = 0u, q = 0u, r = 0u;
+        BIT(p, a, -3) BIT(p, a, -1) BIT(p, a, 1)
+        BIT(p, b, -2) BIT(p, b, 0) BIT(p, b, 2)
+        BIT(p, c, -3) BIT(p, c, -1) BIT(q, c, 1) BIT(q, c, 3)
+        BIT(q, d, -2) BIT(q, d, 0) BIT(q, d, 2)
+        BIT(q, e, -3) BIT(q, e, -1) BIT(q, e, 1) BIT(r, e, 3)
+        uint colours = luma[(size.y + clamp(y + shift, 0, size.y - 1)) * row_words + column + 1];
+        // Bytes of four pixels a word become halves of words of even and odd ones, then a word a pixel.
+        uvec2 lower = uvec2((p & low_bytes) | ((q & low_bytes) << 8), ((p >> 8) & low_bytes) | (q & ~low_bytes));
+        uvec2 upper = (uvec2(r >> 7, r >> 15) & 0x00010001u) | (down(b, d) << 1) |
+                      ((uvec2(colours >> 1, colours >> 9) & levels) << 6) | (across(b, c, d) << 11);
+        uvec2 first = (lower & 0xffffu) | (upper << 16), second = (lower >> 16) | (upper & 0xffff0000u);
+        features[y * (stride / 4) + column] = uvec4(first, second);
     }
 }

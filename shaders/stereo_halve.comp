@@ -1,4 +1,4 @@
-// Half the size: the rounded mean of 2x2 lumas, in the same padded form.
+// Half the size: the rounded mean of 2x2 lumas and colours (along z), in the same padded form.
 #include "stereo_common.glsl"
 
 layout(local_size_x = PICTURE_LANES) in;
@@ -9,7 +9,10 @@ uniform int fine_row_words;
 uniform ivec2 coarse_size;
 uniform int coarse_row_words;
 
-uint fine_word(int y, int word) { return fine[min(y, fine_size.y - 1) * fine_row_words + word]; }
+uint fine_word(int y, int word) {
+    int row = min(y, fine_size.y - 1) + int(gl_GlobalInvocationID.z) * fine_size.y;
+    return fine[row * fine_row_words + word];
+}
 
 uint mean_of(int x, int y) {
     int xf = 2 * clamp(x, 0, coarse_size.x - 1);
@@ -23,6 +26,7 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= coarse_row_words || at.y >= coarse_size.y) return;
     int x = (at.x - 1) * 4;
-    coarse[at.y * coarse_row_words + at.x] = mean_of(x, at.y) | (mean_of(x + 1, at.y) << 8) |
-                                             (mean_of(x + 2, at.y) << 16) | (mean_of(x + 3, at.y) << 24);
+    int row = at.y + int(gl_GlobalInvocationID.z) * coarse_size.y;
+    coarse[row * coarse_row_words + at.x] = mean_of(x, at.y) | (mean_of(x + 1, at.y) << 8) |
+                                            (mean_of(x + 2, at.y) << 16) | (mean_of(x + 3, at.y) << 24);
 }

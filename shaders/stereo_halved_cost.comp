@@ -29,13 +29,16 @@ uvec4 le0, le1, le2, le3, le4, le5, lo0, lo1, lo2, lo3, lo4, lo5;
 #define LO(i) AT(lo0, lo1, lo2, lo3, lo4, lo5, i)
 
 void take(int upper, int lower, int x) {
-    ue5 = uo5 = le5 = lo5 = uvec4(outside_word);
-    if (x < 0) return;
-    int last = fine_stride - 4, a = min(2 * x, last), b = min(2 * x + 4, last);
+    int last = fine_stride - 4, a = clamp(2 * x, 0, last), b = clamp(2 * x + 4, 0, last);
     uvec4 p = right_features[(upper + a) >> 2], q = right_features[(upper + b) >> 2];
     ue5 = uvec4(p.xz, q.xz), uo5 = uvec4(p.yw, q.yw);
     p = right_features[(lower + a) >> 2], q = right_features[(lower + b) >> 2];
     le5 = uvec4(p.xz, q.xz), lo5 = uvec4(p.yw, q.yw);
+    if (x < 0) {
+        // The first column repeats before the picture.
+        ue5 = uo5 = ue5.xxxx;
+        le5 = lo5 = le5.xxxx;
+    }
 }
 void slide() {
     ue0 = ue1, ue1 = ue2, ue2 = ue3, ue3 = ue4, ue4 = ue5;
@@ -62,7 +65,7 @@ void main() {
     int x = int(gl_GlobalInvocationID.y) * 4 * STEPS, y = int(gl_GlobalInvocationID.x);
     int slab = int(gl_GlobalInvocationID.z);
     if (x >= size.x || y >= size.y) return;
-    before_first = slab == 0 ? 26u : 0u;
+    before_first = slab == 0 ? 31u : 0u;
     int upper = 2 * y * fine_stride, lower = min(2 * y + 1, fine_size.y - 1) * fine_stride, last = fine_stride - 4;
     int first = x - 16 * slab;
     take(upper, lower, first - 16);

@@ -1,4 +1,4 @@
-// 3x3 median of luma words, the guide of the permeability: it takes the noise out and leaves the edges.
+// 3x3 median of luma and of colour (along z), the guide of the permeability: it takes the noise out and leaves the edges.
 #include "stereo_common.glsl"
 #include "stereo_median9.glsl"
 
@@ -11,7 +11,7 @@ uniform int row_words;
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= row_words || at.y >= size.y) return;
-    int here = at.y * row_words + at.x;
+    int here = (at.y + int(gl_GlobalInvocationID.z) * size.y) * row_words + at.x;
     // Where there is no word beside, its nearest pixel repeats.
     int left = at.x > 0 ? -1 : 0, right = at.x + 1 < row_words ? 1 : 0;
     int up = at.y > 0 ? -row_words : 0, down = at.y + 1 < size.y ? row_words : 0;

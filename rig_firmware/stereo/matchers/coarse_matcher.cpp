@@ -33,7 +33,7 @@ class CoarseMatcher : public EngineMatcher {
           permeability_(library, coarse, sigma),
           cost_(library, fine, settings.disparities),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
-          paths_(library, coarse, coarse_disparities, {.p1 = 4, .p2 = 20, .columns = false},
+          paths_(library, coarse, coarse_disparities, {.p1 = 6, .p2 = 28, .columns = false},
                  perm_.large_scratch(), perm_.small_scratch()),
           check_(library, coarse, settings.fill),
           upsample_(library, coarse, fine) {}

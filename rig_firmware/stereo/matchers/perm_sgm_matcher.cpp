@@ -15,7 +15,7 @@ class PermSgmMatcher : public EngineMatcher {
           permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities, PermOutput::costs),
           paths_(library, layout_of(settings), settings.disparities,
-                 {.p1 = 7, .p2 = 30, .columns = false}, perm_.large_scratch(),
+                 {.p1 = 5, .p2 = 26, .columns = false}, perm_.large_scratch(),
                  perm_.small_scratch()),
           check_(library, layout_of(settings), settings.fill) {}
 

@@ -37,7 +37,7 @@ void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& w
 
 void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("census and gradient", {pixels * 10, static_cast<double>(pixels) * 220}, [&] {
+    profiler.run("census and gradient", {pixels * 12, static_cast<double>(pixels) * 180}, [&] {
         features(features_program_, luma.left(), left_features_);
         features(features_program_, luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

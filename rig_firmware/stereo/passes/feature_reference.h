@@ -11,28 +11,35 @@ namespace vantage {
 
 // Plain CPU forms of the passes of FeaturePass, bit for bit.
 
-/// 27 census bits (an odd chessboard of 9x7 without corners) below 5 bits of clamped horizontal
-/// gradient.
-cv::Mat1i feature_words(const GreyImage& luma);
+/// What of a picture LumaPass leaves: luma, and half of red - blue from 128 up.
+struct StereoPlanes {
+    GreyImage luma, colour;
+};
+StereoPlanes planes_of(const ColourImage& picture);
+
+/// 17 census bits (an odd chessboard of 7x5 without a corner) below 5 bits each of vertical
+/// gradient, colour and horizontal gradient, modulo 32.
+cv::Mat1i feature_words(const StereoPlanes& picture);
 
 /// How many rows lower than it should the right picture lies, -2..2, by FeaturePass's votes.
 int row_shift(const cv::Mat1i& left_features, const cv::Mat1i& right_features, int disparities);
 
 /// The picture moved up by so many rows, the last one repeated.
-GreyImage rows_shifted(const GreyImage& luma, int shift);
+StereoPlanes rows_shifted(const StereoPlanes& picture, int shift);
 
 /// 3x3 median, edges repeated.
-GreyImage guide_of(const GreyImage& luma);
+StereoPlanes guide_of(const StereoPlanes& picture);
 
 /// Rounded mean of 2x2; an odd last row or column counts twice (columns: within the padded word).
 GreyImage halved(const GreyImage& luma);
+StereoPlanes halved(const StereoPlanes& picture);
 
-/// Sixteenths of a sum that pass a step of 0..255 grey levels of the guide: 16 exp(-step / sigma),
-/// at most 15.
+/// Sixteenths of a sum that pass a step of 0..255 levels of the guide (that of luma and half of
+/// that of colour): 16 exp(-step / sigma), at most 15.
 using PermeabilityTable = std::array<std::uint32_t, 256>;
 PermeabilityTable permeability_table(double sigma);
 
 /// Per pixel: bits 0-3 from the left neighbour, bits 4-7 from the upper one; 0 at the edges.
-cv::Mat1b permeability_of(const GreyImage& guide, const PermeabilityTable& table);
+cv::Mat1b permeability_of(const StereoPlanes& guide, const PermeabilityTable& table);
 
 }  // namespace vantage

@@ -12,7 +12,7 @@ constexpr StereoLayout halved(const StereoLayout& layout) {
     return {(layout.width_px + 1) / 2, (layout.height_px + 1) / 2};
 }
 
-/// Luma at half the size: the mean of 2x2 pixels.
+/// Luma and colour at half the size: the mean of 2x2 pixels.
 class HalvePass {
   public:
     HalvePass(const ShaderLibrary& library, const StereoLayout& fine);

@@ -9,11 +9,10 @@ namespace vantage {
 std::vector<cv::Mat1b> halved_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                     int disparities) {
     const auto least_around = [&](int x, int y, int d) {
-        int least = 26;
+        int least = most_feature_cost;
         for (int near = std::max(d - 1, 0); near <= d + 1; ++near)
             least = std::min(
-                least, feature_cost(left_features(y, x),
-                                    x >= near ? right_features(y, x - near) : outside_feature));
+                least, feature_cost(left_features(y, x), feature_at(right_features, x - near, y)));
         return least;
     };
     std::vector<cv::Mat1b> costs;

@@ -5,12 +5,12 @@ namespace vantage {
 LumaPass::LumaPass(const ShaderLibrary& library, const StereoLayout& layout)
     : layout_(layout),
       program_(Program::compute(library, "stereo_luma.comp")),
-      left_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
-      right_(layout.luma_words() * 4, GL_DYNAMIC_COPY) {}
+      left_(layout.luma_words() * 2 * 4, GL_DYNAMIC_COPY),
+      right_(layout.luma_words() * 2 * 4, GL_DYNAMIC_COPY) {}
 
 void LumaPass::run(PassProfiler& profiler, const Texture& left, const Texture& right) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("luma", {pixels * 10, static_cast<double>(pixels) * 16}, [&] {
+    profiler.run("luma", {pixels * 12, static_cast<double>(pixels) * 24}, [&] {
         program_.use();
         program_.set("picture", 0);
         program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));

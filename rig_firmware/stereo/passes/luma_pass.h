@@ -8,7 +8,8 @@
 
 namespace vantage {
 
-/// Luma of both pictures, four pixels a word (see StereoLayout).
+/// Luma of both pictures and behind it, in a plane of its own, their colour: half of red - blue,
+/// from 128 up. Four pixels a word (see StereoLayout).
 class LumaPass {
   public:
     LumaPass(const ShaderLibrary& library, const StereoLayout& layout);

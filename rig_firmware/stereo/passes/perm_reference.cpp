@@ -45,9 +45,14 @@ void permeate_picture(cv::Mat1i& costs, const cv::Mat1b& permeability) {
 
 int feature_cost(int left, int right) {
     const auto l = static_cast<std::uint32_t>(left), r = static_cast<std::uint32_t>(right);
-    const int census = std::popcount((l ^ r) & 0x07ffffffU);
-    const int gradient = std::abs(static_cast<int>(l >> 27) - static_cast<int>(r >> 27));
-    return std::min(census, 16) + std::min(2 * gradient, 10);
+    // The shorter way on a circle of 32 levels.
+    const auto way = [&](int first_bit) {
+        const std::uint32_t levels = ((l >> first_bit) - (r >> first_bit)) & 31U;
+        return static_cast<int>(std::min(levels, 32 - levels));
+    };
+    const int census = std::popcount((l ^ r) & 0x1ffffU);
+    return std::min(census, 9) +
+           2 * (std::min(way(27), 3) + std::min(way(17), 4) + std::min(way(22), 4));
 }
 
 Winners no_winners(cv::Size size) {
@@ -76,12 +81,12 @@ cv::Mat1i matching_cost(const cv::Mat1i& left, const cv::Mat1i& right, int d) {
     cv::Mat1i costs(left.size());
     for (int y = 0; y < costs.rows; ++y)
         for (int x = 0; x < costs.cols; ++x)
-            costs(y, x) = feature_cost(left(y, x), x >= d ? right(y, x - d) : outside_feature);
+            costs(y, x) = feature_cost(left(y, x), feature_at(right, x - d, y));
     return costs;
 }
 
 cv::Mat1i weight_of(const cv::Mat1b& permeability) {
-    cv::Mat1i weight(permeability.size(), 16);
+    cv::Mat1i weight(permeability.size(), most_feature_cost);
     permeate_picture(weight, permeability);
     return weight;
 }
@@ -93,14 +98,14 @@ cv::Mat1i perm_sums(const cv::Mat1i& left, const cv::Mat1i& right, const cv::Mat
     return costs;
 }
 
-/// How a sum becomes a cost of about most_perm_code where every cost is the largest.
+/// How a sum becomes a cost of at most most_perm_code, which is where every cost is the largest.
 struct CostScale {
     int shift, factor;
 };
 
 CostScale scale_of(int weight) {
-    const int shift = (weight >= 128) + (weight >= 256) + (weight >= 512) + (weight >= 1024);
-    const float factor = static_cast<float>(most_perm_code) * 256.0f * 16.0f / 26.0f *
+    const int shift = (weight >= 256) + (weight >= 512) + (weight >= 1024) + (weight >= 2048);
+    const float factor = static_cast<float>(most_perm_code) * 256.0f *
                          static_cast<float>(1 << shift) / static_cast<float>(std::max(weight, 1));
     return {shift, static_cast<int>(factor)};
 }

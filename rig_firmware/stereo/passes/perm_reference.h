@@ -12,7 +12,7 @@ inline constexpr int no_cost = 0xfff;
 /// The best disparity of every pixel and the aggregated costs around it.
 struct Winners {
     cv::Mat1i disparity, cost, cost_before, cost_after;
-    cv::Mat1i weight;  ///< what the sum of a cost of 16 everywhere would be
+    cv::Mat1i weight;  ///< what the sum of the largest cost everywhere would be
 };
 
 /// Winners to begin with, and one more disparity's costs for them: the CPU form of
@@ -24,9 +24,8 @@ void consider_disparity(Winners& winners, cv::Mat1i& last, const cv::Mat1i& cost
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities);
 
-/// What PermPass leaves for passes that follow where every cost is the largest; rounding may make
-/// it a quarter more.
-inline constexpr int most_perm_code = 48;
+/// What PermPass leaves for passes that follow where every cost is the largest.
+inline constexpr int most_perm_code = 80;
 
 /// CPU form of PermPass with PermOutput::costs: a picture a disparity.
 std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
@@ -36,10 +35,14 @@ std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1
 std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
                                   const cv::Mat1b& permeability);
 
-/// Truncated census distance plus truncated gradient difference of two feature words, 0..26.
+/// Truncated census distance plus truncated differences of both gradients and of colour of two
+/// feature words.
 int feature_cost(int left, int right);
+inline constexpr int most_feature_cost = 31;
 
-/// The feature that stands for what lies outside the right picture.
-inline constexpr int outside_feature = static_cast<int>(0x82aaaaaaU);
+/// The feature at a column of a row, of which the first repeats before the picture.
+inline int feature_at(const cv::Mat1i& features, int x, int y) {
+    return features(y, x > 0 ? x : 0);
+}
 
 }  // namespace vantage

@@ -17,20 +17,20 @@ PermeabilityPass::PermeabilityPass(const ShaderLibrary& library, const StereoLay
     : layout_(layout),
       median_program_(Program::compute(library, "stereo_median_luma.comp")),
       permeability_program_(Program::compute(library, "stereo_permeability.comp")),
-      guide_(layout.luma_words() * 4, GL_DYNAMIC_COPY),
+      guide_(layout.luma_words() * 2 * 4, GL_DYNAMIC_COPY),
       along_(layout.pixels(), GL_DYNAMIC_COPY),
       down_(row_groups(layout) * static_cast<std::size_t>(layout.stride_px()) * 4, GL_DYNAMIC_COPY),
       table_(Buffer::of<std::uint32_t>(permeability_table(sigma))) {}
 
 void PermeabilityPass::run(PassProfiler& profiler, const Buffer& luma) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("permeability", {pixels * 7, static_cast<double>(pixels) * 55}, [&] {
+    profiler.run("permeability", {pixels * 10, static_cast<double>(pixels) * 105}, [&] {
         median_program_.use();
         median_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         median_program_.set("row_words", layout_.luma_row_words());
         luma.bind_storage(0);
         guide_.bind_storage(1);
-        median_program_.dispatch_over(layout_.luma_row_words(), layout_.height_px);
+        median_program_.dispatch_over(layout_.luma_row_words(), layout_.height_px, 2);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         permeability_program_.use();
         permeability_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));

@@ -14,7 +14,7 @@ namespace vantage {
 /// Matching cost of every pixel and disparity, as SgmPass takes it.
 class SgmCostPass {
   public:
-    /// `scale`: what a feature cost of 0..26 is multiplied by.
+    /// `scale`: what a feature cost of 0..31 is multiplied by.
     SgmCostPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
                 int scale);
 

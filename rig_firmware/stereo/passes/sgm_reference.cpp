@@ -58,8 +58,8 @@ std::vector<cv::Mat1b> sgm_costs(const cv::Mat1i& left_features, const cv::Mat1i
         for (int y = 0; y < picture.rows; ++y)
             for (int x = 0; x < picture.cols; ++x)
                 picture(y, x) = static_cast<unsigned char>(
-                    scale * feature_cost(left_features(y, x),
-                                         x >= d ? right_features(y, x - d) : outside_feature));
+                    scale *
+                    feature_cost(left_features(y, x), feature_at(right_features, x - d, y)));
     }
     return costs;
 }

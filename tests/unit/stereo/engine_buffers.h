@@ -14,6 +14,7 @@
 #include "common/image/image.h"
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/passes/feature_reference.h"
 #include "rig_firmware/stereo/passes/stereo_layout.h"
 
 namespace vantage {
@@ -127,7 +128,7 @@ class EnginePassTest : public testing::TestWithParam<PassCase> {
     PassProfiler profiler_;
     StereoLayout layout_{GetParam().width, GetParam().height};
     TexturedPair pair_ = textured_pair(GetParam().width, GetParam().height);
-    GreyImage left_luma_ = to_grey(pair_.left), right_luma_ = to_grey(pair_.right);
+    StereoPlanes left_ = planes_of(pair_.left), right_ = planes_of(pair_.right);
 };
 
 }  // namespace vantage

@@ -52,14 +52,14 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     luma.run(profiler_, left, right);
     features.run(profiler_, luma);
     permeabilities.run(profiler_, luma.left());
-    const cv::Mat1i left_words = feature_words(left_luma_);
-    const GreyImage right_rows = rows_shifted(
-        right_luma_, row_shift(left_words, feature_words(right_luma_), GetParam().disparities));
+    const cv::Mat1i left_words = feature_words(left_);
+    const StereoPlanes right_rows =
+        rows_shifted(right_, row_shift(left_words, feature_words(right_), GetParam().disparities));
     const cv::Mat1i right_words = feature_words(right_rows);
     expect_equal(channel_of(features.left_features(), layout_, 1, 0), left_words, "left feature");
     expect_equal(channel_of(features.right_features(), layout_, 1, 0), right_words,
                  "right feature");
-    const cv::Mat1b permeability = permeability_of(guide_of(left_luma_), permeability_table(sigma));
+    const cv::Mat1b permeability = permeability_of(guide_of(left_), permeability_table(sigma));
     expect_permeabilities(permeabilities, permeability);
 
     PermPass perm(library_, layout_, GetParam().disparities);
@@ -131,8 +131,8 @@ TEST(FillFromBackground, TakesWhatThereIsInARowThatHasNothingBetter) {
 
 TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
     for (const int shift : {-2, -1, 0, 1}) {
-        const GreyImage lower = rows_shifted(right_luma_, -shift);
-        const cv::Mat1i left_words = feature_words(left_luma_), words = feature_words(lower);
+        const StereoPlanes lower = rows_shifted(right_, -shift);
+        const cv::Mat1i left_words = feature_words(left_), words = feature_words(lower);
         if (layout_.width_px > 100) {
             EXPECT_EQ(row_shift(left_words, words, GetParam().disparities), shift);
         }
@@ -162,14 +162,17 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     HalvePass halve(library_, layout_);
     halve.run(profiler_, fine.left());
     const StereoLayout half = halved(layout_);
-    const GreyImage half_luma = halved(left_luma_);
+    const StereoPlanes half_left = halved(left_);
     std::vector<unsigned char> bytes(halve.luma().bytes());
     halve.luma().read(0, std::as_writable_bytes(std::span(bytes)));
     for (int y = 0; y < half.height_px; ++y)
-        for (int x = -4; x < half.width_px + 4; ++x)
-            ASSERT_EQ(bytes[static_cast<std::size_t>(4 * y * half.luma_row_words() + 4 + x)],
-                      half_luma(y, std::clamp(x, 0, half.width_px - 1)))
+        for (int x = -4; x < half.width_px + 4; ++x) {
+            const int nearest = std::clamp(x, 0, half.width_px - 1);
+            const auto at = static_cast<std::size_t>(4 * y * half.luma_row_words() + 4 + x);
+            ASSERT_EQ(bytes[at], half_left.luma(y, nearest)) << x << ", " << y;
+            ASSERT_EQ(bytes[half.luma_words() * 4 + at], half_left.colour(y, nearest))
                 << x << ", " << y;
+        }
 
     std::vector<std::uint32_t> words(half.pixels());
     DisparityImage disparity(half.height_px, half.width_px);
@@ -183,7 +186,7 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     UpsamplePass upsample(library_, half, layout_);
     upsample.run(profiler_, Buffer::of<std::uint32_t>(words), halve.luma(), fine.left());
     const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
-    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_luma, left_luma_)),
+    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_left.luma, left_.luma)),
                  "upsampled");
     expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
 }
@@ -203,22 +206,24 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
     constexpr double sigma = 5;
     PermeabilityPass permeabilities(library_, half, sigma);
     permeabilities.run(profiler_, halve.luma());
-    const auto words_of_even_width = [](const GreyImage& picture) {
-        GreyImage even;
-        cv::copyMakeBorder(picture, even, 0, 0, 0, picture.cols % 2, cv::BORDER_REPLICATE);
+    const auto words_of_even_width = [](const StereoPlanes& picture) {
+        StereoPlanes even;
+        const int more = picture.luma.cols % 2;
+        cv::copyMakeBorder(picture.luma, even.luma, 0, 0, 0, more, cv::BORDER_REPLICATE);
+        cv::copyMakeBorder(picture.colour, even.colour, 0, 0, 0, more, cv::BORDER_REPLICATE);
         return feature_words(even);
     };
     const std::vector<cv::Mat1b> costs = halved_costs(
-        words_of_even_width(left_luma_), words_of_even_width(right_luma_), GetParam().disparities);
+        words_of_even_width(left_), words_of_even_width(right_), GetParam().disparities);
     HalvedCostPass cost(library_, layout_, GetParam().disparities);
     PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
                   PermCosts::given);
     cost.run(profiler_, features, perm.costs());
     expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
     perm.run(profiler_, permeabilities);
-    expect_equal_costs(perm.costs(), half,
-                       perm_costs(costs, permeability_of(guide_of(halved(left_luma_)),
-                                                         permeability_table(sigma))));
+    expect_equal_costs(
+        perm.costs(), half,
+        perm_costs(costs, permeability_of(guide_of(halved(left_)), permeability_table(sigma))));
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,

@@ -33,8 +33,7 @@ class SgmPassTest : public EnginePassTest {
     LumaPass luma_{library_, layout_};
     FeaturePass features_{library_, layout_, GetParam().disparities};
     PermeabilityPass permeability_{library_, layout_, 9};
-    const cv::Mat1i left_words_ = feature_words(left_luma_),
-                    right_words_ = feature_words(right_luma_);
+    const cv::Mat1i left_words_ = feature_words(left_), right_words_ = feature_words(right_);
 };
 
 TEST_P(SgmPassTest, FourPathsOverTheMatchingCostAgreeWithTheCpuBitForBit) {
@@ -53,9 +52,9 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
     const SgmSettings settings{.p1 = 4, .p2 = 20, .columns = false};
     PermPass perm(library_, layout_, GetParam().disparities, PermOutput::costs);
     perm.run(profiler_, features_, permeability_);
-    const std::vector<cv::Mat1b> costs = perm_costs(
-        left_words_, right_words_, permeability_of(guide_of(left_luma_), permeability_table(9)),
-        GetParam().disparities);
+    const std::vector<cv::Mat1b> costs =
+        perm_costs(left_words_, right_words_,
+                   permeability_of(guide_of(left_), permeability_table(9)), GetParam().disparities);
     expect_equal_costs(perm.costs(), layout_, costs);
     const Winners winners = sgm_winners(costs, settings);
     SgmPass paths(library_, layout_, GetParam().disparities, settings);
