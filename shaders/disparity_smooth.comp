@@ -1,11 +1,14 @@
 // Sub-pixel noise of disparities out of slanted surfaces: a mean over RADIUS pixels to both sides along rows
-// (ALONG 0) or columns (1), of pairs that lie opposite to each other and are both known and within one pixel of the
+// (ALONG 0) or columns (1), of pairs that lie opposite to each other and are both known and within MOST_STEP of the
 // disparity between them. A plane is its own mean, however slanted, and beside an edge there are no such pairs. A
 // pair that does not count votes as the centre does. An invocation makes four pixels of ROWS rows.
 #include "stereo_common.glsl"
 
 #ifndef ALONG
 #define ALONG 0
+#endif
+#ifndef MOST_STEP
+#define MOST_STEP 32  // 1/32 px
 #endif
 #ifndef ROWS
 #define ROWS 8
@@ -17,7 +20,6 @@ layout(std430, binding = 1) writeonly buffer Smoothed { uvec4 smoothed[]; };
 uniform ivec2 size;
 uniform int stride;
 
-const int most_step = 32;  // 1/32 px
 
 ivec4 known(uvec4 words) {
     ivec4 d = ivec4(words & 0xffffu);
@@ -27,7 +29,7 @@ ivec4 known(uvec4 words) {
 // How far two opposite pixels together lie from the one between them.
 ivec4 pair(ivec4 here, ivec4 a, ivec4 b) {
     ivec4 from = a - here, to = b - here;
-    ivec4 near = ivec4(lessThanEqual(max(abs(from), abs(to)), ivec4(most_step)));
+    ivec4 near = ivec4(lessThanEqual(max(abs(from), abs(to)), ivec4(MOST_STEP)));
     return near * (from + to);
 }
 

@@ -9,6 +9,11 @@
 #define WEIGHTED 1
 #endif
 
+// 1: costs rise only at some distance from their minimum, see Valley of left_right_reference.h.
+#ifndef FLAT_VALLEY
+#define FLAT_VALLEY 0
+#endif
+
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer Winners { uvec4 winners[]; };  // two pixels
 #if WEIGHTED
@@ -39,7 +44,12 @@ uint resolved(uvec2 winner, int d) {
     if (before != 0xfff && after != 0xfff) {
         // Two straight lines of equal steepness through the three costs: what absolute differences give.
         int steep = max(max(before, after) - best, 1);
+#if FLAT_VALLEY
+        int part = int(float(64 * abs(before - after)) / float(steep));
+        int offset = (part * (96 + part) + 320) / 640;
+#else
         int offset = int(float(16 * abs(before - after) + (steep >> 1)) / float(steep));
+#endif
         position += before > after ? offset : -offset;
         rise = before + after - 2 * best;
     }

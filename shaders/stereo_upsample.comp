@@ -15,7 +15,7 @@ uniform ivec2 fine_size;
 uniform int fine_stride;
 uniform int fine_row_words;
 
-const int most_step = 32;  // 1/32 coarse px
+const int most_step = 16;  // 1/32 coarse px
 
 // A coarse pixel and its neighbours: disparity | confidence << 16, and luma.
 struct Cross {

@@ -44,12 +44,14 @@ class EngineMatcher : public Matcher {
 /// does not spread what stands alone, then smoothing.
 class CheckAndFill {
   public:
-    CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill)
+    /// valley, most_step: see LeftRightPass and SmoothPass.
+    CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill,
+                 Valley valley = Valley::sharp, int most_step = disparity_steps_per_px)
         : fills_(fill),
-          check_(library, layout),
+          check_(library, layout, valley),
           support_(library, layout),
           fill_(library, layout),
-          smooth_(library, layout) {}
+          smooth_(library, layout, most_step) {}
 
     const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
     std::size_t gpu_bytes() const { return check_.gpu_bytes() + smooth_.gpu_bytes(); }

@@ -57,8 +57,8 @@ cv::Mat1b judged(const cv::Mat1w& mask, const cv::Mat1f& disparity) {
 }
 
 SceneUse use_of(const std::string& name) {
-    constexpr std::array tuning = {"tsukuba", "teddy", "books_third", "laundry_third",
-                                   "moebius_third"};
+    constexpr std::array tuning = {"tsukuba",     "cones",         "teddy",
+                                   "books_third", "laundry_third", "moebius_third"};
     if (std::ranges::find(tuning, name) != tuning.end()) return SceneUse::tuning;
     // TeddyQ is the scene of teddy.
     return name == "aloe_half" || name == "TeddyQ" ? SceneUse::in_sight : SceneUse::held_out;

@@ -23,7 +23,7 @@ class CoarseMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 4.5;
+    static constexpr double sigma = 3.5;
 
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities)
@@ -35,7 +35,7 @@ class CoarseMatcher : public EngineMatcher {
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
           paths_(library, coarse, coarse_disparities, {.p1 = 6, .p2 = 28, .columns = false},
                  perm_.large_scratch(), perm_.small_scratch()),
-          check_(library, coarse, settings.fill),
+          check_(library, coarse, settings.fill, Valley::flat, disparity_steps_per_px / 2),
           upsample_(library, coarse, fine) {}
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {

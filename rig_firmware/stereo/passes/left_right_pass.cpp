@@ -1,11 +1,21 @@
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 
 namespace vantage {
+namespace {
 
-LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout)
+Program make_program(const ShaderLibrary& library, Valley valley, bool weighted) {
+    return Program::compute(
+        library, "left_right_check.comp",
+        {{"WEIGHTED", weighted ? "1" : "0"}, {"FLAT_VALLEY", valley == Valley::flat ? "1" : "0"}});
+}
+
+}  // namespace
+
+LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout,
+                             Valley valley)
     : layout_(layout),
-      weighted_(Program::compute(library, "left_right_check.comp", {{"WEIGHTED", "1"}})),
-      unweighted_(Program::compute(library, "left_right_check.comp", {{"WEIGHTED", "0"}})),
+      weighted_(make_program(library, valley, true)),
+      unweighted_(make_program(library, valley, false)),
       claims_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       disparity_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
 

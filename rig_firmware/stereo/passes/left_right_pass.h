@@ -13,7 +13,8 @@ namespace vantage {
 /// than one pixel of disparity is occluded or mismatched.
 class LeftRightPass {
   public:
-    LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout);
+    LeftRightPass(const ShaderLibrary& library, const StereoLayout& layout,
+                  Valley valley = Valley::sharp);
 
     /// winners and weight in PermPass's form; no weight where costs compare as they are.
     void run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);

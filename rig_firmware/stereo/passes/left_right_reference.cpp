@@ -7,7 +7,18 @@
 
 namespace vantage {
 
-CheckedDisparity left_right_checked(const Winners& winners) {
+namespace {
+
+/// In 1/32 px, 0..16.
+int offset_of(int difference, int steep, Valley valley) {
+    if (valley == Valley::sharp) return (16 * difference + (steep >> 1)) / steep;
+    const int part = 64 * difference / steep;
+    return (part * (96 + part) + 320) / 640;
+}
+
+}  // namespace
+
+CheckedDisparity left_right_checked(const Winners& winners, Valley valley) {
     const cv::Size size = winners.disparity.size();
     CheckedDisparity result{DisparityImage(size, 0), cv::Mat1b(size, 0)};
     std::vector<std::uint32_t> claims(static_cast<std::size_t>(size.width));
@@ -35,7 +46,7 @@ CheckedDisparity left_right_checked(const Winners& winners) {
             int position = d * disparity_steps_per_px, rise = 0;
             if (before != no_cost && after != no_cost) {
                 const int steep = std::max(std::max(before, after) - best, 1);
-                const int offset = (16 * std::abs(before - after) + (steep >> 1)) / steep;
+                const int offset = offset_of(std::abs(before - after), steep, valley);
                 position += before > after ? offset : -offset;
                 rise = before + after - 2 * best;
             }

@@ -5,17 +5,18 @@
 namespace vantage {
 namespace {
 
-Program make_program(const ShaderLibrary& library, int along) {
-    return four_by_eight::program(library, "disparity_smooth.comp",
-                                  {{"ALONG", std::to_string(along)}});
+Program make_program(const ShaderLibrary& library, int along, int most_step) {
+    return four_by_eight::program(
+        library, "disparity_smooth.comp",
+        {{"ALONG", std::to_string(along)}, {"MOST_STEP", std::to_string(most_step)}});
 }
 
 }  // namespace
 
-SmoothPass::SmoothPass(const ShaderLibrary& library, const StereoLayout& layout)
+SmoothPass::SmoothPass(const ShaderLibrary& library, const StereoLayout& layout, int most_step)
     : layout_(layout),
-      rows_(make_program(library, 0)),
-      columns_(make_program(library, 1)),
+      rows_(make_program(library, 0, most_step)),
+      columns_(make_program(library, 1, most_step)),
       along_rows_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
 
 void SmoothPass::run(PassProfiler& profiler, const Buffer& disparity) {

@@ -12,7 +12,9 @@ namespace vantage {
 /// neighbours that are both near in disparity, along rows, then along columns.
 class SmoothPass {
   public:
-    SmoothPass(const ShaderLibrary& library, const StereoLayout& layout);
+    /// most_step: see smoothed_where_near.
+    SmoothPass(const ShaderLibrary& library, const StereoLayout& layout,
+               int most_step = disparity_steps_per_px);
 
     /// disparity in LeftRightPass's form; its contents are replaced. Unknown stays unknown, and
     /// confidence as it is.

@@ -7,10 +7,9 @@ namespace vantage {
 namespace {
 
 constexpr int radius = 4;
-constexpr int most_step = disparity_steps_per_px;
 
 /// dx, dy: the way to the next pixel of a line.
-DisparityImage smoothed_along(const DisparityImage& disparity, int dx, int dy) {
+DisparityImage smoothed_along(const DisparityImage& disparity, int dx, int dy, int most_step) {
     DisparityImage result = disparity.clone();
     const auto known_at = [&](int x, int y) {
         const bool inside = x >= 0 && y >= 0 && x < disparity.cols && y < disparity.rows;
@@ -37,8 +36,8 @@ DisparityImage smoothed_along(const DisparityImage& disparity, int dx, int dy) {
 
 }  // namespace
 
-DisparityImage smoothed_where_near(const DisparityImage& disparity) {
-    return smoothed_along(smoothed_along(disparity, 1, 0), 0, 1);
+DisparityImage smoothed_where_near(const DisparityImage& disparity, int most_step) {
+    return smoothed_along(smoothed_along(disparity, 1, 0, most_step), 0, 1, most_step);
 }
 
 }  // namespace vantage

@@ -26,7 +26,7 @@ DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_l
             const bool is_flat =
                 own != 0 && std::ranges::all_of(beside, [&](const auto& step) {
                     const int there = coarse(beside_at(step[0], step[1]));
-                    return there != 0 && std::abs(there - own) <= disparity_steps_per_px;
+                    return there != 0 && std::abs(there - own) <= disparity_steps_per_px / 2;
                 });
             if (is_flat) {
                 const int across = coarse(beside_at(x % 2 ? 1 : -1, 0)),

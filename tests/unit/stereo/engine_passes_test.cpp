@@ -80,6 +80,11 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     const cv::Mat1i words = channel_of(check.disparity(), layout_, 1, 0);
     expect_equal(lower_half(words), as_int(checked.disparity), "checked disparity");
     expect_equal(upper_half(words), as_int(checked.confidence), "confidence");
+    LeftRightPass flat_check(library_, layout_, Valley::flat);
+    flat_check.run(profiler_, perm.winners(), &perm.weight());
+    expect_equal(lower_half(channel_of(flat_check.disparity(), layout_, 1, 0)),
+                 as_int(left_right_checked(winners, Valley::flat).disparity),
+                 "checked disparity of flat valleys");
 
     const DisparityImage supported = supported_disparity(checked.disparity);
     SupportPass support(library_, layout_);

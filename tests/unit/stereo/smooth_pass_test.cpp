@@ -25,7 +25,8 @@ DisparityImage slant_with_a_step(const StereoLayout& layout, int noise, bool wit
 }
 
 DisparityImage smoothed_by_pass(const ShaderLibrary& library, const StereoLayout& layout,
-                                const DisparityImage& disparity, cv::Mat1i& confidence) {
+                                const DisparityImage& disparity, cv::Mat1i& confidence,
+                                int most_step = disparity_steps_per_px) {
     std::vector<std::uint32_t> words(layout.pixels(), 0xabcdef01U);
     for (int y = 0; y < disparity.rows; ++y)
         for (int x = 0; x < disparity.cols; ++x)
@@ -33,7 +34,7 @@ DisparityImage smoothed_by_pass(const ShaderLibrary& library, const StereoLayout
                 disparity(y, x) | static_cast<std::uint32_t>((x + y) & 255) << 16;
     const auto buffer = Buffer::of<std::uint32_t>(words);
     PassProfiler profiler;
-    SmoothPass(library, layout).run(profiler, buffer);
+    SmoothPass(library, layout, most_step).run(profiler, buffer);
     const cv::Mat1i result = channel_of(buffer, layout, 1, 0);
     confidence = upper_half(result);
     DisparityImage smoothed;
@@ -46,6 +47,9 @@ TEST_P(SmoothPassTest, AgreesWithItsCpuFormBitForBitAndLeavesUnknownAndConfidenc
     cv::Mat1i confidence;
     const DisparityImage found = smoothed_by_pass(library_, layout_, disparity, confidence);
     expect_equal(as_int(found), as_int(smoothed_where_near(disparity)), "smoothed");
+    cv::Mat1i same;
+    expect_equal(as_int(smoothed_by_pass(library_, layout_, disparity, same, 11)),
+                 as_int(smoothed_where_near(disparity, 11)), "smoothed where nearer");
     for (int y = 0; y < found.rows; ++y)
         for (int x = 0; x < found.cols; ++x) {
             ASSERT_EQ(found(y, x) == 0, disparity(y, x) == 0) << x << ", " << y;

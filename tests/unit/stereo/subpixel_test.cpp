@@ -14,7 +14,8 @@ class SubpixelTest : public testing::TestWithParam<std::uint64_t> {
 TEST_P(SubpixelTest, IsWithinASeventhOfAPixelOnSlantedPlanesUnderSensorNoise) {
     const FilmedPair pair = filmed_set(library_, GetParam(), {449, 337}, 1);
     constexpr int disparities = 48;
-    for (const MatchPreset preset : {MatchPreset::quality, MatchPreset::balanced}) {
+    for (const MatchPreset preset :
+         {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast}) {
         const auto matcher = make_matcher(
             default_matcher(preset), library_,
             {.width_px = 449, .height_px = 337, .disparities = disparities, .preset = preset});
