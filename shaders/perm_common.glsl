@@ -11,15 +11,16 @@ const uint low_bytes = 0x00ff00ffu;
 uvec2 bytes_of(uvec4 pairs) { return (pairs.xy & low_bytes) | ((pairs.zw & low_bytes) << 8); }
 uvec4 pairs_of(uvec2 bytes) { return uvec4(bytes & low_bytes, (bytes >> 8) & low_bytes); }
 
-// The shorter way between the upper five bits, on a circle of 32.
-uint way(uint a, uint b) {
+// The shorter way between the upper five bits, on a circle of 32, in units of 1 << 27; at most `most`.
+uint way(uint a, uint b, uint most) {
     const uint upper = 0xf8000000u;
-    return uint(abs(int((a & upper) - (b & upper)) >> 27));
+    return min(uint(abs(int((a & upper) - (b & upper)))), most << 27);
 }
 
 // Truncated census distance plus truncated differences of both gradients and of colour, 0..31.
 uint cost_of(uint left, uint right) {
     uint census = uint(bitCount((left ^ right) & 0x1ffffu));
-    uint down = way(left << 10, right << 10), colour = way(left << 5, right << 5), across = way(left, right);
-    return min(census, 9u) + 2u * (min(across, 3u) + min(down, 4u) + min(colour, 4u));
+    // Across, down and of colour: all three together are less than a turn of the circle.
+    uint ways = way(left, right, 3u) + way(left << 10, right << 10, 4u) + way(left << 5, right << 5, 4u);
+    return min(census, 9u) + (ways >> 26);
 }

@@ -4,7 +4,7 @@
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer LeftFeatures { uint left_features[]; };
-layout(std430, binding = 1) readonly buffer RightFeatures { uint right_features[]; };
+layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
 layout(std430, binding = 2) buffer Votes { uint votes[]; };
 uniform ivec2 size;
 uniform int stride;
@@ -16,19 +16,29 @@ void main() {
     uint left = left_features[y * stride + x];
     int r0 = max(y - 2, 0) * stride + x, r1 = max(y - 1, 0) * stride + x, r2 = y * stride + x;
     int r3 = min(y + 1, size.y - 1) * stride + x, r4 = min(y + 2, size.y - 1) * stride + x;
-    int l0 = 32, l1 = 32, l2 = 32, l3 = 32, l4 = 32;
-#define DISTANCE(r) int(cost_of(left, right_features[r - d]))
+    // Four disparities a step, whose words come by one load; x is a multiple of four.
+#define FIRST(r) cost_of(left, right_features[(r) >> 2].x)
+    uint l0 = FIRST(r0), l1 = FIRST(r1), l2 = FIRST(r2), l3 = FIRST(r3), l4 = FIRST(r4);
     int most = min(disparities - 1, x);
-    for (int d = 0; d <= most; ++d) {
-        l0 = min(l0, DISTANCE(r0));
-        l1 = min(l1, DISTANCE(r1));
-        l2 = min(l2, DISTANCE(r2));
-        l3 = min(l3, DISTANCE(r3));
-        l4 = min(l4, DISTANCE(r4));
+    for (int d = 1; d <= most; d += 4) {
+        // What lies beyond the range costs most.
+        uvec3 beyond = uvec3(lessThan(ivec3(most), ivec3(d + 1, d + 2, d + 3))) * 32u;
+#define LEAST(l, r)                                                                                          \
+    {                                                                                                        \
+        uvec4 words = right_features[((r) - d - 3) >> 2];                                                    \
+        uvec4 costs = uvec4(cost_of(left, words.w), cost_of(left, words.z), cost_of(left, words.y), cost_of(left, words.x)); \
+        costs.yzw = max(costs.yzw, beyond);                                                                  \
+        l = min(min(l, min(costs.x, costs.y)), min(costs.z, costs.w));                                       \
     }
-    atomicAdd(votes[0], uint(l0));
-    atomicAdd(votes[1], uint(l1));
-    atomicAdd(votes[2], uint(l2));
-    atomicAdd(votes[3], uint(l3));
-    atomicAdd(votes[4], uint(l4));
+        LEAST(l0, r0)
+        LEAST(l1, r1)
+        LEAST(l2, r2)
+        LEAST(l3, r3)
+        LEAST(l4, r4)
+    }
+    atomicAdd(votes[0], l0);
+    atomicAdd(votes[1], l1);
+    atomicAdd(votes[2], l2);
+    atomicAdd(votes[3], l3);
+    atomicAdd(votes[4], l4);
 }

@@ -14,19 +14,28 @@ uint fine_word(int y, int word) {
     return fine[row * fine_row_words + word];
 }
 
-uint mean_of(int x, int y) {
-    int xf = 2 * clamp(x, 0, coarse_size.x - 1);
-    // Pixel xf is byte xf % 4 of word xf / 4 + 1; its partner is in the same word.
-    int word = (xf >> 2) + 1, first = xf & 3;
-    uint a = fine_word(2 * y, word), b = fine_word(2 * y + 1, word);
-    return (byte_of(a, first) + byte_of(a, first + 1) + byte_of(b, first) + byte_of(b, first + 1) + 2u) >> 2;
+// Means of two pixels of a half-size row, a 16-bit half each.
+uint means(uint above, uint below) {
+    const uint low_bytes = 0x00ff00ffu;
+    uint sums = (above & low_bytes) + ((above >> 8) & low_bytes) + (below & low_bytes) + ((below >> 8) & low_bytes);
+    return ((sums + 0x00020002u) >> 2) & low_bytes;
 }
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= coarse_row_words || at.y >= coarse_size.y) return;
-    int x = (at.x - 1) * 4;
+    // The four pixels of this word, or those of the nearest one that holds some of the picture.
+    int x = clamp((at.x - 1) * 4, 0, (coarse_size.x - 1) & ~3), word = (x >> 1) + 1;
+    uint first = means(fine_word(2 * at.y, word), fine_word(2 * at.y + 1, word));
+    uint second = means(fine_word(2 * at.y, word + 1), fine_word(2 * at.y + 1, word + 1));
+    uvec4 four = uvec4(first & 255u, first >> 16, second & 255u, second >> 16);
+    // The first and the last pixel repeat beside the picture.
+    int last = coarse_size.x - 1 - x;
+    if (last < 3) four = uvec4(four.x, last < 1 ? four.xxx : last < 2 ? four.yyy : four.yzz);
+    if (at.x == 0) four = four.xxxx;
+    if (x < (at.x - 1) * 4) four = four.wwww;
     int row = at.y + int(gl_GlobalInvocationID.z) * coarse_size.y;
-    coarse[row * coarse_row_words + at.x] = mean_of(x, at.y) | (mean_of(x + 1, at.y) << 8) |
-                                            (mean_of(x + 2, at.y) << 16) | (mean_of(x + 3, at.y) << 24);
+    // As whole() does, but of words that may be ~0; no row is without words.
+    coarse[row * coarse_row_words + at.x] =
+        max(four.x | (four.y << 8) | (four.z << 16) | (four.w << 24), uint(coarse_row_words == 0));
 }

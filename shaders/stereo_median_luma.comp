@@ -26,6 +26,8 @@ void main() {
     uvec3 words = uvec3(a.y, b.y, c.y);
     uvec3 p0 = words & 255u, p1 = (words >> 8) & 255u, p2 = (words >> 16) & 255u, p3 = words >> 24;
 #define MEDIAN(l, m, r) median9(l.x, m.x, r.x, l.y, m.y, r.y, l.z, m.z, r.z)
-    guide[here] = MEDIAN(low, p0, p1) | (MEDIAN(p0, p1, p2) << 8) | (MEDIAN(p1, p2, p3) << 16) |
-                  (MEDIAN(p2, p3, high) << 24);
+    uint four = MEDIAN(low, p0, p1) | (MEDIAN(p0, p1, p2) << 8) | (MEDIAN(p1, p2, p3) << 16) |
+                (MEDIAN(p2, p3, high) << 24);
+    // As whole() does, but of words that may be ~0; no row is without words.
+    guide[here] = max(four, uint(row_words == 0));
 }

@@ -41,9 +41,9 @@ void main() {
         Four before = Four(ivec4(luma_before, here.luma.xyz), ivec4(colour_before, here.colour.xyz));
         uvec4 from_left = passes(here, before) * inside_row;
         along[y * (stride / 4) + at.x] =
-            from_left.x | (from_left.y << 8) | (from_left.z << 16) | (from_left.w << 24);
+            whole(from_left.x | (from_left.y << 8) | (from_left.z << 16) | (from_left.w << 24));
         if (y > 0) from_above |= (passes(here, above) * inside) << (8 * (y - first));
         above = here;
     }
-    down[at.y * (stride / 4) + at.x] = from_above;
+    down[at.y * (stride / 4) + at.x] = whole(from_above);
 }

@@ -23,7 +23,7 @@ class CoarseMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 3.5;
+    static constexpr double sigma = 4.5;
 
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities)
@@ -33,7 +33,7 @@ class CoarseMatcher : public EngineMatcher {
           permeability_(library, coarse, sigma),
           cost_(library, fine, settings.disparities),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
-          paths_(library, coarse, coarse_disparities, {.p1 = 6, .p2 = 28, .columns = false},
+          paths_(library, coarse, coarse_disparities, {.p1 = 4, .p2 = 20, .columns = false},
                  perm_.large_scratch(), perm_.small_scratch()),
           check_(library, coarse, settings.fill, Valley::flat, disparity_steps_per_px / 2),
           upsample_(library, coarse, fine) {}
