@@ -22,9 +22,11 @@ const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& winners,
         support_.run(profiler, check_.disparity(), check_.scratch());
         fill_.run(profiler, check_.disparity(), check_.scratch());
     }
-    const Buffer& disparity = fills_ ? check_.scratch() : check_.disparity();
+    const Buffer &disparity = fills_ ? check_.scratch() : check_.disparity(),
+                 &medians = fills_ ? check_.disparity() : check_.scratch();
     smooth_.run(profiler, disparity);
-    return disparity;
+    median_.run(profiler, disparity, medians);
+    return medians;
 }
 
 }  // namespace vantage

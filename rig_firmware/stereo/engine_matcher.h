@@ -8,14 +8,15 @@
 #include "rig_firmware/stereo/passes/fill_pass.h"
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/luma_pass.h"
+#include "rig_firmware/stereo/passes/median_pass.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
 #include "rig_firmware/stereo/passes/smooth_pass.h"
 #include "rig_firmware/stereo/passes/support_pass.h"
 
 namespace vantage {
 
-/// What the engine's matchers share: luma of the pictures before the search, the median after it,
-/// and the book-keeping.
+/// What the engine's matchers share: luma of the pictures before the search, the textures of the
+/// result after it, and the book-keeping.
 class EngineMatcher : public Matcher {
   public:
     const Texture& match(const Texture& left, const Texture& right) final;
@@ -41,7 +42,7 @@ class EngineMatcher : public Matcher {
 };
 
 /// What follows a search at its own size: left-right check, then, if `fill` is set, a fill that
-/// does not spread what stands alone, then smoothing.
+/// does not spread what stands alone, then smoothing and a median.
 class CheckAndFill {
   public:
     /// valley, most_step: see LeftRightPass and SmoothPass.
@@ -51,7 +52,8 @@ class CheckAndFill {
           check_(library, layout, valley),
           support_(library, layout),
           fill_(library, layout),
-          smooth_(library, layout, most_step) {}
+          smooth_(library, layout, most_step),
+          median_(library, layout) {}
 
     const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
     std::size_t gpu_bytes() const { return check_.gpu_bytes() + smooth_.gpu_bytes(); }
@@ -62,6 +64,7 @@ class CheckAndFill {
     SupportPass support_;
     FillPass fill_;
     SmoothPass smooth_;
+    MedianPass median_;
 };
 
 inline StereoLayout layout_of(const MatchSettings& settings) {

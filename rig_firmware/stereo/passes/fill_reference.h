@@ -14,7 +14,7 @@ inline DisparityImage filled_from_background(const DisparityImage& disparity) {
     return filled_from_background(disparity, disparity);
 }
 
-/// CPU form of ResultPass: 3x3 median; unknown (0) stays, unknown neighbours vote as the centre
+/// CPU form of MedianPass: 3x3 median; unknown (0) stays, unknown neighbours vote as the centre
 /// does.
 DisparityImage median_of_known(const DisparityImage& disparity);
 

@@ -1,14 +1,10 @@
 #include "rig_firmware/stereo/passes/result_pass.h"
 
-#include "rig_firmware/stereo/passes/four_by_eight.h"
-
 namespace vantage {
 
 ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
                        bool with_confidence)
     : layout_(layout),
-      median_(four_by_eight::program(library, "disparity_median.comp")),
-      medians_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       pass_(library, "stereo_result.frag", {{"CONFIDENCE", with_confidence ? "1" : "0"}}),
       result_(TextureFormat::r16ui, layout.width_px, layout.height_px),
       confidence_(with_confidence ? std::optional<Texture>(std::in_place, TextureFormat::r8ui,
@@ -18,13 +14,10 @@ ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
 
 const Texture& ResultPass::run(PassProfiler& profiler, const Buffer& disparity) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("median", {pixels * 14, static_cast<double>(pixels) * 60}, [&] {
-        disparity.bind_storage(0);
-        medians_.bind_storage(1);
-        four_by_eight::run(median_, layout_);
+    profiler.run("result", {pixels * 6, static_cast<double>(pixels) * 2}, [&] {
         Program& program = pass_.use();
         program.set("stride", layout_.stride_px());
-        medians_.bind_storage(0);
+        disparity.bind_storage(0);
         pass_.draw(target_);
     });
     return result_;

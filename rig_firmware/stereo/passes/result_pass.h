@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// 3x3 median of the known, from LeftRightPass's form into the textures that a matcher gives back.
+/// From LeftRightPass's form into the textures that a matcher gives back.
 class ResultPass {
   public:
     ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
@@ -24,13 +24,11 @@ class ResultPass {
     const Texture* confidence() const { return confidence_ ? &*confidence_ : nullptr; }
 
     std::size_t gpu_bytes() const {
-        return medians_.bytes() + result_.bytes() + (confidence_ ? confidence_->bytes() : 0U);
+        return result_.bytes() + (confidence_ ? confidence_->bytes() : 0U);
     }
 
   private:
     StereoLayout layout_;
-    Program median_;
-    Buffer medians_;
     FullscreenPass pass_;
     Texture result_;
     std::optional<Texture> confidence_;

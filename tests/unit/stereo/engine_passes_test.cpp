@@ -11,6 +11,7 @@
 #include "rig_firmware/stereo/passes/halved_cost_reference.h"
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/left_right_reference.h"
+#include "rig_firmware/stereo/passes/median_pass.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
@@ -104,11 +105,20 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(lower_half(smooth_words), as_int(smoothed), "smoothed");
     EXPECT_GT(cv::norm(smoothed, filled, cv::NORM_L1), 0) << "nothing was there to be smoothed";
 
+    MedianPass median(library_, layout_);
+    const Buffer medians(check.disparity().bytes(), GL_DYNAMIC_COPY);
+    median.run(profiler_, check.scratch(), medians);
+    expect_equal(lower_half(channel_of(medians, layout_, 1, 0)), as_int(median_of_known(smoothed)),
+                 "dense median");
+    median.run(profiler_, check.disparity(), medians);
+    const cv::Mat1i median_words = channel_of(medians, layout_, 1, 0);
+    expect_equal(lower_half(median_words), as_int(median_of_known(checked.disparity)),
+                 "median of what is known");
+    expect_equal(upper_half(median_words), as_int(checked.confidence), "confidence of the median");
+
     ResultPass result(library_, layout_);
-    expect_equal(as_int(result.run(profiler_, check.scratch()).download()),
-                 as_int(median_of_known(smoothed)), "dense result");
     expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
-                 as_int(median_of_known(checked.disparity)), "result with unknowns");
+                 as_int(checked.disparity), "result");
     ResultPass with_confidence(library_, layout_, true);
     with_confidence.run(profiler_, check.disparity());
     expect_equal(as_int(with_confidence.confidence()->download()), as_int(checked.confidence),
