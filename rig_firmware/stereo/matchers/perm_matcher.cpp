@@ -4,7 +4,7 @@
 namespace vantage {
 namespace {
 
-/// Census and gradient cost, permeability aggregation over the whole search range.
+/// Census, gradient and colour cost, permeability aggregation over the whole search range.
 class PermMatcher : public EngineMatcher {
   public:
     PermMatcher(const ShaderLibrary& library, const MatchSettings& settings)
@@ -41,7 +41,7 @@ class PermMatcher : public EngineMatcher {
 
 MatcherEntry perm_matcher_entry() {
     return engine_entry<PermMatcher>(
-        "perm", "census and gradient cost, permeability aggregation over the whole range");
+        "perm", "census, gradient and colour cost, permeability aggregation over the whole range");
 }
 
 }  // namespace vantage

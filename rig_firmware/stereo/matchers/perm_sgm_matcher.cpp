@@ -25,7 +25,7 @@ class PermSgmMatcher : public EngineMatcher {
 
   private:
     /// Smaller than where permeability has to smooth alone: paths do the rest.
-    static constexpr double sigma = 9;
+    static constexpr double sigma = 8;
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);

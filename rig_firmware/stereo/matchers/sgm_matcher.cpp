@@ -39,7 +39,8 @@ class SgmMatcher : public EngineMatcher {
 }  // namespace
 
 MatcherEntry sgm_matcher_entry() {
-    return engine_entry<SgmMatcher>("sgm", "census and gradient cost, semi-global, four paths");
+    return engine_entry<SgmMatcher>("sgm",
+                                    "census, gradient and colour cost, semi-global, four paths");
 }
 
 }  // namespace vantage
