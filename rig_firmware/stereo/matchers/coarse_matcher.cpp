@@ -23,14 +23,14 @@ class CoarseMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 4.5;
+    static constexpr double sigma = 7.5;
 
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities)
         : EngineMatcher(library, settings),
           features_(library, fine, settings.disparities),
           halve_(library, fine),
-          permeability_(library, coarse, sigma),
+          permeability_(library, coarse, sigma, PermeabilityGuide::plain),
           cost_(library, fine, settings.disparities),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
           paths_(library, coarse, coarse_disparities, {.p1 = 4, .p2 = 20, .columns = false},

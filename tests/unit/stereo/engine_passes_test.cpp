@@ -219,7 +219,7 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
     halve.run(profiler_, luma.left());
     const StereoLayout half = halved(layout_);
     constexpr double sigma = 5;
-    PermeabilityPass permeabilities(library_, half, sigma);
+    PermeabilityPass permeabilities(library_, half, sigma, PermeabilityGuide::plain);
     permeabilities.run(profiler_, halve.luma());
     const auto words_of_even_width = [](const StereoPlanes& picture) {
         StereoPlanes even;
@@ -238,7 +238,7 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
     perm.run(profiler_, permeabilities);
     expect_equal_costs(
         perm.costs(), half,
-        perm_costs(costs, permeability_of(guide_of(halved(left_)), permeability_table(sigma))));
+        perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma))));
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
