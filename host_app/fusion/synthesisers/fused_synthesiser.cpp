@@ -89,7 +89,7 @@ class FusedSynthesiser final : public Synthesiser {
     void prepare(GpuView& view) {
         // Asked for before anything is bound: making a texture binds it.
         const Framebuffer& surface = view.surface_target();
-        closer_.close(consensus_.better(view, views_), surface);
+        closer_.close(consensus_.better(view, views_), view.steady_depth(), view.colour(), surface);
         edge_trust_.judge(view);
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})
             blender_.layers().rasteriser().build_triangles(view, grid);

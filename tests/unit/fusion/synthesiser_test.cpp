@@ -210,6 +210,27 @@ TEST(FusedSynthesiser, AsksAllRigsThatAreAboutAsClose) {
     EXPECT_NEAR(picture(45, 60)[0], 132, 8);
 }
 
+/// A plain square leaves a matcher nothing to hold on to; its colour tells it from the wall.
+TEST(FusedSynthesiser, GuessesTheDepthOfWhatALikeColouredSurfaceSurrounds) {
+    const EglContext context;
+    const ShaderLibrary shaders;
+    const DepthView truth = wall_and_square(-0.2, 121, 91);
+    DepthView view = wall_and_square(0, 121, 91);
+    // The square's right third, and a stripe of the wall beside it.
+    view.depth_m(cv::Rect(68, 15, 30, 60)).setTo(0);
+    const auto synthesiser = make_synthesiser("fused", shaders);
+    synthesiser->set_views({&view, 1});
+    const ColourImage picture = synthesiser->render(target_of(truth)).download();
+    int misplaced = 0;
+    for (int v = 24; v < 67; ++v)
+        for (int u = 60; u < 110; ++u) {
+            const bool is_red = picture(v, u)[0] > 120, should_be = truth.colour(v, u)[0] > 120;
+            misplaced += is_red != should_be ? 1 : 0;
+        }
+    EXPECT_LT(misplaced, 60) << "of 43 rows";
+    EXPECT_LT(picture(45, 88)[3], 128) << "a guess is not covered";
+}
+
 /// A black post of a pixel's width before the wall.
 TEST(FusedSynthesiser, ShowsAPostOfOnePixel) {
     constexpr int post_px = 14;
