@@ -1,15 +1,19 @@
 #include "common/config/camera_yaml.h"
 
+#include <optional>
 #include <string>
+
+#include "common/base/error.h"
+#include "common/config/lens_name.h"
 
 namespace vantage {
 
 void read_lens(const YamlSection& section, const char* K_key, const char* distortion_key,
                CameraModel& camera) {
-    const std::string lens = section.text("lens");
-    if (lens != "pinhole" && lens != "fisheye")
-        fail("'{}lens' is '{}', and it must be pinhole or fisheye", section.name, lens);
-    camera.lens = lens == "fisheye" ? LensModel::fisheye : LensModel::pinhole;
+    const std::string name = section.text("lens");
+    const std::optional<LensModel> lens = lens_named(name);
+    if (!lens) fail("'{}lens' is '{}', and it must be pinhole or fisheye", section.name, name);
+    camera.lens = *lens;
     const Eigen::Matrix3d K = section.matrix3(K_key);
     if (K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0 || K(2, 2) != 1)
         fail("'{}{}' must be [f_x, skew, c_x; 0, f_y, c_y; 0, 0, 1]", section.name, K_key);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
+#include "common/config/lens_name.h"
 
 namespace vantage {
 
@@ -30,8 +31,6 @@ void NumberChecksum::add(const Pose& pose) {
 }
 
 std::string NumberChecksum::hex() const { return fmt::format("{:016x}", hash_); }
-
-const char* lens_name(LensModel lens) { return lens == LensModel::fisheye ? "fisheye" : "pinhole"; }
 
 std::string checksum_text(const std::string& hex) { return "fnv1a64:" + hex; }
 

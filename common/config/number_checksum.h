@@ -32,9 +32,6 @@ class NumberChecksum {
     std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
-/// As files name it.
-const char* lens_name(LensModel lens);
-
 /// Throws Error unless `stated` is the checksum with these digits, as files have it.
 void require_checksum(const std::string& stated, const std::string& hex);
 /// "fnv1a64:" and the digits.
