@@ -1,5 +1,6 @@
-# How every target of Vantage is built: language level, warnings, sanitizers, and three helpers.
+# How every target of Vantage is built: language level, warnings, sanitizers, and four helpers.
 #   vantage_library(NAME DEPENDS ...)      a static library of all *.cpp of the current folder
+#   vantage_command_library(NAME ...)      the same of a program's subcommands
 #   vantage_registry(TARGET ...)           gathers backends by file name, so that adding one touches no other file
 #   vantage_unit_test(NAME DEPENDS ...)    one GoogleTest program of all *_test.cpp of the current folder
 
@@ -40,7 +41,7 @@ endif()
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cpp CONTENT "")
 
 # The headers that most sources come to include take most of the time to compile them: they are read once for the
-# libraries and once, with GoogleTest, for the tests.
+# libraries, once, with CLI11, for the commands and once, with GoogleTest, for the tests.
 function(vantage_precompiled name)
   add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PRIVATE vantage_options fmt::fmt nlohmann_json::nlohmann_json Eigen3::Eigen
@@ -64,6 +65,25 @@ function(vantage_library name)
   add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_use_precompiled(${name} vantage_headers)
+endfunction()
+
+# What reads a command line or checks a result spends its time elsewhere: optimising it further takes longer to compile
+# than it ever saves.
+function(vantage_optimise_little name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# vantage_command_library(vantage_host_commands FUNCTION host_commands DEPENDS ...)
+# The subcommands of a program: every file x_command.cpp of the current folder defines `CommandEntry x_command_entry();`.
+function(vantage_command_library name)
+  cmake_parse_arguments(ARG "" "FUNCTION" "DEPENDS" ${ARGN})
+  file(GLOB commands CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(${name} STATIC ${commands})
+  target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
+  vantage_optimise_little(${name})
+  vantage_use_precompiled(${name} vantage_command_headers)
+  vantage_registry(TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
+    HEADER common/base/command.h SUFFIX command FILES ${commands})
 endfunction()
 
 # vantage_registry(TARGET vantage_rig_stereo TYPE MatcherEntry FUNCTION matcher_entries
@@ -116,6 +136,7 @@ function(vantage_unit_test name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} vantage_test_support GTest::gtest_main)
+  vantage_optimise_little(${name})
   vantage_use_precompiled(${name} vantage_test_headers)
   add_dependencies(vantage_unit_tests ${name})
   if("threads" IN_LIST ARG_LABELS)

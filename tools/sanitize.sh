@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds with sanitizers and runs the tests.
 #   tools/sanitize.sh asan|tsan
+#   tools/sanitize.sh asan|tsan build     builds them, and runs nothing
 # The tests of everything that takes bytes from the network and shares data between threads.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -14,5 +15,10 @@ case "$preset" in
   asan | tsan) ;;
   *) echo "sanitize.sh: '$preset' is neither asan nor tsan" >&2; exit 2 ;;
 esac
+case "${2-}" in
+  '' | build) ;;
+  *) echo "sanitize.sh: '$2' is not a word it knows; leave it out, or say build" >&2; exit 2 ;;
+esac
 tools/build.sh "$preset" vantage_thread_tests
+[ "${2-}" = build ] && exit
 tools/run_ctest.sh "$preset" -L threads

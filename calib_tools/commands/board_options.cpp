@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include <CLI/CLI.hpp>
+
 #include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
 

@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "calib_tools/commands/snapshots.h"
 #include "calib_tools/health/health_report.h"
 #include "calib_tools/report/calibration_text.h"

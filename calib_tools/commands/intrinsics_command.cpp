@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/commands/live_option.h"

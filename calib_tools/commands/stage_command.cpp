@@ -2,6 +2,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/commands/rig_folders.h"

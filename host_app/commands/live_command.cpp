@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"

@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "common/base/command.h"
 #include "rig_firmware/probe/probe.h"
 
