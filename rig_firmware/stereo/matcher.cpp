@@ -33,13 +33,12 @@ MatchPreset parse_preset(const std::string& name) {
 std::string default_matcher(MatchPreset preset) {
     switch (preset) {
         case MatchPreset::fast:
-            return "coarse";
         case MatchPreset::balanced:
-            return "perm";
+            return "coarse";
         case MatchPreset::quality:
             return "perm_sgm";
     }
-    return "perm";
+    return "coarse";
 }
 
 }  // namespace vantage

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "rig_firmware/stereo/engine_matcher.h"
 #include "rig_firmware/stereo/passes/halve_pass.h"
 #include "rig_firmware/stereo/passes/halved_cost_pass.h"
@@ -15,7 +17,7 @@ class CoarseMatcher : public EngineMatcher {
   public:
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : CoarseMatcher(library, settings, layout_of(settings), halved(layout_of(settings)),
-                        halved_disparities(settings.disparities)) {}
+                        halved_disparities(settings.disparities), path_settings(settings.preset)) {}
 
     std::size_t cost_volume_bytes() const override {
         return perm_.volume_bytes() + paths_.volume_bytes();
@@ -24,17 +26,24 @@ class CoarseMatcher : public EngineMatcher {
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
     static constexpr double sigma = 7.5;
+    /// `fast` takes the two paths along the rows, the others four.
+    static SgmSettings path_settings(MatchPreset preset) {
+        if (preset == MatchPreset::fast) return {.p1 = 4, .p2 = 20, .columns = false};
+        return {.p1 = 3, .p2 = 16, .columns = true};
+    }
 
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
-                  const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities)
+                  const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities,
+                  const SgmSettings& paths)
         : EngineMatcher(library, settings),
           features_(library, fine, settings.disparities),
           halve_(library, fine),
           permeability_(library, coarse, sigma, PermeabilityGuide::plain),
           cost_(library, fine, settings.disparities),
-          perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given),
-          paths_(library, coarse, coarse_disparities, {.p1 = 4, .p2 = 20, .columns = false},
-                 perm_.large_scratch(), perm_.small_scratch()),
+          perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given,
+                std::min(paths.most_cost(), most_perm_code)),
+          paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),
+                 perm_.small_scratch()),
           check_(library, coarse, settings.fill, Valley::flat, disparity_steps_per_px / 2),
           upsample_(library, coarse, fine) {}
 

@@ -26,7 +26,7 @@ ShaderDefines row_defines(PermCosts costs) {
 }  // namespace
 
 PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                   PermOutput output, PermCosts costs)
+                   PermOutput output, PermCosts costs, int most_code)
     : layout_(layout),
       disparities_(disparities),
       kind_(output),
@@ -39,7 +39,7 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
       weight_columns_(Program::compute(
           library, "perm_weight.comp",
           {{"ALONG", "1"},
-           {"MOST", output == PermOutput::costs ? std::to_string(most_perm_code) : "0"}})),
+           {"MOST", output == PermOutput::costs ? std::to_string(most_code) : "0"}})),
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
       down_(output == PermOutput::costs
                 ? layout.block_pixels() * 2 * slab_disparities

@@ -31,8 +31,11 @@ enum class PermCosts {
 /// Image Communication 28 (2013).
 class PermPass {
   public:
+    /// `most_code`: the largest cost that PermOutput::costs leaves, where every cost is the
+    /// largest.
     PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-             PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found);
+             PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found,
+             int most_code = most_perm_code);
 
     void run(PassProfiler& profiler, const FeaturePass& features,
              const PermeabilityPass& permeability);

@@ -98,15 +98,15 @@ cv::Mat1i perm_sums(const cv::Mat1i& left, const cv::Mat1i& right, const cv::Mat
     return costs;
 }
 
-/// How a sum becomes a cost of at most most_perm_code, which is where every cost is the largest.
+/// How a sum becomes a cost of at most most_code, which is where every cost is the largest.
 struct CostScale {
     int shift, factor;
 };
 
-CostScale scale_of(int weight) {
+CostScale scale_of(int weight, int most_code) {
     const int shift = (weight >= 256) + (weight >= 512) + (weight >= 1024) + (weight >= 2048);
-    const float factor = static_cast<float>(most_perm_code) * 256.0f *
-                         static_cast<float>(1 << shift) / static_cast<float>(std::max(weight, 1));
+    const float factor = static_cast<float>(most_code) * 256.0f * static_cast<float>(1 << shift) /
+                         static_cast<float>(std::max(weight, 1));
     return {shift, static_cast<int>(factor)};
 }
 
@@ -132,7 +132,7 @@ std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1
 }
 
 std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
-                                  const cv::Mat1b& permeability) {
+                                  const cv::Mat1b& permeability, int most_code) {
     const cv::Mat1i weight = weight_of(permeability);
     std::vector<cv::Mat1b> result;
     for (const cv::Mat1b& picture : costs) {
@@ -142,7 +142,7 @@ std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
         cv::Mat1b& codes = result.emplace_back(sums.size());
         for (int y = 0; y < sums.rows; ++y)
             for (int x = 0; x < sums.cols; ++x) {
-                const CostScale by = scale_of(weight(y, x));
+                const CostScale by = scale_of(weight(y, x), most_code);
                 codes(y, x) =
                     static_cast<unsigned char>(((sums(y, x) >> by.shift) * by.factor) >> 8);
             }

@@ -24,16 +24,17 @@ void consider_disparity(Winners& winners, cv::Mat1i& last, const cv::Mat1i& cost
 Winners perm_winners(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                      const cv::Mat1b& permeability, int disparities);
 
-/// What PermPass leaves for passes that follow where every cost is the largest.
+/// What PermPass leaves for two semi-global paths where every cost is the largest; four paths take
+/// smaller codes, for three of them have to fit a byte.
 inline constexpr int most_perm_code = 80;
 
 /// CPU form of PermPass with PermOutput::costs: a picture a disparity.
 std::vector<cv::Mat1b> perm_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                   const cv::Mat1b& permeability, int disparities);
 
-/// The same from given costs, a picture a disparity.
+/// The same, codes of at most `most_code`, from given costs, a picture a disparity.
 std::vector<cv::Mat1b> perm_costs(const std::vector<cv::Mat1b>& costs,
-                                  const cv::Mat1b& permeability);
+                                  const cv::Mat1b& permeability, int most_code = most_perm_code);
 
 /// Truncated census distance plus truncated differences of both gradients and of colour of two
 /// feature words.

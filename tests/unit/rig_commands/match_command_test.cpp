@@ -112,7 +112,7 @@ TEST_F(MatchCommandTest, LeavesUnknownAsInfinityWithoutFilling) {
 TEST_F(MatchCommandTest, WritesHowSureItIsAndIsNotOfWhatItFilled) {
     const std::string confidence = path("confidence.png");
     const ProgramResult dense =
-        match({"--disparities", "16", "--confidence", confidence, "--json"});
+        match({"--preset", "quality", "--disparities", "16", "--confidence", confidence, "--json"});
     ASSERT_EQ(dense.status, 0) << dense.err;
     const auto json = nlohmann::json::parse(dense.out);
     EXPECT_EQ(json.at("confidence"), confidence);
@@ -122,7 +122,7 @@ TEST_F(MatchCommandTest, WritesHowSureItIsAndIsNotOfWhatItFilled) {
     EXPECT_GT(sure(23, 40), 64);
     EXPECT_NEAR(json.at("mean_confidence"), cv::mean(sure)[0] / 255, 1e-9);
 
-    ASSERT_EQ(match({"--disparities", "16", "--no-fill"}).status, 0);
+    ASSERT_EQ(match({"--preset", "quality", "--disparities", "16", "--no-fill"}).status, 0);
     const cv::Mat1f px = read_pfm(output_);
     int unknown = 0;
     for (int y = 0; y < px.rows; ++y)
