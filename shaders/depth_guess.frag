@@ -1,4 +1,4 @@
-// Guesses the depth of pixels that have none from the nearest known ones in sixteen directions, those of like colour
+// Guesses the depth of pixels that have none from the nearest known ones in eight directions, those of like colour
 // above all: what one of two cameras does not see is mostly the background beside it, but a matcher also leaves out what
 // is plain or shiny, and its own surface goes on there.
 uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
@@ -8,8 +8,8 @@ uniform float edge_ratio;     // two depths whose ratio is larger lie on two sur
 
 layout(location = 0) out float guessed;  // negative where it is a guess, 0 where no known pixel is near
 
-const int directions = 16, steps = 14;
-const float step_growth = 1.3;   // of the steps, from a pixel on
+const int directions = 8, steps = 9;
+const float step_growth = 1.5;   // of the steps, from a pixel on
 const float like_colour = 0.03;  // mean difference (0..1) at which a pixel's weight is 1/e
 const float farther_first = 0.1; // weight of what is nearer than the farthest, of equal colour and distance
 

@@ -1,9 +1,12 @@
 // Matching cost at half the size that sees every detail of the full one: the words compared are those of full-size
-// pixels, (2x + 1, 2y) and (2x, 2y + 1) of each 2x2, and disparity d stands for 2d - 1, 2d and 2d + 1 there, of which
-// the best counts. A byte a disparity in the order that perm_rows.comp takes (see perm_common.glsl). An invocation
+// pixels, (2x + 1, 2y) and, with BOTH, (2x, 2y + 1) of each 2x2, and disparity d stands for 2d - 1, 2d and 2d + 1 there,
+// of which the best counts. A byte a disparity in the order that perm_rows.comp takes (see perm_common.glsl). An invocation
 // walks STEPS times four pixels of a row with one slab of 16 disparities: the right-hand words slide along.
 #include "perm_common.glsl"
 
+#ifndef BOTH
+#define BOTH 1
+#endif
 #ifndef STEPS
 #define STEPS 8
 #endif
@@ -53,8 +56,12 @@ uint before_first;
 // i: the word that lies 2d away.
 #define LEAST(l, two_d, more, less, j) \
     min(min(cost_of(l, two_d), cost_of(l, more)), (j) == 0 ? max(cost_of(l, less), before_first) : cost_of(l, less))
-#define COST(u, l, i, j)                                                       \
-    ((LEAST(u, UO(i), UE(i), UE((i) + 1), j) + LEAST(l, LE(i), LO((i)-1), LO(i), j) + 1u) >> 1)
+#define UPPER(u, i, j) LEAST(u, UO(i), UE(i), UE((i) + 1), j)
+#if BOTH
+#define COST(u, l, i, j) ((UPPER(u, i, j) + LEAST(l, LE(i), LO((i)-1), LO(i), j) + 1u) >> 1)
+#else
+#define COST(u, l, i, j) UPPER(u, i, j)
+#endif
 #define FOUR(u, l, k, j)                                                       \
     (COST(u, l, 16 + k - (j), j) | (COST(u, l, 12 + k - (j), (j) + 4) << 8) |  \
      (COST(u, l, 15 + k - (j), (j) + 1) << 16) | (COST(u, l, 11 + k - (j), (j) + 5) << 24))

@@ -26,7 +26,8 @@ class CoarseMatcher : public EngineMatcher {
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
     static constexpr double sigma = 7.5;
-    /// `fast` takes the two paths along the rows, the others four.
+    /// `fast` takes the two paths along the rows and one sample of each 2x2, the others four and
+    /// two.
     static SgmSettings path_settings(MatchPreset preset) {
         if (preset == MatchPreset::fast) return {.p1 = 4, .p2 = 20, .columns = false};
         return {.p1 = 3, .p2 = 16, .columns = true};
@@ -39,7 +40,9 @@ class CoarseMatcher : public EngineMatcher {
           features_(library, fine, settings.disparities),
           halve_(library, fine),
           permeability_(library, coarse, sigma, PermeabilityGuide::plain),
-          cost_(library, fine, settings.disparities),
+          cost_(library, fine, settings.disparities,
+                settings.preset == MatchPreset::fast ? HalvedCostSamples::one
+                                                     : HalvedCostSamples::two),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given,
                 std::min(paths.most_cost(), most_perm_code)),
           paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),

@@ -3,6 +3,7 @@
 #include "common/gl/program.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
+#include "rig_firmware/stereo/passes/halved_cost_reference.h"
 #include "rig_firmware/stereo/passes/stereo_layout.h"
 
 namespace vantage {
@@ -13,7 +14,8 @@ namespace vantage {
 class HalvedCostPass {
   public:
     /// disparities: of the full size.
-    HalvedCostPass(const ShaderLibrary& library, const StereoLayout& fine, int disparities);
+    HalvedCostPass(const ShaderLibrary& library, const StereoLayout& fine, int disparities,
+                   HalvedCostSamples samples);
 
     /// Leaves in `costs` what PermPass takes as PermCosts::given.
     void run(PassProfiler& profiler, const FeaturePass& fine_features, const Buffer& costs);
@@ -21,6 +23,7 @@ class HalvedCostPass {
   private:
     StereoLayout fine_;
     int disparities_;
+    HalvedCostSamples samples_;
     Program program_;
 };
 

@@ -228,20 +228,22 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
         cv::copyMakeBorder(picture.colour, even.colour, 0, 0, 0, more, cv::BORDER_REPLICATE);
         return feature_words(even);
     };
-    const std::vector<cv::Mat1b> costs = halved_costs(
-        words_of_even_width(left_), words_of_even_width(right_), GetParam().disparities);
-    HalvedCostPass cost(library_, layout_, GetParam().disparities);
-    for (const int most_code : {most_perm_code, 69}) {
-        PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
-                      PermCosts::given, most_code);
-        cost.run(profiler_, features, perm.costs());
-        expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
-        perm.run(profiler_, permeabilities);
-        expect_equal_costs(
-            perm.costs(), half,
-            perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma)),
-                       most_code));
-    }
+    for (const HalvedCostSamples samples : {HalvedCostSamples::one, HalvedCostSamples::two})
+        for (const int most_code : {most_perm_code, 69}) {
+            const std::vector<cv::Mat1b> costs =
+                halved_costs(words_of_even_width(left_), words_of_even_width(right_),
+                             GetParam().disparities, samples);
+            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples);
+            PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
+                          PermCosts::given, most_code);
+            cost.run(profiler_, features, perm.costs());
+            expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
+            perm.run(profiler_, permeabilities);
+            expect_equal_costs(
+                perm.costs(), half,
+                perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma)),
+                           most_code));
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
