@@ -295,7 +295,7 @@ TEST_F(LiveCalibration, says_what_is_known_of_a_rig_that_sends_nothing) {
 /// Two rigs of the virtual stage, 30 degrees apart, at work, and their calibrations as files.
 class LiveCheck : public LiveCalibration {
   protected:
-    static constexpr int width_px = 320, height_px = 240;
+    static constexpr int width_px = 400, height_px = 300;
 
     LiveCheck() {
         for (const char* name : {"A", "B"}) {
