@@ -20,7 +20,6 @@ layout(std430, binding = 1) writeonly buffer Smoothed { uvec4 smoothed[]; };
 uniform ivec2 size;
 uniform int stride;
 
-
 ivec4 known(uvec4 words) {
     ivec4 d = ivec4(words & 0xffffu);
     return d + (ivec4(equal(d, ivec4(0))) << 20);  // the unknown are far from everything

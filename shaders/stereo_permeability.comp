@@ -1,6 +1,7 @@
-// How much of a sum passes from one pixel to the next, in sixteenths: 16 exp(-step of the guide / sigma), from a
-// table, where a step is that of luma and half of that of colour (half of red - blue); a byte each, four a word, as lines are walked: along rows of four pixels from the left, down columns of four
-// rows from above. Four by four pixels an invocation.
+// How much of a sum passes from one pixel to the next, in sixteenths: 16 exp(-step of the guide / sigma), from a table,
+// where a step is that of luma and half of that of colour (half of red - blue); a byte each, four a word, as lines are
+// walked: along rows of four pixels from the left, down columns of four rows from above. Four by four pixels an
+// invocation.
 #include "stereo_common.glsl"
 
 layout(local_size_x = PICTURE_LANES) in;
