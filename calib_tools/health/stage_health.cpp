@@ -22,6 +22,7 @@ constexpr double depth_warn_share = 0.01, matcher_bias_px = 0.3, bad_times_warn 
 constexpr double colour_warn = 2.0, colour_bad = 5.0;
 // Farther apart than this two depths are of two surfaces.
 constexpr double same_surface_share = 0.15;
+constexpr double through_warn_percent = 5;
 constexpr int fields_a_side = 4, fewest_in_field = 8;
 // Patches seen from two sides are found to a few tenths of a pixel; a good stage's calibration is
 // as good as that in small pictures, and in large ones by the angle that a pixel is.
@@ -83,29 +84,60 @@ class Fields {
     std::vector<double> values_[fields_a_side][fields_a_side];
 };
 
-/// Depth differences of two rigs by fields of the picture.
+/// Depth differences of two rigs by fields of the picture, against what a matcher's bias makes of
+/// depth in the same fields.
 HealthMeasure measure_depth(const std::string& names, const cv::Size& size,
                             const std::vector<const OverlapSample*>& samples) {
-    Fields fields(size);
-    std::vector<double> bias_shares;
+    Fields shares(size), bias_shares(size);
     int count = 0;
     for (const OverlapSample* s : samples) {
         const double share = (s->measured_m - s->predicted_m) / s->predicted_m;
         if (std::abs(share) > same_surface_share) continue;
         ++count;
-        fields.add(s->b_px, share);
-        // What a third of a pixel of disparity makes of this place's depth.
-        if (s->disparity_miss != 0)
-            bias_shares.push_back(std::abs(share / s->disparity_miss) * matcher_bias_px);
+        shares.add(s->b_px, share);
+        const double bias_share =
+            s->disparity_miss != 0 ? std::abs(share / s->disparity_miss) * matcher_bias_px : 0;
+        bias_shares.add(s->b_px, std::max(depth_warn_share, bias_share));
     }
-    const double warn_percent = 100 * std::max(depth_warn_share, median(bias_shares));
-    const double apart_percent = 100 * root_mean_square(fields.medians(fewest_in_field));
+    const double warn_percent =
+        100 * std::max(depth_warn_share, root_mean_square(bias_shares.medians(fewest_in_field)));
+    const double apart_percent = 100 * root_mean_square(shares.medians(fewest_in_field));
     return judged({"depth", names, apart_percent, "% of depth", warn_percent,
                    bad_times_warn * warn_percent, count},
                   fewest_overlap, "the two rigs see too little of the same surfaces",
                   fmt::format("rigs {} see one surface {:.1f} % of its depth apart: one of them "
                               "has been moved; place them again (stage)",
                               names, apart_percent));
+}
+
+/// How much of what one of two rigs sees the other sees something farther in place of. Nothing
+/// hides what is in front: only a wrong place, or a wrong match, shows a surface that another rig
+/// sees through. Of the two directions the worse one counts.
+HealthMeasure measure_through(const std::vector<RigSnapshot>& rigs, int a, int b,
+                              const std::vector<OverlapSample>& overlap) {
+    const auto name = [&](int rig) { return rigs[static_cast<std::size_t>(rig)].name; };
+    HealthMeasure worst{
+        "through",     name(a) + "-" + name(b), 0,
+        "% of places", through_warn_percent,    bad_times_warn * through_warn_percent};
+    std::string sentence;
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+        int all = 0, through = 0;
+        for (const OverlapSample& s : overlap)
+            if (s.a == from && s.b == to) {
+                ++all;
+                if (s.measured_m > (1 + same_surface_share) * s.predicted_m) ++through;
+            }
+        const double percent = all > 0 ? 100.0 * through / all : 0;
+        if (all < fewest_overlap || (worst.samples > 0 && percent <= worst.value)) continue;
+        worst.value = percent;
+        worst.samples = all;
+        sentence = fmt::format(
+            "rig {} sees through {:.0f} % of the surfaces that rig {} shows it: one of them has "
+            "been moved; place them again (stage)",
+            name(to), percent, name(from));
+    }
+    return judged(std::move(worst), fewest_overlap,
+                  "the two rigs see too little of the same surfaces", std::move(sentence));
 }
 
 /// How far features lie beside their epipolar lines, from each of two rigs into the other.
@@ -150,6 +182,7 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
         }
     }
     health.measures.push_back(measure_depth(names, rig_b.left.size(), samples));
+    health.measures.push_back(measure_through(rigs, a, b, health.overlap));
     health.measures.push_back(measure_place(rigs[static_cast<std::size_t>(a)], rig_b, names));
     const double apart = coloured > 0 ? delta_e / coloured : 0;
     health.measures.push_back(
