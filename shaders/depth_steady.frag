@@ -1,24 +1,31 @@
 // Filters a rig's depth along time: where the picture did not change and neither did the depth, beyond its
-// uncertainty, the depth of the instants before is worth as much as this one's.
+// uncertainty, the depth of the instants before is worth as much as this one's. Where the picture did not change and
+// the depth jumped, a matcher wavers between two surfaces: the depth stays that of most instants (Boyer and Moore's
+// vote: those that agree count up, to MOST_VOTES, those that do not count down, and at none another takes its place).
+#ifndef MOST_VOTES
+#define MOST_VOTES 4.0
+#endif
+
 uniform sampler2D depth_map;       // this instant's, metres, 0 = unknown
 uniform sampler2D picture;
-uniform sampler2D steady_before;   // what came of the instants before
+uniform sampler2D steady_before;   // what came of the instants before: metres, votes
 uniform sampler2D picture_before;
 uniform float softness;            // relative depth within which two surfaces are one
 uniform float spread;              // relative uncertainty of depth, per metre of depth
 uniform float has_before;          // 0: there is no instant before
 
-layout(location = 0) out float steady;
+layout(location = 0) out vec2 steady;
 
 const float share_of_new = 0.3;
 const float still = 0.05;  // mean colour change (0..1) of a window; sensor noise stays well below it
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    steady = texelFetch(depth_map, at, 0).r;
+    float now = texelFetch(depth_map, at, 0).r;
+    steady = vec2(now, 1.0);
     if (has_before == 0.0) return;
-    float before = texelFetch(steady_before, at, 0).r;
-    if (before <= 0.0) return;
+    vec2 before = texelFetch(steady_before, at, 0).rg;
+    if (before.r <= 0.0) return;
     vec2 texel = 1.0 / vec2(textureSize(depth_map, 0));
     vec2 uv = (vec2(at) + 0.5) * texel;
     vec3 change = vec3(0.0);
@@ -28,9 +35,10 @@ void main() {
     }
     change = abs(change) / 9.0;
     if (max(change.r, max(change.g, change.b)) > still) return;
-    if (steady <= 0.0) {
+    if (now <= 0.0)
         steady = before;
-    } else if (abs(steady / before - 1.0) < softness + 4.0 * spread * steady) {
-        steady = 1.0 / mix(1.0 / before, 1.0 / steady, share_of_new);
-    }
+    else if (abs(now / before.r - 1.0) < softness + 4.0 * spread * now)
+        steady = vec2(1.0 / mix(1.0 / before.r, 1.0 / now, share_of_new), min(before.g + 1.0, MOST_VOTES));
+    else if (before.g > 1.0)
+        steady = vec2(before.r, before.g - 1.0);
 }

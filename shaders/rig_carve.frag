@@ -2,7 +2,8 @@
 // surface and one sees a farther one. A rig confirms a surface if it has one at the same place that looks alike: what
 // repeats, or shows nothing, both rigs' matchers may take for the same wrong place. With MOVES 0, where the others stand
 // no farther apart than this rig's own cameras, what none of them confirms becomes a guess (negative), if the map is
-// faulty. With MOVES 1 it first goes along with its half-size map, which was refined.
+// faulty. With MOVES 1 it first goes along with its half-size map, which was refined, and what is known of it goes to
+// rig_adopt.frag.
 #ifndef MOVES
 #define MOVES 1
 #endif
@@ -11,12 +12,18 @@
 uniform float softness;       // relative depth within which two surfaces are one
 uniform sampler2D agreement;  // from rig_agreement.frag
 
+#if MOVES
+// Depth, and what is known of it: 1 = confirmed, 0 = a matcher's that may err, -1 = not to be doubted, because no other
+// rig looks there or the map is no matcher's.
+layout(location = 0) out vec2 judged;
+#else
 layout(location = 0) out float carved;
+#endif
 
 // Share of a map that others see through from which on it needs their support: measured depth has a tenth of it, that
 // of a stereo matcher, whose guesses behind depth edges are as likely wrong as right, thrice.
 const float faulty = 0.005;
-const float window_px = 1.5;    // from the middle to the sides of what is compared
+const float window_px = 0.75;   // from the middle to the sides of what is compared
 const float like_colour = 0.05; // mean difference (0..1) of pictures of one surface, at most
 const float most_unlike = 0.2;  // beyond which nothing is more unlike: one edge does not decide
 
@@ -71,7 +78,7 @@ void examine(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout
     looks += 1.0;
     vec4 there = textureGather(map, uv);
     vec4 off = there / q.z - 1.0;
-    float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
+    float tolerance = softness + 2.0 * (other_spread[i] * q.z + spread * z);
     bool is_there = any(lessThan(abs(off), vec4(tolerance)));
     if (is_there && is_alike(colours, uv, 1.0 / other_size[i], pixel)) support += 1.0;
     if (all(greaterThan(off, vec4(tolerance)))) through += 1.0;
@@ -79,17 +86,22 @@ void examine(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    carved = texelFetch(depth_map, at, 0).r;
-    if (carved <= 0.0) return;
+    float z = texelFetch(depth_map, at, 0).r;
     vec4 share = textureLod(agreement, vec2(0.5), 16.0);  // of the whole map
-#if MOVES
-    carved = moved(at, carved, share);
-#endif
+    bool errs = share.g > faulty * share.b;
     float support = 0.0, through = 0.0, looks = 0.0;
-#define EXAMINE(i) examine(i, other_depth[i], other_colour[i], vec2(at), carved, support, through, looks);
-    FOR_OTHERS(EXAMINE)
-    if (through > support) carved = 0.0;
-#if !MOVES
-    if (looks > 0.0 && support == 0.0 && share.g > faulty * share.b) carved = -carved;
+    if (z > 0.0) {
+#if MOVES
+        z = moved(at, z, share);
+#endif
+#define EXAMINE(i) examine(i, other_depth[i], other_colour[i], vec2(at), z, support, through, looks);
+        FOR_OTHERS(EXAMINE)
+        if (through > support) z = 0.0;
+    }
+#if MOVES
+    judged = vec2(z, !errs || (z > 0.0 && looks == 0.0) ? -1.0 : min(support, 1.0));
+    if (z == 0.0) judged.g = min(judged.g, 0.0);  // nothing to confirm
+#else
+    carved = looks > 0.0 && support == 0.0 && errs ? -z : z;
 #endif
 }

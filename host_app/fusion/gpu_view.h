@@ -52,8 +52,9 @@ class GpuView {
     }
     const Framebuffer& trusted_colour_target();
     void finish_trusted_colour() { trusted_.generate_mipmaps(); }
-    /// depth() filtered along time: what finish_steady_depth() saw drawn last into
-    /// next_steady_target(). depth() itself where nothing was.
+    /// depth() filtered along time, with a second channel of the filter's own: what
+    /// finish_steady_depth() saw drawn last into next_steady_target(). depth() itself where nothing
+    /// was.
     const Texture& steady_depth() const {
         return has_steady_ ? steady_[steady_now_].texture() : *depth_;
     }
@@ -93,8 +94,8 @@ class GpuView {
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
     DrawnTexture surface_{TextureFormat::r32f};
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
-    std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::r32f),
-                                        DrawnTexture(TextureFormat::r32f)};
+    std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::rg32f),
+                                        DrawnTexture(TextureFormat::rg32f)};
     std::size_t steady_now_ = 0;
     bool has_steady_ = false, is_prepared_ = false;
     float presence_ = 1;

@@ -55,6 +55,7 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
         carve_.emplace_back(library, "rig_carve.frag", ShaderDefines{count, {"MOVES", "0"}});
         move_and_carve_.emplace_back(library, "rig_carve.frag",
                                      ShaderDefines{count, {"MOVES", "1"}});
+        adopt_.emplace_back(library, "rig_adopt.frag", ShaderDefines{count});
     }
 }
 
@@ -169,7 +170,9 @@ const Texture& RigConsensus::better(const GpuView& view,
          most_useful(all, depth_camera(view, depth_m.size()), max_others + 1))
         if (other != &view && others_.size() < max_others) others_.push_back(other);
     if (others_.empty()) return depth_m;
+    // Before anything is bound: making a texture binds it.
     result_.resize(depth_m.size());
+    judged_.resize(depth_m.size());
 
     const double own_px = own_parallax_px(view), parallax = parallax_px(view);
     const bool moves = own_px > 0 && parallax > least_news * own_px;
@@ -188,7 +191,18 @@ const Texture& RigConsensus::better(const GpuView& view,
         half_before_.texture().bind(unit + 1);
         now().texture().bind(unit + 2);
     }
-    carving.draw(result_.target());
+    if (!moves) {
+        carving.draw(result_.target());
+        return result_.texture();
+    }
+    carving.draw(judged_.target());
+    FullscreenPass& adopting = adopt_[others_.size() - 1];
+    Program& adopt = adopting.use();
+    const int free_unit = bind_others(adopt, depth_m, view);
+    adopt.set("softness", softness);
+    adopt.set("judged", free_unit);
+    judged_.texture().bind(free_unit);
+    adopting.draw(result_.target());
     return result_.texture();
 }
 

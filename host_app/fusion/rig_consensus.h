@@ -15,9 +15,10 @@ namespace vantage {
 /// of a pixel is to it are centimetres of depth, and several pixels in a view from far aside. Other
 /// rigs look from there. So depth is moved to where their pictures and this one's are most alike (a
 /// narrow plane sweep around each pixel's own depth, at half size, decided in windows that keep to
-/// one surface and colour), and what other rigs see through is carved away. Where the rigs' depths
-/// agree already nothing is moved, nor where the other rigs stand no farther apart than the rig's
-/// own two cameras.
+/// one surface and colour), and what other rigs see through is carved away. In a map that errs
+/// much, what no other rig confirms takes over the depth of confirmed pixels near it, where the
+/// pictures agree better on that. Where the rigs' depths agree already nothing is moved, nor where
+/// the other rigs stand no farther apart than the rig's own two cameras.
 class RigConsensus {
   public:
     explicit RigConsensus(const ShaderLibrary& library);
@@ -53,10 +54,11 @@ class RigConsensus {
 
     FullscreenPass halve_, smooth_, refine_;
     /// One for every number of other views.
-    std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_;
+    std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_;
     std::vector<const GpuView*> others_;
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
+    DrawnTexture judged_{TextureFormat::rg32f};
     DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
     std::array<DrawnTexture, 2> half_{DrawnTexture(TextureFormat::r32f),
                                       DrawnTexture(TextureFormat::r32f)};

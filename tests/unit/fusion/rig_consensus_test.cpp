@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
+#include "tests/unit/fusion/wall_and_square.h"
 
 namespace vantage {
 namespace {
@@ -85,6 +86,53 @@ TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
     DepthView other = wall(baseline_m);
     other.baseline_m = own.baseline_m;
     EXPECT_EQ(cv::countNonZero(bettered(own, other)(behind)), behind.area());
+}
+
+/// A rig between two others, all of them before a wall and a square, whose matcher took a strip of
+/// the wall beside the square for the square.
+class DoubtedStripTest : public testing::Test {
+  protected:
+    static constexpr int width_px = 161, height_px = 119;
+    static constexpr float wall_m = 4, square_m = 2;
+    static const cv::Rect strip;
+
+    static DepthView film(double x_m) {
+        DepthView view = wall_and_square(x_m, width_px, height_px, {.waves = true});
+        view.baseline_m = 0.05;
+        return view;
+    }
+
+    DepthImage bettered_strip(const DepthView& own) {
+        const DepthView rigs[] = {own, film(-0.4), film(0.4)};
+        std::vector<std::unique_ptr<GpuView>> views;
+        upload_views(rigs, views);
+        return consensus_.better(*views[0], views).download()(strip);
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    RigConsensus consensus_{shaders_};
+};
+
+const cv::Rect DoubtedStripTest::strip(42, 40, 6, 40);
+
+TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
+    DepthView own = film(0);
+    ASSERT_EQ(cv::countNonZero(own.depth_m(strip) != wall_m), 0);
+    ASSERT_EQ(own.depth_m(60, 50), square_m);
+    own.depth_m(strip) = square_m;
+    const DepthImage mended = bettered_strip(own);
+    const int right = cv::countNonZero(cv::abs(mended - wall_m) < 0.03 * wall_m);
+    EXPECT_GE(right, 0.9 * strip.area()) << mended;
+}
+
+TEST_F(DoubtedStripTest, KeepsItsDepthInAMapThatErrsNowhereElseAndHardlyHere) {
+    DepthView own = film(0);
+    // Fewer pixels than what is measured, not matched, has wrong.
+    const cv::Rect few(strip.x, strip.y, 3, 12);
+    own.depth_m(few) = 1.3f * wall_m;
+    const DepthImage kept = bettered_strip(own);
+    EXPECT_EQ(cv::norm(kept, own.depth_m(strip), cv::NORM_INF), 0);
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#include "host_app/fusion/depth_steadier.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/gl/egl_context.h"
+#include "host_app/fusion/edge_trust.h"
+#include "tests/unit/fusion/wall_and_square.h"
+
+namespace vantage {
+namespace {
+
+/// A rig whose depth comes instant by instant.
+class DepthSteadierTest : public testing::Test {
+  protected:
+    static constexpr int width_px = 81, height_px = 59;
+    static constexpr float wall_m = 4, square_m = 2;
+    const cv::Rect strip{4, 20, 5, 20};
+
+    DepthImage next(const DepthView& view) {
+        view_.upload(view);
+        steadier_.steady(view_);
+        // Keeps the picture for the next instant.
+        edge_trust_.judge(view_);
+        view_.set_prepared();
+        const cv::Mat downloaded = view_.steady_depth().download();
+        DepthImage depth_m;
+        cv::extractChannel(downloaded, depth_m, 0);
+        return depth_m(strip);
+    }
+    DepthView film(float strip_m, double square_x_m = 0) const {
+        DepthView view = wall_and_square(0, width_px, height_px, {.square_x_m = square_x_m});
+        view.baseline_m = 0.2;
+        view.depth_m(strip) = strip_m;
+        return view;
+    }
+    static double furthest(const DepthImage& depth_m, float from_m) {
+        return cv::norm(depth_m, DepthImage(depth_m.size(), from_m), cv::NORM_INF);
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    DepthSteadier steadier_{shaders_};
+    EdgeTrust edge_trust_{shaders_};
+    GpuView view_;
+};
+
+TEST_F(DepthSteadierTest, AveragesWhatStaysWithinItsUncertainty) {
+    (void)next(film(wall_m));
+    const DepthImage steady = next(film(1.01f * wall_m));
+    EXPECT_GT(steady(2, 2), wall_m);
+    EXPECT_LT(steady(2, 2), 1.005f * wall_m);
+}
+
+TEST_F(DepthSteadierTest, KeepsToTheDepthOfMostInstantsWhereNothingMoves) {
+    for (int i = 0; i < 4; ++i) (void)next(film(wall_m));
+    // A matcher that takes a strip beside the square for the square now and then.
+    for (int i = 0; i < 8; ++i)
+        EXPECT_LT(furthest(next(film(i % 2 ? wall_m : square_m)), wall_m), 1e-3) << i;
+}
+
+TEST_F(DepthSteadierTest, FollowsADepthThatHasChangedForGoodWithinFourInstants) {
+    for (int i = 0; i < 9; ++i) (void)next(film(wall_m));
+    for (int i = 0; i < 3; ++i) EXPECT_LT(furthest(next(film(square_m)), wall_m), 1e-3) << i;
+    EXPECT_LT(furthest(next(film(square_m)), square_m), 1e-3);
+}
+
+TEST_F(DepthSteadierTest, FollowsAtOnceWhereThePictureChanges) {
+    for (int i = 0; i < 9; ++i) (void)next(film(wall_m));
+    // The square has come to where the strip was.
+    EXPECT_LT(furthest(next(film(square_m, -0.9)), square_m), 1e-3);
+}
+
+}  // namespace
+}  // namespace vantage
