@@ -7,6 +7,9 @@
 #ifndef RINGS
 #define RINGS 4  // of eight neighbours each, 1.4 px away and twice as far from one ring to the next
 #endif
+#ifndef MOST_DEPTHS
+#define MOST_DEPTHS 4  // to choose among
+#endif
 
 uniform sampler2D judged;  // from rig_carve.frag
 uniform float softness;    // relative depth within which two surfaces are one
@@ -18,13 +21,13 @@ const float like_colour = 0.1;   // mean difference (0..1) at which a pixel's we
 // Mean colour differences (0..1): what shows one surface at most, what shows two at least, and beyond which nothing is
 // more unlike. A neighbour's depth has to leave less than this share of the difference so far.
 const float good = 0.08, bad = 0.09, most_unlike = 0.15, better = 0.6;
-const float same_depth = 0.002;  // relative difference that no picture tells
+const float same_depth = 0.008;  // relative difference of two that need not both be tried
 const float unseen = 1.0;
 
-vec3 window[9];    // this rig's picture around the pixel
-float weights[9];  // how far its pixels are of the middle's surface, by their colours; their sum is 1
+vec3 window[5];    // this rig's picture around the pixel
+float weights[5];  // how far its pixels are of the middle's surface, by their colours; their sum is 1
 
-vec2 aside(int k) { return window_px * (vec2(k % 3, k / 3) - 1.0); }
+vec2 aside(int k) { return window_px * vec2(int(k == 1) - int(k == 2), int(k == 3) - int(k == 4)); }
 
 // Adds how unlike another rig's picture is if the pixel's depth is z, and 1, unless that rig cannot see the place.
 void look(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout vec2 sum) {
@@ -39,7 +42,7 @@ void look(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout ve
     bool is_hidden = all(lessThan(there, vec4(q.z * (1.0 - tolerance)))) && all(greaterThan(there, vec4(0.0)));
     if (is_hidden) return;
     float unlike = 0.0;
-    for (int k = 0; k < 9; ++k) {
+    for (int k = 0; k < 5; ++k) {
         vec4 p = other_from_pixel[i] * vec4((pixel + aside(k)) * z, z, 1.0);
         vec3 off = abs(textureLod(colours, (p.xy / p.z + 0.5) * texel, 0.0).rgb - window[k]);
         unlike += weights[k] * min(dot(off, vec3(1.0 / 3.0)), most_unlike);
@@ -57,12 +60,12 @@ float unlike_at(vec2 pixel, float z) {
 void look_around(vec2 pixel) {
     vec2 texel = 1.0 / vec2(textureSize(judged, 0));
     float sum = 0.0;
-    for (int k = 0; k < 9; ++k) window[k] = textureLod(picture, (pixel + 0.5 + aside(k)) * texel, 0.0).rgb;
-    for (int k = 0; k < 9; ++k) {
-        weights[k] = exp(-dot(abs(window[k] - window[4]), vec3(1.0 / 3.0)) / like_colour);
+    for (int k = 0; k < 5; ++k) window[k] = textureLod(picture, (pixel + 0.5 + aside(k)) * texel, 0.0).rgb;
+    for (int k = 0; k < 5; ++k) {
+        weights[k] = exp(-dot(abs(window[k] - window[0]), vec3(1.0 / 3.0)) / like_colour);
         sum += weights[k];
     }
-    for (int k = 0; k < 9; ++k) weights[k] /= sum;
+    for (int k = 0; k < 5; ++k) weights[k] /= sum;
 }
 
 void main() {
@@ -73,17 +76,23 @@ void main() {
     vec2 pixel = vec2(at);
     look_around(pixel);
     float so_far = own.r > 0.0 ? unlike_at(pixel, own.r) : unseen;
-    float least = min(good, better * min(so_far, most_unlike)), before = own.r;
-    for (int k = 0; k < 8 * RINGS; ++k) {
+    // The depths around that differ, the nearest pixels' first.
+    float depths[MOST_DEPTHS];
+    int count = 0;
+    for (int k = 0; k < 8 * RINGS && count < MOST_DEPTHS; ++k) {
         int ring = k / 8;
         float angle = 0.785398 * (float(k) + 0.5 * float(ring & 1));
         vec2 there = exp2(float(ring) + 0.5) * vec2(cos(angle), sin(angle));
         vec2 neighbour = texelFetch(judged, clamp(at + ivec2(round(there)), ivec2(0), last), 0).rg;
         float z = neighbour.r;
-        if (neighbour.g <= 0.0 || abs(z - before) < same_depth * z || abs(z - adopted) < same_depth * z) continue;
-        before = z;
-        float unlike = unlike_at(pixel, z);
-        if (unlike < least) least = unlike, adopted = z;
+        bool is_new = neighbour.g > 0.0 && abs(z - own.r) > same_depth * z;
+        for (int c = 0; c < count; ++c) is_new = is_new && abs(z - depths[c]) > same_depth * z;
+        if (is_new) depths[count++] = z;
+    }
+    float least = min(good, better * min(so_far, most_unlike));
+    for (int c = 0; c < count; ++c) {
+        float unlike = unlike_at(pixel, depths[c]);
+        if (unlike < least) least = unlike, adopted = depths[c];
     }
     if (adopted == own.r && so_far > bad && so_far < unseen) adopted = -own.r;
 }

@@ -25,6 +25,7 @@
 #include "host_app/fusion/view_set.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/markdown_tables.h"
+#include "tests/bench/own_matching_table.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -128,6 +129,8 @@ class Bench {
             if (comparison_.empty()) compare(pictures, truth);
         }
     }
+
+    void own_matching() { text_ << own_matching_table(shaders_); }
 
     void times() {
         text_ << "\n### Time against the number of rigs\n\n"
@@ -237,6 +240,7 @@ int run(int argc, char** argv) {
     Bench bench;
     if (const auto data = data_folder()) bench.held_out_views(*data);
     bench.stage_views();
+    bench.own_matching();
     if (!without_times) bench.times();
     std::cout << bench.tables();
     if (!picture.empty()) write_colour_image(picture, bench.comparison());

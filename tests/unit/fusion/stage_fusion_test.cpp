@@ -12,6 +12,7 @@
 #include "host_app/fusion/image_metrics.h"
 #include "host_app/fusion/rig_presence.h"
 #include "host_app/fusion/synthesiser.h"
+#include "tests/support/deviation_along_time.h"
 
 namespace vantage {
 namespace {
@@ -207,23 +208,6 @@ TEST(StageHalos, AreFewerInTheFusedPictureThanBetweenMeshes) {
                               depth_edge_band(truth.depth_m, 5) & covered_mask(picture));
     }
     EXPECT_LE(error[1], 0.78 * error[0]) << error[1] << " against " << error[0];
-}
-
-/// The mean over pixels and colours of the standard deviation along time.
-double deviation_along_time(const std::vector<ColourImage>& pictures, const cv::Mat1b& mask) {
-    cv::Mat sum = cv::Mat::zeros(mask.size(), CV_64FC4), squares = sum.clone();
-    for (const ColourImage& picture : pictures) {
-        cv::Mat wide;
-        picture.convertTo(wide, CV_64F);
-        sum += wide;
-        squares += wide.mul(wide);
-    }
-    const double count = static_cast<double>(pictures.size());
-    cv::Mat variance = squares / count - (sum / count).mul(sum / count), deviation;
-    cv::max(variance, 0.0, variance);
-    cv::sqrt(variance, deviation);
-    const cv::Scalar mean = cv::mean(deviation, mask);
-    return (mean[0] + mean[1] + mean[2]) / 3;
 }
 
 TEST(StageNoise, IsWeakerInTheFusedPictureThanInACameraOnAStillStage) {
