@@ -14,7 +14,7 @@ uniform float softness;            // relative depth within which two surfaces a
 uniform float spread;              // relative uncertainty of depth, per metre of depth
 uniform float has_before;          // 0: there is no instant before
 
-layout(location = 0) out vec2 steady;
+layout(location = 0) out vec2 steady;  // metres, votes; none where the picture has changed
 
 const float share_of_new = 0.3;
 const float still = 0.05;  // mean colour change (0..1) of a window; sensor noise stays well below it
@@ -22,10 +22,9 @@ const float still = 0.05;  // mean colour change (0..1) of a window; sensor nois
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float now = texelFetch(depth_map, at, 0).r;
-    steady = vec2(now, 1.0);
+    steady = vec2(now, 0.0);
     if (has_before == 0.0) return;
     vec2 before = texelFetch(steady_before, at, 0).rg;
-    if (before.r <= 0.0) return;
     vec2 texel = 1.0 / vec2(textureSize(depth_map, 0));
     vec2 uv = (vec2(at) + 0.5) * texel;
     vec3 change = vec3(0.0);
@@ -35,8 +34,10 @@ void main() {
     }
     change = abs(change) / 9.0;
     if (max(change.r, max(change.g, change.b)) > still) return;
+    steady.g = 1.0;
+    if (before.r <= 0.0) return;
     if (now <= 0.0)
-        steady = before;
+        steady = vec2(before.r, max(before.g, 1.0));
     else if (abs(now / before.r - 1.0) < softness + 4.0 * spread * now)
         steady = vec2(1.0 / mix(1.0 / before.r, 1.0 / now, share_of_new), min(before.g + 1.0, MOST_VOTES));
     else if (before.g > 1.0)

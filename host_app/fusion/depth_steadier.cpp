@@ -29,4 +29,21 @@ void DepthSteadier::steady(GpuView& view) {
     view.finish_steady_depth();
 }
 
+void DepthSteadier::settle(GpuView& view) {
+    const bool has_before = view.has_settled_surface();
+    const Framebuffer& target = view.next_settled_target();
+    Program& program = settle_.use();
+    program.set("fresh", 0);
+    program.set("steady", 1);
+    program.set("before", 2);
+    program.set("softness", softness);
+    program.set("spread", depth_spread(view.camera()));
+    program.set("has_before", has_before ? 1.0f : 0.0f);
+    view.fresh_surface().bind(0);
+    view.steady_depth().bind(1);
+    view.surface().bind(2);
+    settle_.draw(target);
+    view.finish_settled_surface();
+}
+
 }  // namespace vantage

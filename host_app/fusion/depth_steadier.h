@@ -6,18 +6,22 @@
 namespace vantage {
 
 /// Keeps the depth of what stands still from boiling: a running average along time wherever
-/// neither the picture nor, beyond its uncertainty, the depth of a rig's pixel has changed. What
-/// moves is taken as it comes.
+/// neither the picture nor, beyond its uncertainty, the depth of a rig's pixel has changed, and the
+/// depth of most instants where that alone has. What moves is taken as it comes.
 class DepthSteadier {
   public:
-    explicit DepthSteadier(const ShaderLibrary& library) : pass_(library, "depth_steady.frag") {}
+    explicit DepthSteadier(const ShaderLibrary& library)
+        : pass_(library, "depth_steady.frag"), settle_(library, "surface_steady.frag") {}
 
     /// Fills the view's steady_depth(). Once an upload, before anything is drawn into
     /// trusted_colour(), which holds the picture before.
     void steady(GpuView& view);
 
+    /// The same for what was drawn into surface_target() of the same upload: fills surface().
+    void settle(GpuView& view);
+
   private:
-    FullscreenPass pass_;
+    FullscreenPass pass_, settle_;
 };
 
 }  // namespace vantage

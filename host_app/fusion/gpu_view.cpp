@@ -28,7 +28,7 @@ void GpuView::upload(const DepthView& view) {
         colour_ && depth_ && colour_->size() == view.colour.size() &&
         depth_->size() == view.depth_m.size() && camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    if (!is_same_camera || !is_prepared_) has_steady_ = false;
+    if (!is_same_camera || !is_prepared_) has_steady_ = has_settled_ = false;
     if (!is_same_camera) plate_->forget();
     is_prepared_ = false;
     camera_ = view;
@@ -77,6 +77,17 @@ const Framebuffer& GpuView::next_steady_target() {
 void GpuView::finish_steady_depth() {
     steady_now_ = 1 - steady_now_;
     has_steady_ = true;
+}
+
+const Framebuffer& GpuView::next_settled_target() {
+    DrawnTexture& next = settled_[1 - settled_now_];
+    next.resize(depth_->size());
+    return next.target();
+}
+
+void GpuView::finish_settled_surface() {
+    settled_now_ = 1 - settled_now_;
+    has_settled_ = true;
 }
 
 Eigen::Matrix3d GpuView::K_depth() const {

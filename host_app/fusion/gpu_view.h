@@ -41,8 +41,15 @@ class GpuView {
     const DepthView& camera() const { return camera_; }
     const Texture& colour() const { return *colour_; }  ///< rgba8, trilinear
     const Texture& depth() const { return *depth_; }    ///< r32f, metres, 0 = unknown
-    /// The depth that is drawn: depth(), or what was drawn into surface_target() since.
-    const Texture& surface() const { return surface_.empty() ? *depth_ : surface_.texture(); }
+    /// The depth that is drawn: depth(), or what was drawn into surface_target() since, or of that
+    /// what finish_settled_surface() saw drawn last into next_settled_target().
+    const Texture& surface() const {
+        return has_settled_ ? settled_[settled_now_].texture() : fresh_surface();
+    }
+    const Texture& fresh_surface() const { return surface_.empty() ? *depth_ : surface_.texture(); }
+    bool has_settled_surface() const { return has_settled_; }
+    const Framebuffer& next_settled_target();
+    void finish_settled_surface();
     /// To draw mended depth into: r32f, of depth()'s size, negative = guessed.
     const Framebuffer& surface_target();
     /// colour() with what finish_trusted_colour() saw drawn into its target since: alpha is how far
@@ -96,8 +103,10 @@ class GpuView {
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
     std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::rg32f),
                                         DrawnTexture(TextureFormat::rg32f)};
-    std::size_t steady_now_ = 0;
-    bool has_steady_ = false, is_prepared_ = false;
+    std::array<DrawnTexture, 2> settled_{DrawnTexture(TextureFormat::rg32f),
+                                         DrawnTexture(TextureFormat::rg32f)};
+    std::size_t steady_now_ = 0, settled_now_ = 0;
+    bool has_steady_ = false, has_settled_ = false, is_prepared_ = false;
     float presence_ = 1;
     std::unique_ptr<LearntPlate> plate_ = std::make_unique<LearntPlate>();
     std::optional<Buffer> triangles_, coarse_triangles_;

@@ -90,6 +90,7 @@ class FusedSynthesiser final : public Synthesiser {
         // Asked for before anything is bound: making a texture binds it.
         const Framebuffer& surface = view.surface_target();
         closer_.close(consensus_.better(view, views_), view.steady_depth(), view.colour(), surface);
+        steadier_.settle(view);
         edge_trust_.judge(view);
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})
             blender_.layers().rasteriser().build_triangles(view, grid);

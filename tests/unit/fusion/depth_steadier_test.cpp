@@ -71,5 +71,27 @@ TEST_F(DepthSteadierTest, FollowsAtOnceWhereThePictureChanges) {
     EXPECT_LT(furthest(next(film(square_m, -0.9)), square_m), 1e-3);
 }
 
+/// What the rigs decide together wavers as well, though each rig's own depth does not.
+TEST_F(DepthSteadierTest, KeepsTheDrawnSurfaceThatOfMostInstants) {
+    const auto surface_after = [&](float drawn_m) {
+        (void)next(film(wall_m));
+        const Framebuffer& target = view_.surface_target();
+        target.bind();
+        glClearColor(drawn_m, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT);
+        steadier_.settle(view_);
+        const cv::Mat downloaded = view_.surface().download();
+        DepthImage depth_m;
+        cv::extractChannel(downloaded, depth_m, 0);
+        return depth_m;
+    };
+    for (int i = 0; i < 4; ++i) (void)surface_after(wall_m);
+    // A guess is another depth than a measured one, and so is none at all.
+    for (const float drawn_m : {-wall_m, wall_m, square_m, wall_m, 0.0f, wall_m})
+        EXPECT_LT(furthest(surface_after(drawn_m), wall_m), 1e-3) << drawn_m;
+    for (int i = 0; i < 3; ++i) EXPECT_LT(furthest(surface_after(square_m), wall_m), 1e-3) << i;
+    EXPECT_LT(furthest(surface_after(square_m), square_m), 1e-3);
+}
+
 }  // namespace
 }  // namespace vantage
