@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "common/gl/framebuffer.h"
@@ -34,7 +35,33 @@ class DrawnTexture {
     std::optional<Framebuffer> target_;
 };
 
-/// The same for depth alone: depth24.
+/// Two textures in turn: what was drawn last is read while the other one is drawn.
+class DrawnInTurn {
+  public:
+    explicit DrawnInTurn(TextureFormat format)
+        : textures_{DrawnTexture(format), DrawnTexture(format)} {}
+
+    /// Whether texture() holds anything.
+    bool is_drawn() const { return is_drawn_; }
+    /// What was drawn when finish() was last called.
+    const Texture& texture() const { return textures_[now_].texture(); }
+    const Framebuffer& next_target(cv::Size size) {
+        textures_[1 - now_].resize(size);
+        return textures_[1 - now_].target();
+    }
+    void finish() {
+        now_ = 1 - now_;
+        is_drawn_ = true;
+    }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    std::array<DrawnTexture, 2> textures_;
+    std::size_t now_ = 0;
+    bool is_drawn_ = false;
+};
+
+/// The same as DrawnTexture for depth alone: depth24.
 class DrawnDepth {
   public:
     void resize(cv::Size size) {

@@ -28,7 +28,10 @@ void GpuView::upload(const DepthView& view) {
         colour_ && depth_ && colour_->size() == view.colour.size() &&
         depth_->size() == view.depth_m.size() && camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    if (!is_same_camera || !is_prepared_) has_steady_ = has_settled_ = false;
+    if (!is_same_camera || !is_prepared_) {
+        steady_.forget();
+        settled_.forget();
+    }
     if (!is_same_camera) plate_->forget();
     is_prepared_ = false;
     camera_ = view;
@@ -66,28 +69,6 @@ const Framebuffer& GpuView::surface_target() {
 const Framebuffer& GpuView::trusted_colour_target() {
     trusted_.resize(colour_->size());
     return trusted_.target();
-}
-
-const Framebuffer& GpuView::next_steady_target() {
-    DrawnTexture& next = steady_[1 - steady_now_];
-    next.resize(depth_->size());
-    return next.target();
-}
-
-void GpuView::finish_steady_depth() {
-    steady_now_ = 1 - steady_now_;
-    has_steady_ = true;
-}
-
-const Framebuffer& GpuView::next_settled_target() {
-    DrawnTexture& next = settled_[1 - settled_now_];
-    next.resize(depth_->size());
-    return next.target();
-}
-
-void GpuView::finish_settled_surface() {
-    settled_now_ = 1 - settled_now_;
-    has_settled_ = true;
 }
 
 Eigen::Matrix3d GpuView::K_depth() const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,12 +43,12 @@ class GpuView {
     /// The depth that is drawn: depth(), or what was drawn into surface_target() since, or of that
     /// what finish_settled_surface() saw drawn last into next_settled_target().
     const Texture& surface() const {
-        return has_settled_ ? settled_[settled_now_].texture() : fresh_surface();
+        return settled_.is_drawn() ? settled_.texture() : fresh_surface();
     }
     const Texture& fresh_surface() const { return surface_.empty() ? *depth_ : surface_.texture(); }
-    bool has_settled_surface() const { return has_settled_; }
-    const Framebuffer& next_settled_target();
-    void finish_settled_surface();
+    bool has_settled_surface() const { return settled_.is_drawn(); }
+    const Framebuffer& next_settled_target() { return settled_.next_target(depth_->size()); }
+    void finish_settled_surface() { settled_.finish(); }
     /// To draw mended depth into: r32f, of depth()'s size, negative = guessed.
     const Framebuffer& surface_target();
     /// colour() with what finish_trusted_colour() saw drawn into its target since: alpha is how far
@@ -62,12 +61,10 @@ class GpuView {
     /// depth() filtered along time, with a second channel of the filter's own: what
     /// finish_steady_depth() saw drawn last into next_steady_target(). depth() itself where nothing
     /// was.
-    const Texture& steady_depth() const {
-        return has_steady_ ? steady_[steady_now_].texture() : *depth_;
-    }
-    bool has_steady_depth() const { return has_steady_; }
-    const Framebuffer& next_steady_target();
-    void finish_steady_depth();
+    const Texture& steady_depth() const { return steady_.is_drawn() ? steady_.texture() : *depth_; }
+    bool has_steady_depth() const { return steady_.is_drawn(); }
+    const Framebuffer& next_steady_target() { return steady_.next_target(depth_->size()); }
+    void finish_steady_depth() { steady_.finish(); }
 
     /// Whether what is drawn of this rig was made of the last upload. A rig that was not drawn has
     /// no past to steady its depth with.
@@ -101,12 +98,8 @@ class GpuView {
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
     DrawnTexture surface_{TextureFormat::r32f};
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
-    std::array<DrawnTexture, 2> steady_{DrawnTexture(TextureFormat::rg32f),
-                                        DrawnTexture(TextureFormat::rg32f)};
-    std::array<DrawnTexture, 2> settled_{DrawnTexture(TextureFormat::rg32f),
-                                         DrawnTexture(TextureFormat::rg32f)};
-    std::size_t steady_now_ = 0, settled_now_ = 0;
-    bool has_steady_ = false, has_settled_ = false, is_prepared_ = false;
+    DrawnInTurn steady_{TextureFormat::rg32f}, settled_{TextureFormat::rg32f};
+    bool is_prepared_ = false;
     float presence_ = 1;
     std::unique_ptr<LearntPlate> plate_ = std::make_unique<LearntPlate>();
     std::optional<Buffer> triangles_, coarse_triangles_;
