@@ -1,10 +1,7 @@
 // Filters a rig's depth along time: where the picture did not change and neither did the depth, beyond its
 // uncertainty, the depth of the instants before is worth as much as this one's. Where the picture did not change and
-// the depth jumped, a matcher wavers between two surfaces: the depth stays that of most instants (Boyer and Moore's
-// vote: those that agree count up, to MOST_VOTES, those that do not count down, and at none another takes its place).
-#ifndef MOST_VOTES
-#define MOST_VOTES 4.0
-#endif
+// the depth jumped, a matcher wavers between two surfaces: the depth stays that of most instants.
+#include "depth_votes.glsl"
 
 uniform sampler2D depth_map;       // this instant's, metres, 0 = unknown
 uniform sampler2D picture;
@@ -16,7 +13,6 @@ uniform float has_before;          // 0: there is no instant before
 
 layout(location = 0) out vec2 steady;  // metres, votes; none where the picture has changed
 
-const float share_of_new = 0.3;
 const float still = 0.05;  // mean colour change (0..1) of a window; sensor noise stays well below it
 
 void main() {
@@ -36,10 +32,6 @@ void main() {
     if (max(change.r, max(change.g, change.b)) > still) return;
     steady.g = 1.0;
     if (before.r <= 0.0) return;
-    if (now <= 0.0)
-        steady = vec2(before.r, max(before.g, 1.0));
-    else if (abs(now / before.r - 1.0) < softness + 4.0 * spread * now)
-        steady = vec2(1.0 / mix(1.0 / before.r, 1.0 / now, share_of_new), min(before.g + 1.0, MOST_VOTES));
-    else if (before.g > 1.0)
-        steady = vec2(before.r, before.g - 1.0);
+    steady = now > 0.0 ? voted(before, now, abs(now / before.r - 1.0) < softness + 4.0 * spread * now)
+                       : vec2(before.r, max(before.g, 1.0));
 }

@@ -146,6 +146,16 @@ TEST_F(CheckCommandTest, notices_a_rig_that_panned_or_moved_along_the_line_to_th
     }
 }
 
+TEST_F(CheckCommandTest, sees_one_surface_at_two_depths_where_a_rig_was_lifted) {
+    StereoCalibration lifted = rigs_[1];
+    lifted.world_from_left.translation() += Eigen::Vector3d(0, 0.1, 0);
+    write(lifted);
+    const ProgramResult result = run("check", {});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(verdict(result, "depth", "A-B"),
+                testing::AnyOf(testing::StartsWith("bad"), testing::StartsWith("warn")));
+}
+
 TEST_F(CheckCommandTest, names_rigs_one_of_which_was_knocked_by_half_a_degree_or_a_centimetre) {
     const Pose world_from_b = rigs_[1].world_from_left;
     for (const int i : {0, 2}) {
