@@ -1,15 +1,18 @@
-// A depth that stays that of most instants (Boyer and Moore's vote): those that agree count up, to MOST_VOTES, those
-// that do not count down, and at none another takes its place.
-#ifndef MOST_VOTES
-#define MOST_VOTES 4.0
-#endif
+// A depth that stays until about as many instants in a row say otherwise as have agreed on it.
+const float most_instants = 32.0, fewest_misses = 2.0, most_misses = 8.0;
+const float one_miss = 1.0 / 16.0;
 
-const float share_of_new = 0.3;
+// The new one's part in the mean of all that agree.
+float mean_share(vec2 before) { return 1.0 / (floor(before.g) + 1.0); }
 
-// before: metres, votes. What agrees is averaged in inverse depth.
-vec2 voted(vec2 before, float now, bool agrees) {
+// before, and what comes of it: metres; instants that agreed, and as its fraction those since that did not. What agrees
+// is averaged in inverse depth.
+vec2 voted(vec2 before, float now, bool agrees, float share) {
+    float instants = floor(before.g);
     if (agrees)
-        return vec2(now == before.r ? now : 1.0 / mix(1.0 / before.r, 1.0 / now, share_of_new),
-                    min(before.g + 1.0, MOST_VOTES));
-    return before.g > 1.0 ? vec2(before.r, before.g - 1.0) : vec2(now, 1.0);
+        return vec2(now == before.r || share == 0.0 ? before.r : 1.0 / mix(1.0 / before.r, 1.0 / now, share),
+                    min(instants + 1.0, most_instants));
+    float votes = before.g + one_miss;
+    return votes - instants < one_miss * clamp(instants, fewest_misses, most_misses) ? vec2(before.r, votes)
+                                                                                   : vec2(now, 1.0);
 }

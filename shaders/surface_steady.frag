@@ -11,6 +11,8 @@ uniform float has_before;    // 0: there is no instant before
 
 layout(location = 0) out vec2 settled;
 
+const float held_from = 8.0;  // instants: a depth that wavers within its uncertainty is not moved any more
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float now = texelFetch(fresh, at, 0).r;
@@ -18,5 +20,5 @@ void main() {
     if (has_before == 0.0 || texelFetch(steady, at, 0).g == 0.0) return;
     vec2 old = texelFetch(before, at, 0).rg;
     bool is_same = now == old.r || (now * old.r > 0.0 && abs(now / old.r - 1.0) < softness + 4.0 * spread * abs(now));
-    settled = voted(old, now, is_same);
+    settled = voted(old, now, is_same, old.g < held_from ? mean_share(old) : 0.0);
 }

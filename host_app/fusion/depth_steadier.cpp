@@ -15,16 +15,14 @@ void DepthSteadier::steady(GpuView& view) {
     const Framebuffer& target = view.next_steady_target();
     Program& program = pass_.use();
     program.set("depth_map", 0);
-    program.set("picture", 1);
-    program.set("steady_before", 2);
-    program.set("picture_before", 3);
+    program.set("steady_before", 1);
+    program.set("picture_mean", 2);
     program.set("softness", softness);
     program.set("spread", depth_spread(view.camera()));
     program.set("has_before", has_before ? 1.0f : 0.0f);
     view.depth().bind(0);
-    view.colour().bind(1);
-    view.steady_depth().bind(2);
-    view.trusted_colour().bind(3);
+    view.steady_depth().bind(1);
+    view.colour_mean().bind(2);
     pass_.draw(target);
     view.finish_steady_depth();
 }

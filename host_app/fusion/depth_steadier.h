@@ -5,16 +5,16 @@
 
 namespace vantage {
 
-/// Keeps the depth of what stands still from boiling: a running average along time wherever
+/// Keeps the depth of what stands still from boiling: the mean of up to 32 instants wherever
 /// neither the picture nor, beyond its uncertainty, the depth of a rig's pixel has changed, and the
-/// depth of most instants where that alone has. What moves is taken as it comes.
+/// depth before where that alone has, until it has changed for good: for eight instants in a row.
+/// What moves is taken as it comes.
 class DepthSteadier {
   public:
     explicit DepthSteadier(const ShaderLibrary& library)
         : pass_(library, "depth_steady.frag"), settle_(library, "surface_steady.frag") {}
 
-    /// Fills the view's steady_depth(). Once an upload, before anything is drawn into
-    /// trusted_colour(), which holds the picture before.
+    /// Fills the view's steady_depth(). Once an upload, after its colour was steadied.
     void steady(GpuView& view);
 
     /// The same for what was drawn into surface_target() of the same upload: fills surface().

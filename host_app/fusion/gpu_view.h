@@ -11,6 +11,7 @@
 #include "host_app/fusion/depth_view.h"
 #include "host_app/fusion/drawn_texture.h"
 #include "host_app/fusion/learnt_plate.h"
+#include "host_app/fusion/steady_colour.h"
 #include "host_app/fusion/surface_samples.h"
 
 namespace vantage {
@@ -38,8 +39,20 @@ class GpuView {
 
     /// Camera, name and sizes as in the last upload; its pictures are empty.
     const DepthView& camera() const { return camera_; }
-    const Texture& colour() const { return *colour_; }  ///< rgba8, trilinear
-    const Texture& depth() const { return *depth_; }    ///< r32f, metres, 0 = unknown
+    const Texture& depth() const { return *depth_; }  ///< r32f, metres, 0 = unknown
+    /// rgba8, trilinear: fresh_colour(), or what finish_colour() saw drawn of it since.
+    const Texture& colour() const {
+        return is_colour_steady_ ? steady_colour_.picture() : fresh_colour();
+    }
+    const Texture& fresh_colour() const { return *colour_; }
+    bool has_colour_before() const { return steady_colour_.is_drawn(); }
+    /// Precondition: has_colour_before(). After finish_colour() that of this upload.
+    const Texture& colour_mean() const { return steady_colour_.mean(); }
+    const Framebuffer& next_colour_target() { return steady_colour_.next_target(colour_->size()); }
+    void finish_colour() {
+        steady_colour_.finish();
+        is_colour_steady_ = true;
+    }
     /// The depth that is drawn: depth(), or what was drawn into surface_target() since, or of that
     /// what finish_settled_surface() saw drawn last into next_settled_target().
     const Texture& surface() const {
@@ -54,7 +67,7 @@ class GpuView {
     /// colour() with what finish_trusted_colour() saw drawn into its target since: alpha is how far
     /// the colour can be trusted. colour() itself where nothing was drawn.
     const Texture& trusted_colour() const {
-        return trusted_.empty() ? *colour_ : trusted_.texture();
+        return trusted_.empty() ? colour() : trusted_.texture();
     }
     const Framebuffer& trusted_colour_target();
     void finish_trusted_colour() { trusted_.generate_mipmaps(); }
@@ -67,7 +80,7 @@ class GpuView {
     void finish_steady_depth() { steady_.finish(); }
 
     /// Whether what is drawn of this rig was made of the last upload. A rig that was not drawn has
-    /// no past to steady its depth with.
+    /// no past to steady its colour and depth with.
     bool is_prepared() const { return is_prepared_; }
     void set_prepared() { is_prepared_ = true; }
 
@@ -99,7 +112,8 @@ class GpuView {
     DrawnTexture surface_{TextureFormat::r32f};
     DrawnTexture trusted_{TextureFormat::rgba8, Filter::linear, true};
     DrawnInTurn steady_{TextureFormat::rg32f}, settled_{TextureFormat::rg32f};
-    bool is_prepared_ = false;
+    SteadyColour steady_colour_;
+    bool is_colour_steady_ = false, is_prepared_ = false;
     float presence_ = 1;
     std::unique_ptr<LearntPlate> plate_ = std::make_unique<LearntPlate>();
     std::optional<Buffer> triangles_, coarse_triangles_;

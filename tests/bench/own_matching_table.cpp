@@ -24,7 +24,7 @@ constexpr std::chrono::seconds stage_time{2};
 constexpr int width_px = 320, height_px = 240, disparities = 64;
 constexpr double noise_sigma = 1;
 /// The first of them settle what is filtered along time.
-constexpr std::uint64_t instants = 12, settled_after = 6;
+constexpr std::uint64_t instants = 26, settled_after = 18;
 
 StereoCalibration rig_at(double azimuth_deg) {
     return ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,

@@ -4,6 +4,7 @@
 
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/fusion/background_plate.h"
+#include "host_app/fusion/colour_steadier.h"
 #include "host_app/fusion/depth_closer.h"
 #include "host_app/fusion/depth_steadier.h"
 #include "host_app/fusion/edge_trust.h"
@@ -30,7 +31,8 @@ constexpr std::size_t finely_drawn = 2;
 class FusedSynthesiser final : public Synthesiser {
   public:
     explicit FusedSynthesiser(const ShaderLibrary& library)
-        : steadier_(library),
+        : colour_steadier_(library),
+          steadier_(library),
           closer_(library),
           consensus_(library),
           edge_trust_(library),
@@ -44,6 +46,7 @@ class FusedSynthesiser final : public Synthesiser {
 
     void set_views(std::span<const DepthView> views) override {
         for (GpuView* view : upload_with_fades(views, views_)) {
+            colour_steadier_.steady(*view);
             steadier_.steady(*view);
             plates_.learn(*view);
         }
@@ -107,6 +110,7 @@ class FusedSynthesiser final : public Synthesiser {
     }
 
     std::vector<std::unique_ptr<GpuView>> views_;
+    ColourSteadier colour_steadier_;
     DepthSteadier steadier_;
     DepthCloser closer_;
     RigConsensus consensus_;
