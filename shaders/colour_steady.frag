@@ -26,12 +26,13 @@ void main() {
     if (has_before == 0.0) return;
     vec4 past = texelFetch(before, at, 0);
     vec2 texel = 1.0 / vec2(textureSize(picture, 0));
-    vec3 window = vec3(0.0);
+    // Seventeen pixels of five by five: the middle and two by two at each corner.
+    vec3 window = now.rgb - past.rgb;
     for (int k = 0; k < 4; ++k) {
-        vec2 there = (vec2(at + ivec2(k & 1, k >> 1)) * texel);
-        window += textureLod(picture, there, 0.0).rgb - textureLod(before, there, 0.0).rgb;
+        vec2 corner = vec2(at + 3 * ivec2(k & 1, k >> 1) - 1) * texel;
+        window += 4.0 * (textureLod(picture, corner, 0.0).rgb - textureLod(before, corner, 0.0).rgb);
     }
-    float change = largest(0.25 * window);
+    float change = largest(window / 17.0);
     if (change > motion) return;
     change = max(change, pixel_share * largest(now.rgb - past.rgb));
     float instants = min(past.a + 1.0, most_instants);

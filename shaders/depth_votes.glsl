@@ -1,18 +1,19 @@
-// A depth that stays until about as many instants in a row say otherwise as have agreed on it.
-const float most_instants = 32.0, fewest_misses = 2.0, most_misses = 8.0;
+// A depth that stays until as many instants in a row say otherwise as the picture has stood still, within bounds: a
+// matcher that finds another depth every time is not followed every time.
+const float most_instants = 32.0, fewest_misses = 2.0, most_misses = 15.0;
 const float one_miss = 1.0 / 16.0;
 
 // The new one's part in the mean of all that agree.
 float mean_share(vec2 before) { return 1.0 / (floor(before.g) + 1.0); }
 
-// before, and what comes of it: metres; instants that agreed, and as its fraction those since that did not. What agrees
-// is averaged in inverse depth.
+// before, and what comes of it: metres; instants that stood still, and as its fraction those that did not agree since
+// one did. What agrees is averaged in inverse depth.
 vec2 voted(vec2 before, float now, bool agrees, float share) {
     float instants = floor(before.g);
     if (agrees)
         return vec2(now == before.r || share == 0.0 ? before.r : 1.0 / mix(1.0 / before.r, 1.0 / now, share),
                     min(instants + 1.0, most_instants));
-    float votes = before.g + one_miss;
-    return votes - instants < one_miss * clamp(instants, fewest_misses, most_misses) ? vec2(before.r, votes)
-                                                                                   : vec2(now, 1.0);
+    float patience = clamp(instants, fewest_misses, most_misses), votes = before.g + one_miss;
+    return votes - instants < one_miss * patience ? vec2(before.r, votes)
+                                                  : vec2(now, min(instants + patience, most_instants));
 }

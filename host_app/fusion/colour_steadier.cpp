@@ -11,7 +11,7 @@ void ColourSteadier::steady(GpuView& view) {
     program.set("before", 1);
     program.set("has_before", has_before ? 1.0f : 0.0f);
     view.fresh_colour().bind(0);
-    if (has_before) view.colour_mean().bind(1);
+    (has_before ? view.colour_mean() : view.fresh_colour()).bind(1);
     pass_.draw(target);
     view.finish_colour();
 }

@@ -7,8 +7,8 @@ namespace vantage {
 
 /// Keeps the depth of what stands still from boiling: the mean of up to 32 instants wherever
 /// neither the picture nor, beyond its uncertainty, the depth of a rig's pixel has changed, and the
-/// depth before where that alone has, until it has changed for good: for eight instants in a row.
-/// What moves is taken as it comes.
+/// depth before where that alone has, until it has changed for good: for fifteen instants in a row,
+/// fewer where the picture has hardly come to rest. What moves is taken as it comes.
 class DepthSteadier {
   public:
     explicit DepthSteadier(const ShaderLibrary& library)

@@ -116,38 +116,40 @@ void RigConsensus::smooth(FullscreenPass& pass, const Texture& depth_m, const Gp
 }
 
 void RigConsensus::sweep(const GpuView& view, double relative_step) {
-    const cv::Size size = now().texture().size();
+    const cv::Size size = half_.texture().size();
+    // Asked for before anything is bound: making a texture binds it.
+    const Framebuffer& refined = half_.next_target(size);
     FullscreenPass& comparing = sweep_[others_.size() - 1];
     Program& compare = comparing.use();
-    bind_others(compare, now().texture(), view);
+    bind_others(compare, half_.texture(), view);
     compare.set("relative_step", static_cast<float>(relative_step));
     compare.set("lod", std::log2(static_cast<float>(view.colour().width_px()) /
                                  static_cast<float>(size.width)));
     comparing.draw(costs_->target);
 
     Program& refine = refine_.use();
-    bind_view(refine, now().texture(), view);
+    bind_view(refine, half_.texture(), view);
     refine.set("relative_step", static_cast<float>(relative_step));
     for (int i = 0; i < 4; ++i) {
         refine.set(fmt::format("unlike[{}]", i), 2 + i);
         costs_->unlike[static_cast<std::size_t>(i)].bind(2 + i);
     }
-    refine_.draw(next().target());
-    now_ = 1 - now_;
+    refine_.draw(refined);
+    half_.finish();
 }
 
 void RigConsensus::refine(const GpuView& view, double parallax_px) {
     const Texture& depth_m = view.steady_depth();
     const cv::Size half((depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2);
     half_before_.resize(half);
-    for (DrawnTexture& map : half_) map.resize(half);
     if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
 
     smooth(halve_, depth_m, view, half_before_.target());
-    smooth(smooth_, half_before_.texture(), view, now().target());
+    smooth(smooth_, half_before_.texture(), view, half_.next_target(half));
+    half_.finish();
     sweep(view, coarse_step_px / parallax_px);
-    smooth(smooth_, now().texture(), view, next().target());
-    now_ = 1 - now_;
+    smooth(smooth_, half_.texture(), view, half_.next_target(half));
+    half_.finish();
     sweep(view, fine_step_px / parallax_px);
 }
 
@@ -189,7 +191,7 @@ const Texture& RigConsensus::better(const GpuView& view,
         carve.set("half_after", unit + 2);
         carve.set("least_change", static_cast<float>(least_change_px / parallax));
         half_before_.texture().bind(unit + 1);
-        now().texture().bind(unit + 2);
+        half_.texture().bind(unit + 2);
     }
     if (!moves) {
         carving.draw(result_.target());

@@ -49,8 +49,6 @@ class RigConsensus {
     void sweep(const GpuView& view, double relative_step);
     void smooth(FullscreenPass& pass, const Texture& depth_m, const GpuView& view,
                 const Framebuffer& target) const;
-    DrawnTexture& now() { return half_[now_]; }
-    DrawnTexture& next() { return half_[1 - now_]; }
 
     FullscreenPass halve_, smooth_, refine_;
     /// One for every number of other views.
@@ -60,9 +58,7 @@ class RigConsensus {
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
     DrawnTexture judged_{TextureFormat::rg32f};
     DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
-    std::array<DrawnTexture, 2> half_{DrawnTexture(TextureFormat::r32f),
-                                      DrawnTexture(TextureFormat::r32f)};
-    std::size_t now_ = 0;
+    DrawnInTurn half_{TextureFormat::r32f};
 };
 
 }  // namespace vantage
