@@ -28,12 +28,12 @@ void GpuView::upload(const DepthView& view) {
         colour_ && depth_ && colour_->size() == view.colour.size() &&
         depth_->size() == view.depth_m.size() && camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    if (!is_same_camera) {
+    if (!is_same_camera || !is_prepared_) {
         steady_colour_.forget();
         steady_.forget();
-        plate_->forget();
+        settled_.forget();
     }
-    if (!is_same_camera || !is_prepared_) settled_.forget();
+    if (!is_same_camera) plate_->forget();
     is_prepared_ = false;
     is_colour_steady_ = false;
     camera_ = view;

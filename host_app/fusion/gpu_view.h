@@ -79,8 +79,8 @@ class GpuView {
     const Framebuffer& next_steady_target() { return steady_.next_target(depth_->size()); }
     void finish_steady_depth() { steady_.finish(); }
 
-    /// Whether what is drawn of this rig was made of the last upload. What was not drawn has no
-    /// past to settle its surface with.
+    /// Whether what is drawn of this rig was made of the last upload. A rig that was not drawn has
+    /// no past to steady its colour and depth with.
     bool is_prepared() const { return is_prepared_; }
     void set_prepared() { is_prepared_ = true; }
 
