@@ -6,9 +6,6 @@
 uniform sampler2D depth_map;      // this instant's, metres, 0 = unknown
 uniform sampler2D steady_before;  // what came of the instants before: metres, votes
 uniform sampler2D picture_mean;   // alpha: 0 where the picture has just changed
-uniform float softness;           // relative depth within which two surfaces are one
-uniform float spread;             // relative uncertainty of depth, per metre of depth
-uniform float has_before;         // 0: there is no instant before
 
 layout(location = 0) out vec2 steady;  // metres, votes; none where the picture has changed
 
@@ -23,6 +20,5 @@ void main() {
     vec2 before = texelFetch(steady_before, at, 0).rg;
     if (before.r <= 0.0) return;
     before.g = max(before.g, 1.0);
-    bool agrees = abs(now / before.r - 1.0) < softness + 4.0 * spread * now;
-    steady = now > 0.0 ? voted(before, now, agrees, mean_share(before)) : before;
+    steady = now > 0.0 ? voted(before, now, is_one_surface(now, before.r), mean_share(before)) : before;
 }

@@ -1,7 +1,13 @@
 // A depth that stays until as many instants in a row say otherwise as the picture has stood still, within bounds: a
 // matcher that finds another depth every time is not followed every time.
+uniform float softness;    // relative depth within which two surfaces are one
+uniform float spread;      // relative uncertainty of depth, per metre of depth
+uniform float has_before;  // 0: there is no instant before
+
 const float most_instants = 32.0, fewest_misses = 2.0, most_misses = 15.0;
 const float one_miss = 1.0 / 16.0;
+
+bool is_one_surface(float now, float before) { return abs(now / before - 1.0) < softness + 4.0 * spread * abs(now); }
 
 // The new one's part in the mean of all that agree.
 float mean_share(vec2 before) { return 1.0 / (floor(before.g) + 1.0); }

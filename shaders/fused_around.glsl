@@ -1,12 +1,13 @@
-// The surfaces around a pixel of the virtual view, as fused_depth.frag found them.
+// The surfaces around a pixel of the virtual view, as fused_depth.frag found them, guessed ones among them: what lies beside
+// them is as much an edge.
 uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = guessed
 uniform float edge_ratio;       // two depths whose ratio is larger lie on two surfaces
 
 bool same_surface(float a, float b) { return max(a, b) < min(a, b) * edge_ratio; }
 
 struct Around {
-    float z[25];  // of the pixels around, rows of five
-    float own;    // of the pixel
+    float z[25];  // of the pixels around, rows of five, 0 = nothing
+    float own;    // of the pixel, negative where it is guessed
     float here;   // the surface that it lies on, 0 = nothing; the nearest pixel's where it has none
     float other;  // the nearest pixel's on another surface, 0 = there is none
 };
@@ -20,7 +21,7 @@ Around look_around(ivec2 at) {
     float nearest = 1e9;
     for (int k = 0; k < 25; ++k) {
         ivec2 off = ivec2(k % 5, k / 5) - 2;
-        a.z[k] = texelFetch(fused_depth, clamp(at + off, ivec2(0), last), 0).r;
+        a.z[k] = abs(texelFetch(fused_depth, clamp(at + off, ivec2(0), last), 0).r);
         float away = float(off.x * off.x + off.y * off.y);
         if (a.z[k] <= 0.0 || away >= nearest) continue;
         if (a.here == 0.0) {

@@ -20,9 +20,14 @@ layout(location = 0) out vec2 judged;
 layout(location = 0) out float carved;
 #endif
 
-// Share of a map that others see through from which on it needs their support: measured depth has a tenth of it, that
-// of a stereo matcher, whose guesses behind depth edges are as likely wrong as right, thrice.
+// Share of a map that others see through from which on it needs their support. Measured depth has up to a tenth of it,
+// that of a stereo matcher, whose guesses behind depth edges are as likely wrong as right, twice to eight times as much;
+// those who stand close see through less.
+#if MOVES
 const float faulty = 0.005;
+#else
+const float faulty = 0.002;
+#endif
 const float window_px = 0.75;   // from the middle to the sides of what is compared
 const float like_colour = 0.05; // mean difference (0..1) of pictures of one surface, at most
 const float most_unlike = 0.2;  // beyond which nothing is more unlike: one edge does not decide

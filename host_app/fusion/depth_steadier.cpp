@@ -7,6 +7,13 @@ namespace {
 
 constexpr float softness = 0.002f;
 
+/// The uniforms of depth_votes.glsl.
+void set_votes(Program& program, const GpuView& view, bool has_before) {
+    program.set("softness", softness);
+    program.set("spread", depth_spread(view.camera()));
+    program.set("has_before", has_before ? 1.0f : 0.0f);
+}
+
 }  // namespace
 
 void DepthSteadier::steady(GpuView& view) {
@@ -17,9 +24,7 @@ void DepthSteadier::steady(GpuView& view) {
     program.set("depth_map", 0);
     program.set("steady_before", 1);
     program.set("picture_mean", 2);
-    program.set("softness", softness);
-    program.set("spread", depth_spread(view.camera()));
-    program.set("has_before", has_before ? 1.0f : 0.0f);
+    set_votes(program, view, has_before);
     view.depth().bind(0);
     view.steady_depth().bind(1);
     view.colour_mean().bind(2);
@@ -34,9 +39,7 @@ void DepthSteadier::settle(GpuView& view) {
     program.set("fresh", 0);
     program.set("steady", 1);
     program.set("before", 2);
-    program.set("softness", softness);
-    program.set("spread", depth_spread(view.camera()));
-    program.set("has_before", has_before ? 1.0f : 0.0f);
+    set_votes(program, view, has_before);
     view.fresh_surface().bind(0);
     view.steady_depth().bind(1);
     view.surface().bind(2);

@@ -1,5 +1,7 @@
 #include "rig_firmware/stereo/engine_matcher.h"
 
+#include <utility>
+
 namespace vantage {
 
 EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
@@ -15,18 +17,26 @@ const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {
     return result;
 }
 
-const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& winners,
+CheckAndFill::CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, Fill fill,
+                           Valley valley, int most_step)
+    : check_(library, layout, valley),
+      smooth_(library, layout, most_step),
+      median_(library, layout) {
+    if (fill == Fill::along_rows) row_fill_.emplace(library, layout);
+    if (fill == Fill::along_paths_of_one_px) path_fill_.emplace(library, layout, FillCell::one_px);
+    if (fill == Fill::along_paths_of_two_px) path_fill_.emplace(library, layout, FillCell::two_px);
+}
+
+const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& luma, const Buffer& winners,
                                 const Buffer* weight) {
     check_.run(profiler, winners, weight);
-    if (fills_) {
-        support_.run(profiler, check_.disparity(), check_.scratch());
-        fill_.run(profiler, check_.disparity(), check_.scratch());
-    }
-    const Buffer &disparity = fills_ ? check_.scratch() : check_.disparity(),
-                 &medians = fills_ ? check_.disparity() : check_.scratch();
-    smooth_.run(profiler, disparity);
-    median_.run(profiler, disparity, medians);
-    return medians;
+    const Buffer *disparity = &check_.disparity(), *other = &check_.scratch();
+    if (row_fill_) row_fill_->run(profiler, *disparity, *other);
+    if (path_fill_) path_fill_->run(profiler, luma, *disparity, *other);
+    if (row_fill_ || path_fill_) std::swap(disparity, other);
+    smooth_.run(profiler, *disparity);
+    median_.run(profiler, *disparity, *other);
+    return *other;
 }
 
 }  // namespace vantage

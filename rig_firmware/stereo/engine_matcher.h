@@ -1,17 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rig_firmware/stereo/match_limits.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
-#include "rig_firmware/stereo/passes/fill_pass.h"
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/luma_pass.h"
 #include "rig_firmware/stereo/passes/median_pass.h"
+#include "rig_firmware/stereo/passes/path_fill_pass.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
+#include "rig_firmware/stereo/passes/row_fill_pass.h"
 #include "rig_firmware/stereo/passes/smooth_pass.h"
-#include "rig_firmware/stereo/passes/support_pass.h"
 
 namespace vantage {
 
@@ -41,28 +42,30 @@ class EngineMatcher : public Matcher {
     ResultPass result_;
 };
 
-/// What follows a search at its own size: left-right check, then, if `fill` is set, a fill that
-/// does not spread what stands alone, then smoothing and a median.
+/// How what a search leaves unknown is filled: not at all, by RowFillPass, or by PathFillPass in
+/// cells of one or two pixels.
+enum class Fill { none, along_rows, along_paths_of_one_px, along_paths_of_two_px };
+
+/// What follows a search at its own size: left-right check, then a fill, then smoothing and a
+/// median.
 class CheckAndFill {
   public:
     /// valley, most_step: see LeftRightPass and SmoothPass.
-    CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, bool fill,
-                 Valley valley = Valley::sharp, int most_step = disparity_steps_per_px)
-        : fills_(fill),
-          check_(library, layout, valley),
-          support_(library, layout),
-          fill_(library, layout),
-          smooth_(library, layout, most_step),
-          median_(library, layout) {}
+    CheckAndFill(const ShaderLibrary& library, const StereoLayout& layout, Fill fill,
+                 Valley valley = Valley::sharp, int most_step = disparity_steps_per_px);
 
-    const Buffer& run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
-    std::size_t gpu_bytes() const { return check_.gpu_bytes() + smooth_.gpu_bytes(); }
+    /// luma: of the left picture at the search's size, in LumaPass's form.
+    const Buffer& run(PassProfiler& profiler, const Buffer& luma, const Buffer& winners,
+                      const Buffer* weight);
+    std::size_t gpu_bytes() const {
+        return check_.gpu_bytes() + (path_fill_ ? path_fill_->gpu_bytes() : 0) +
+               smooth_.gpu_bytes();
+    }
 
   private:
-    bool fills_;
     LeftRightPass check_;
-    SupportPass support_;
-    FillPass fill_;
+    std::optional<RowFillPass> row_fill_;
+    std::optional<PathFillPass> path_fill_;
     SmoothPass smooth_;
     MedianPass median_;
 };

@@ -142,11 +142,21 @@ std::vector<ColourImage> load_texture_photographs(const fs::path& data) {
     return photographs;
 }
 
-double bad_share(const cv::Mat1f& disparity_px, const StereoScene& scene, float threshold_px) {
+cv::Mat1b seen_by_left_only(const StereoScene& scene) {
+    cv::Mat1b seen(scene.non_occluded.size(), 0);
+    for (int y = 0; y < seen.rows; ++y)
+        for (int x = 0; x < seen.cols; ++x)
+            if (std::isfinite(scene.disparity_px(y, x)) && !scene.non_occluded(y, x))
+                seen(y, x) = 255;
+    return seen;
+}
+
+double bad_share(const cv::Mat1f& disparity_px, const StereoScene& scene, const cv::Mat1b& where,
+                 float threshold_px) {
     long judged_pixels = 0, bad = 0;
     for (int y = 0; y < disparity_px.rows; ++y)
         for (int x = 0; x < disparity_px.cols; ++x) {
-            if (!scene.non_occluded(y, x)) continue;
+            if (!where(y, x)) continue;
             ++judged_pixels;
             const float d = disparity_px(y, x);
             if (!(d > 0) || !(std::abs(d - scene.disparity_px(y, x)) <= threshold_px)) ++bad;

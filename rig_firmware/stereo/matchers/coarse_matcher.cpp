@@ -33,6 +33,13 @@ class CoarseMatcher : public EngineMatcher {
         return {.p1 = 3, .p2 = 16, .columns = true};
     }
 
+    /// `fast` has no time for paths.
+    static Fill fill_of(const MatchSettings& settings) {
+        if (!settings.fill) return Fill::none;
+        return settings.preset == MatchPreset::fast ? Fill::along_rows
+                                                    : Fill::along_paths_of_one_px;
+    }
+
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities,
                   const SgmSettings& paths)
@@ -47,7 +54,7 @@ class CoarseMatcher : public EngineMatcher {
                 std::min(paths.most_cost(), most_perm_code)),
           paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),
                  perm_.small_scratch()),
-          check_(library, coarse, settings.fill, Valley::flat, disparity_steps_per_px / 2),
+          check_(library, coarse, fill_of(settings), Valley::flat, disparity_steps_per_px / 2),
           upsample_(library, coarse, fine) {}
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
@@ -57,8 +64,8 @@ class CoarseMatcher : public EngineMatcher {
         cost_.run(profiler, features_, perm_.costs());
         perm_.run(profiler, permeability_);
         paths_.run(profiler, perm_.costs());
-        upsample_.run(profiler, check_.run(profiler, paths_.winners(), nullptr), halve_.luma(),
-                      luma.left());
+        upsample_.run(profiler, check_.run(profiler, halve_.luma(), paths_.winners(), nullptr),
+                      halve_.luma(), luma.left());
         return upsample_.disparity();
     }
     std::size_t search_bytes() const override {

@@ -12,7 +12,8 @@ class PermMatcher : public EngineMatcher {
           features_(library, layout_of(settings), settings.disparities),
           permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities),
-          check_(library, layout_of(settings), settings.fill) {}
+          check_(library, layout_of(settings),
+                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
 
     std::size_t cost_volume_bytes() const override { return perm_.volume_bytes(); }
 
@@ -24,7 +25,7 @@ class PermMatcher : public EngineMatcher {
         features_.run(profiler, luma);
         permeability_.run(profiler, luma.left());
         perm_.run(profiler, features_, permeability_);
-        return check_.run(profiler, perm_.winners(), &perm_.weight());
+        return check_.run(profiler, luma.left(), perm_.winners(), &perm_.weight());
     }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +

@@ -17,7 +17,8 @@ class PermSgmMatcher : public EngineMatcher {
           paths_(library, layout_of(settings), settings.disparities,
                  {.p1 = 5, .p2 = 26, .columns = false}, perm_.large_scratch(),
                  perm_.small_scratch()),
-          check_(library, layout_of(settings), settings.fill) {}
+          check_(library, layout_of(settings),
+                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
 
     std::size_t cost_volume_bytes() const override {
         return perm_.volume_bytes() + paths_.volume_bytes();
@@ -32,7 +33,7 @@ class PermSgmMatcher : public EngineMatcher {
         permeability_.run(profiler, luma.left());
         perm_.run(profiler, features_, permeability_);
         paths_.run(profiler, perm_.costs());
-        return check_.run(profiler, paths_.winners(), nullptr);
+        return check_.run(profiler, luma.left(), paths_.winners(), nullptr);
     }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +

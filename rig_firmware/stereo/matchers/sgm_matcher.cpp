@@ -12,7 +12,8 @@ class SgmMatcher : public EngineMatcher {
           features_(library, layout_of(settings), settings.disparities),
           cost_(library, layout_of(settings), settings.disparities, 1),
           paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
-          check_(library, layout_of(settings), settings.fill) {}
+          check_(library, layout_of(settings),
+                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
 
     std::size_t cost_volume_bytes() const override {
         return cost_.costs().bytes() + paths_.volume_bytes();
@@ -23,7 +24,7 @@ class SgmMatcher : public EngineMatcher {
         features_.run(profiler, luma);
         cost_.run(profiler, features_);
         paths_.run(profiler, cost_.costs());
-        return check_.run(profiler, paths_.winners(), nullptr);
+        return check_.run(profiler, luma.left(), paths_.winners(), nullptr);
     }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + cost_.costs().bytes() + paths_.gpu_bytes() +

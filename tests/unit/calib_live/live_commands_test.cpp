@@ -151,10 +151,12 @@ TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_wh
                    stage.film(0, 1, world_from_board, {}));
     }
     start_filming_rig("A");
-    const std::vector<std::string> arguments =
-        with_board({"stereo", "--rig", "A=" + file("A/kept"), "-o", file("A/calibration.yaml"),
-                    "--lens", "brown4", "--views", "9"});
-    ChildProgram interrupted(VANTAGE_CALIB, live(arguments), folder_.path());
+    const auto asking_for = [&](const char* views) {
+        return with_board({"stereo", "--rig", "A=" + file("A/kept"), "-o",
+                           file("A/calibration.yaml"), "--lens", "brown4", "--views", views});
+    };
+    // More than the film has: it cannot end before it is interrupted.
+    ChildProgram interrupted(VANTAGE_CALIB, live(asking_for("30")), folder_.path());
     while (interrupted.err().find("2 kept") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     interrupted.send_signal(SIGINT);
@@ -170,7 +172,7 @@ TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_wh
         kept += entry.path().filename().string().starts_with("left_") ? 1 : 0;
     ASSERT_GE(kept, 2);
 
-    std::vector<std::string> going_on = arguments;
+    std::vector<std::string> going_on = asking_for("9");
     going_on.emplace_back("--go-on");
     const ProgramResult result = calibrate(going_on);
     ASSERT_EQ(result.status, 0) << result.err;

@@ -4,17 +4,20 @@
 
 #include "common/gl/egl_context.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
-#include "rig_firmware/stereo/passes/fill_pass.h"
-#include "rig_firmware/stereo/passes/fill_reference.h"
 #include "rig_firmware/stereo/passes/halve_pass.h"
 #include "rig_firmware/stereo/passes/halved_cost_pass.h"
 #include "rig_firmware/stereo/passes/halved_cost_reference.h"
 #include "rig_firmware/stereo/passes/left_right_pass.h"
 #include "rig_firmware/stereo/passes/left_right_reference.h"
 #include "rig_firmware/stereo/passes/median_pass.h"
+#include "rig_firmware/stereo/passes/median_reference.h"
+#include "rig_firmware/stereo/passes/path_fill_pass.h"
+#include "rig_firmware/stereo/passes/path_fill_reference.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/result_pass.h"
+#include "rig_firmware/stereo/passes/row_fill_pass.h"
+#include "rig_firmware/stereo/passes/row_fill_reference.h"
 #include "rig_firmware/stereo/passes/smooth_pass.h"
 #include "rig_firmware/stereo/passes/support_pass.h"
 #include "rig_firmware/stereo/passes/support_reference.h"
@@ -93,10 +96,17 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(supported),
                  "supported");
 
-    FillPass fill(library_, layout_);
-    fill.run(profiler_, check.disparity(), check.scratch());
-    const DisparityImage filled = filled_from_background(checked.disparity, supported);
-    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled), "filled");
+    RowFillPass row_fill(library_, layout_);
+    row_fill.run(profiler_, check.disparity(), check.scratch());
+    const DisparityImage filled_rows = filled_from_background(checked.disparity, supported);
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled_rows),
+                 "filled along rows");
+
+    PathFillPass path_fill(library_, layout_, FillCell::two_px);
+    path_fill.run(profiler_, luma.left(), check.disparity(), check.scratch());
+    const DisparityImage filled = filled_along_paths(checked.disparity, left_, FillCell::two_px);
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled),
+                 "filled along paths");
 
     SmoothPass smooth(library_, layout_);
     smooth.run(profiler_, check.scratch());

@@ -1,11 +1,14 @@
-#include "rig_firmware/stereo/passes/fill_pass.h"
+#include "rig_firmware/stereo/passes/row_fill_pass.h"
 
 namespace vantage {
 
-FillPass::FillPass(const ShaderLibrary& library, const StereoLayout& layout)
-    : layout_(layout), program_(Program::compute(library, "fill_rows.comp")) {}
+RowFillPass::RowFillPass(const ShaderLibrary& library, const StereoLayout& layout)
+    : layout_(layout),
+      support_(library, layout),
+      program_(Program::compute(library, "row_fill.comp")) {}
 
-void FillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
+void RowFillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
+    support_.run(profiler, disparity, filled);
     const std::size_t pixels = layout_.pixels();
     profiler.run("fill", {pixels * 20, static_cast<double>(pixels) * 16}, [&] {
         program_.use();
