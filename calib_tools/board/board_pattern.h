@@ -25,7 +25,8 @@ struct BoardPattern {
     int corner_count() const { return columns * rows; }
     /// Of the inner corner with this number: row * columns + column.
     Eigen::Vector3d corner_m(int id) const {
-        return {(id % columns) * square_m, (id / columns) * square_m, 0.0};
+        const int row = id / columns, column = id % columns;
+        return {column * square_m, row * square_m, 0.0};
     }
     std::string size_name() const;  ///< "9x6"
 

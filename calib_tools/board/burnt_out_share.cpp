@@ -9,6 +9,7 @@ namespace vantage {
 
 double burnt_out_share(const GreyImage& picture, const std::array<Eigen::Vector2d, 4>& outline) {
     std::vector<cv::Point> corners;
+    corners.reserve(outline.size());
     for (const Eigen::Vector2d& p : outline)
         corners.emplace_back(static_cast<int>(std::lround(p.x())),
                              static_cast<int>(std::lround(p.y())));

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/rotation.h>
 
@@ -146,7 +145,7 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
       face_poses_(bundle.faces.size(), Change{}),
       board_poses_(bundle.boards.size(), Change{}) {
     ceres::Problem::Options options;
-    options.loss_function_ownership = ceres::TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     problem_ = std::make_unique<ceres::Problem>(options);
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
         const CameraModel& m = bundle.cameras[i].model;
@@ -156,26 +155,25 @@ BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
     using Cost = ceres::AutoDiffCostFunction<CornerResidual, 2, lens_parameter_count, 6, 6, 6>;
     using FaceCost =
         ceres::AutoDiffCostFunction<FaceCornerResidual, 2, lens_parameter_count, 6, 6, 6, 6>;
-    ceres::LossFunction* loss = nullptr;
+    if (huber_px > 0) loss_ = std::make_unique<ceres::HuberLoss>(huber_px);
     for (const BundleView& view : bundle.views) {
         const auto camera = static_cast<std::size_t>(view.camera);
         const auto board = static_cast<std::size_t>(view.board);
         const auto rig = static_cast<std::size_t>(bundle.cameras[camera].rig);
-        if (!view.corners.empty() && huber_px > 0 && !loss) loss = new ceres::HuberLoss(huber_px);
         for (const BoardCorner& corner : view.corners) {
             const CornerResidual of_corner{bundle.cameras[camera], bundle.rigs[rig].world_from_rig,
                                            bundle.boards[board].world_from_board, corner.board_m,
                                            corner.pixel};
             if (bundle.faces.empty()) {
                 auto residual = std::make_unique<CornerResidual>(of_corner);
-                problem_->AddResidualBlock(new Cost(residual.release()), loss,
+                problem_->AddResidualBlock(new Cost(residual.release()), loss_.get(),
                                            lenses_[camera].data(), camera_poses_[camera].data(),
                                            rig_poses_[rig].data(), board_poses_[board].data());
             } else {
                 const auto face = static_cast<std::size_t>(corner.board);
                 auto residual = std::make_unique<FaceCornerResidual>(
                     FaceCornerResidual{of_corner, bundle.faces[face].board_from_face});
-                problem_->AddResidualBlock(new FaceCost(residual.release()), loss,
+                problem_->AddResidualBlock(new FaceCost(residual.release()), loss_.get(),
                                            lenses_[camera].data(), camera_poses_[camera].data(),
                                            rig_poses_[rig].data(), board_poses_[board].data(),
                                            face_poses_[face].data());

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 
 #include "calib_tools/bundle/bundle.h"
@@ -43,6 +44,7 @@ class BundleProblem {
     std::vector<std::array<double, lens_parameter_count>> lenses_;
     int prior_count_ = 0;
     std::vector<Change> camera_poses_, rig_poses_, face_poses_, board_poses_;
+    std::unique_ptr<ceres::LossFunction> loss_;  ///< of all corners; none: null
     std::unique_ptr<ceres::Problem> problem_;
 };
 

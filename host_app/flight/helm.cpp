@@ -50,7 +50,7 @@ Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past)
 
 OrbitView Helm::view() const {
     if (!on_move_) return camera_.view();
-    const OrbitView on_move = move_->at(move_s_);
+    OrbitView on_move = move_->at(move_s_);
     if (joining_ <= 0) return on_move;
     const double gone = 1 - joining_;
     return constrained(mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone)), {});

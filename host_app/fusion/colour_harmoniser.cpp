@@ -88,7 +88,7 @@ class Lookup {
               pixel.y() < size().height))
             return std::nullopt;
         const int x = cvRound(pixel.x()), y = cvRound(pixel.y());
-        const std::optional<Sample> here = at(x, y);
+        std::optional<Sample> here = at(x, y);
         if (!here || std::abs(view_->depth_m(y, x) / point.z() - 1) > same_surface)
             return std::nullopt;
         return here;

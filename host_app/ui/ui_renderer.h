@@ -16,6 +16,7 @@ inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
 
 /// How a picture is named to ImGui::Image: the texture must live until the frame is drawn.
 inline ImTextureID ui_texture(const Texture& texture) {
+    // ImGui takes names as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
 }
 

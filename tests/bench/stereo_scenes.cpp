@@ -138,6 +138,7 @@ std::vector<ColourImage> load_texture_photographs(const fs::path& data) {
             }
     std::ranges::sort(paths);
     std::vector<ColourImage> photographs;
+    photographs.reserve(paths.size());
     for (const fs::path& path : paths) photographs.push_back(read_colour_image(path));
     return photographs;
 }
