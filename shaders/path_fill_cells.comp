@@ -1,5 +1,6 @@
 // Cells of the fill, CELL x CELL pixels each: the disparity that most of the cell's pixels share and its mean luma and
 // colour. An invocation makes four cells of a row.
+#include "path_fill_near.glsl"
 #include "stereo_common.glsl"
 
 #ifndef CELL
@@ -15,8 +16,6 @@ uniform int stride;
 uniform int luma_row_words;
 uniform ivec2 cells_size;
 uniform int cells_stride;
-
-const uint near = 32u;  // 1/32 px
 
 uvec4 bytes_of(uint word) { return (uvec4(word) >> uvec4(0u, 8u, 16u, 24u)) & 255u; }
 
@@ -34,11 +33,6 @@ void columns_of(int y, int word, out uvec4 even, out uvec4 odd) {
     if ((size.x & 1) != 0) odd = mix(odd, even, equal(ivec4(word * 4) + ivec4(0, 2, 4, 6), ivec4(size.x - 1)));
 }
 
-uvec4 are_near(uvec4 a, uvec4 b) {
-    return uvec4(lessThanEqual(max(a, b) - min(a, b), uvec4(near))) * uvec4(notEqual(a, uvec4(0u))) *
-           uvec4(notEqual(b, uvec4(0u)));
-}
-
 // Of those with most votes the smallest.
 uvec4 better(uvec4 best, uvec4 votes, uvec4 d) { return max(best, (votes << 16) | (0xffffu - d)); }
 
@@ -53,17 +47,10 @@ uvec4 shared_disparity(ivec2 at) {
     return (0xffffu - (best & 0xffffu)) * uvec4(greaterThan(best, uvec4(0xffffu)));
 }
 
-// Means of two pairs of columns, a 16-bit half each.
-uint means(uint above, uint below) {
-    const uint low_bytes = 0x00ff00ffu;
-    uint sums = (above & low_bytes) + ((above >> 8) & low_bytes) + (below & low_bytes) + ((below >> 8) & low_bytes);
-    return ((sums + 0x00020002u) >> 2) & low_bytes;
-}
-
 uvec4 mean_luma(ivec2 at, int plane) {
     int above = (plane * size.y + 2 * at.y) * luma_row_words + 2 * at.x + 1;
     int below = (plane * size.y + min(2 * at.y + 1, size.y - 1)) * luma_row_words + 2 * at.x + 1;
-    uint first = means(luma[above], luma[below]), second = means(luma[above + 1], luma[below + 1]);
+    uint first = means_of_2x2(luma[above], luma[below]), second = means_of_2x2(luma[above + 1], luma[below + 1]);
     return uvec4(first & 255u, first >> 16, second & 255u, second >> 16);
 }
 #endif

@@ -1,10 +1,11 @@
 // Adds the runs of path_fill_island_rows.comp up along the columns and leaves what the fill may spread: the disparities of
 // islands that are large enough. One invocation walks four columns.
-#include "path_fill_islands.glsl"
 #include "path_fill.glsl"
+#include "path_fill_near.glsl"
+#include "stereo_common.glsl"
 
 #ifndef LEAST_AREA
-#define LEAST_AREA 24u  // cells
+#define LEAST_AREA 32u  // cells
 #endif
 
 layout(local_size_x = LANES) in;
@@ -20,7 +21,7 @@ void main() {
     uvec4 before = uvec4(0u), sum = uvec4(0u);
     for (int at = column; at <= last; at += step) {
         uvec4 here = cells[at] & 0xffffu;
-        sum = sum * are_joined(before, here) + paths[at];
+        sum = sum * are_near(before, here) + paths[at];
         paths[at] = sum;
         before = here;
     }
@@ -28,7 +29,7 @@ void main() {
     before = uvec4(0u);
     for (int at = last; at >= column; at -= step) {
         uvec4 here = cells[at] & 0xffffu, above = paths[at];
-        uvec4 joined = are_joined(before, here);
+        uvec4 joined = are_near(before, here);
         sum = sum * joined + above * (1u - joined);
         uvec4 holds = uvec4(greaterThanEqual(sum, uvec4(LEAST_AREA))) * uvec4(notEqual(here, uvec4(0u)));
         paths[at] = whole((here * holds | unreached * (1u - holds)) * inside);

@@ -1,5 +1,6 @@
 // How long the run of like disparities is that a cell of the fill lies in. One invocation a row, four cells a step.
-#include "path_fill_islands.glsl"
+#include "path_fill_near.glsl"
+#include "stereo_common.glsl"
 
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer Cells { uvec4 cells[]; };  // disparity in the lower half
@@ -8,13 +9,13 @@ uniform ivec2 size;  // cells
 uniform int stride;
 
 uint before, count;
-#define FROM_LEFT(here, run)                       \
-    count = are_joined(before, here) ? count + 1u : 1u; \
-    run = count;                                   \
+#define FROM_LEFT(here, run)                          \
+    count = are_near(before, here) ? count + 1u : 1u; \
+    run = count;                                      \
     before = here;
-#define FROM_RIGHT(here, run)                   \
-    count = are_joined(before, here) ? count : run; \
-    run = count;                                \
+#define FROM_RIGHT(here, run)                     \
+    count = are_near(before, here) ? count : run; \
+    run = count;                                  \
     before = here;
 
 void main() {

@@ -24,6 +24,13 @@ uvec4 whole(uvec4 words) { return min(words, uvec4(0xfffffffeu)); }
 // The byte of a luma word that holds pixel i = 0..3 of it.
 uint byte_of(uint word, int i) { return (word >> (8 * i)) & 255u; }
 
+// Rounded means of two squares of 2x2 pixels that lie in luma words above each other, a 16-bit half each.
+uint means_of_2x2(uint above, uint below) {
+    const uint low_bytes = 0x00ff00ffu;
+    uint sums = (above & low_bytes) + ((above >> 8) & low_bytes) + (below & low_bytes) + ((below >> 8) & low_bytes);
+    return ((sums + 0x00020002u) >> 2) & low_bytes;
+}
+
 // The pieces that columns are walked in lie in blocks of 16 pixels' width, row under row, so that a walk down is one
 // through memory. A buffer of them has rows of whole blocks.
 const int block_px = 16;

@@ -14,20 +14,13 @@ uint fine_word(int y, int word) {
     return fine[row * fine_row_words + word];
 }
 
-// Means of two pixels of a half-size row, a 16-bit half each.
-uint means(uint above, uint below) {
-    const uint low_bytes = 0x00ff00ffu;
-    uint sums = (above & low_bytes) + ((above >> 8) & low_bytes) + (below & low_bytes) + ((below >> 8) & low_bytes);
-    return ((sums + 0x00020002u) >> 2) & low_bytes;
-}
-
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (at.x >= coarse_row_words || at.y >= coarse_size.y) return;
     // The four pixels of this word, or those of the nearest one that holds some of the picture.
     int x = clamp((at.x - 1) * 4, 0, (coarse_size.x - 1) & ~3), word = (x >> 1) + 1;
-    uint first = means(fine_word(2 * at.y, word), fine_word(2 * at.y + 1, word));
-    uint second = means(fine_word(2 * at.y, word + 1), fine_word(2 * at.y + 1, word + 1));
+    uint first = means_of_2x2(fine_word(2 * at.y, word), fine_word(2 * at.y + 1, word));
+    uint second = means_of_2x2(fine_word(2 * at.y, word + 1), fine_word(2 * at.y + 1, word + 1));
     uvec4 four = uvec4(first & 255u, first >> 16, second & 255u, second >> 16);
     // The first and the last pixel repeat beside the picture.
     int last = coarse_size.x - 1 - x;

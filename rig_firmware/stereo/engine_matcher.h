@@ -46,6 +46,11 @@ class EngineMatcher : public Matcher {
 /// cells of one or two pixels.
 enum class Fill { none, along_rows, along_paths_of_one_px, along_paths_of_two_px };
 
+/// Of matchers that search every pixel.
+inline Fill fill_at_full_size(const MatchSettings& settings) {
+    return settings.fill ? Fill::along_paths_of_two_px : Fill::none;
+}
+
 /// What follows a search at its own size: left-right check, then a fill, then smoothing and a
 /// median.
 class CheckAndFill {

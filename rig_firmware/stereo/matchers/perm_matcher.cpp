@@ -12,8 +12,7 @@ class PermMatcher : public EngineMatcher {
           features_(library, layout_of(settings), settings.disparities),
           permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities),
-          check_(library, layout_of(settings),
-                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
+          check_(library, layout_of(settings), fill_at_full_size(settings)) {}
 
     std::size_t cost_volume_bytes() const override { return perm_.volume_bytes(); }
 

@@ -17,8 +17,7 @@ class PermSgmMatcher : public EngineMatcher {
           paths_(library, layout_of(settings), settings.disparities,
                  {.p1 = 5, .p2 = 26, .columns = false}, perm_.large_scratch(),
                  perm_.small_scratch()),
-          check_(library, layout_of(settings),
-                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
+          check_(library, layout_of(settings), fill_at_full_size(settings)) {}
 
     std::size_t cost_volume_bytes() const override {
         return perm_.volume_bytes() + paths_.volume_bytes();

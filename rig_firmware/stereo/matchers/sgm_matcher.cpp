@@ -12,8 +12,7 @@ class SgmMatcher : public EngineMatcher {
           features_(library, layout_of(settings), settings.disparities),
           cost_(library, layout_of(settings), settings.disparities, 1),
           paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
-          check_(library, layout_of(settings),
-                 settings.fill ? Fill::along_paths_of_two_px : Fill::none) {}
+          check_(library, layout_of(settings), fill_at_full_size(settings)) {}
 
     std::size_t cost_volume_bytes() const override {
         return cost_.costs().bytes() + paths_.volume_bytes();

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "rig_firmware/stereo/passes/row_fill_reference.h"
+
 namespace vantage {
 namespace {
 
@@ -107,21 +109,7 @@ class Paths {
     }
 
     /// The rest takes the background of its row; its cost stays `unreached`.
-    void take_background() {
-        for (int y = 0; y < came.rows; ++y) {
-            DisparityImage right = came.row(y).clone();
-            for (int x = came.cols - 2; x >= 0; --x)
-                if (!right(0, x)) right(0, x) = right(0, x + 1);
-            unsigned short left = 0;
-            for (int x = 0; x < came.cols; ++x) {
-                const unsigned short other = right(0, x);
-                if (came(y, x))
-                    left = came(y, x);
-                else
-                    came(y, x) = left && other ? std::min(left, other) : std::max(left, other);
-            }
-        }
-    }
+    void take_background() { came = filled_from_background(came); }
 
   private:
     void advance(cv::Point from, cv::Point to) {

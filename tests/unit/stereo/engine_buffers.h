@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,17 @@
 #include "rig_firmware/stereo/passes/stereo_layout.h"
 
 namespace vantage {
+
+/// A disparity in LeftRightPass's form, one confidence for all; padding may hold anything.
+inline Buffer buffer_of(const DisparityImage& disparity, const StereoLayout& layout,
+                        std::uint32_t confidence) {
+    std::vector<std::uint32_t> words(layout.pixels(), 0xff00ffff);
+    for (int y = 0; y < disparity.rows; ++y)
+        for (int x = 0; x < disparity.cols; ++x)
+            words[static_cast<std::size_t>(y * layout.stride_px() + x)] =
+                disparity(y, x) | confidence << 16;
+    return Buffer::of<std::uint32_t>(words);
+}
 
 /// Every component of a buffer of `channels` words a pixel, without the row padding.
 inline cv::Mat1i channel_of(const Buffer& buffer, const StereoLayout& layout, int channels,

@@ -199,17 +199,15 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
                 << x << ", " << y;
         }
 
-    std::vector<std::uint32_t> words(half.pixels());
     DisparityImage disparity(half.height_px, half.width_px);
     cv::RNG random(11);
     for (int y = 0; y < half.height_px; ++y)
         for (int x = 0; x < half.width_px; ++x) {
             const int surface = (x / 8 + y / 8) % 2 ? 300 : random.uniform(0, 1000);
             disparity(y, x) = static_cast<unsigned short>(surface + x + random.uniform(0, 8));
-            words[static_cast<std::size_t>(y * half.stride_px() + x)] = disparity(y, x) | 77U << 16;
         }
     UpsamplePass upsample(library_, half, layout_);
-    upsample.run(profiler_, Buffer::of<std::uint32_t>(words), halve.luma(), fine.left());
+    upsample.run(profiler_, buffer_of(disparity, half, 77), halve.luma(), fine.left());
     const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
     expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_left.luma, left_.luma)),
                  "upsampled");

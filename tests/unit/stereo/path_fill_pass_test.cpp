@@ -102,16 +102,11 @@ TEST_P(PathFillPassTest, AgreesWithItsCpuFormBitForBit) {
         disparity(blob & cv::Rect(0, 0, layout_.width_px, layout_.height_px)) =
             static_cast<unsigned short>(d);
     }
-    std::vector<std::uint32_t> words(layout_.pixels(), 0xff00ffff);
-    for (int y = 0; y < disparity.rows; ++y)
-        for (int x = 0; x < disparity.cols; ++x)
-            words[static_cast<std::size_t>(y * layout_.stride_px() + x)] =
-                disparity(y, x) | 77U << 16;
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     left.upload(pair_.left);
     LumaPass luma(library_, layout_);
     luma.run(profiler_, left, left);
-    const Buffer known = Buffer::of<std::uint32_t>(words), filled(known.bytes(), GL_DYNAMIC_COPY);
+    const Buffer known = buffer_of(disparity, layout_, 77), filled(known.bytes(), GL_DYNAMIC_COPY);
     for (const FillCell cell : {FillCell::one_px, FillCell::two_px}) {
         PathFillPass fill(library_, layout_, cell);
         fill.run(profiler_, luma.left(), known, filled);
