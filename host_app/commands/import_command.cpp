@@ -7,7 +7,7 @@
 
 #include "common/base/command.h"
 #include "common/base/print_result.h"
-#include "host_app/fusion/data_set_import.h"
+#include "host_app/view_sets/data_set_import.h"
 
 namespace vantage {
 namespace {

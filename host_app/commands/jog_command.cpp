@@ -12,7 +12,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
-#include "host_app/jog/jog_deck.h"
+#include "host_app/control/hid/jog_deck.h"
 
 namespace vantage {
 namespace {

@@ -14,10 +14,10 @@
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "host_app/commands/stereoscopic_options.h"
-#include "host_app/fusion/image_metrics.h"
-#include "host_app/fusion/novelty_overlay.h"
-#include "host_app/fusion/synthesiser.h"
-#include "host_app/fusion/view_set.h"
+#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/synthesis/synthesiser.h"
+#include "host_app/view_sets/image_metrics.h"
+#include "host_app/view_sets/view_set.h"
 
 namespace vantage {
 namespace {

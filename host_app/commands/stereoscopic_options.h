@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "host_app/fusion/stereoscopy.h"
+#include "host_app/synthesis/stereoscopy.h"
 
 namespace vantage {
 

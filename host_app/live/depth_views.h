@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/wire/frame_message.h"
-#include "host_app/fusion/depth_view.h"
+#include "host_app/synthesis/depth_view.h"
 
 namespace vantage {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/hid/jog_mapper.h"
 #include "host_app/flight/helm.h"
-#include "host_app/jog/jog_deck.h"
-#include "host_app/jog/jog_mapper.h"
 #include "host_app/live/flight_plan.h"
 #include "host_app/live/live_session.h"
 

@@ -9,11 +9,11 @@
 
 #include "common/base/percentiles.h"
 #include "common/receive/stage_receiver.h"
+#include "host_app/control/hid/jog_deck.h"
 #include "host_app/flight/orbit_view.h"
-#include "host_app/fusion/colour_harmoniser.h"
-#include "host_app/fusion/novelty_overlay.h"
-#include "host_app/fusion/stereoscopy.h"
-#include "host_app/jog/jog_deck.h"
+#include "host_app/synthesis/colour_harmoniser.h"
+#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/synthesis/stereoscopy.h"
 
 namespace vantage {
 

@@ -10,17 +10,17 @@
 #include "common/base/stop_signal.h"
 #include "common/colour/colour_correction.h"
 #include "host_app/flight/orbit_view.h"
-#include "host_app/fusion/colour_harmoniser.h"
-#include "host_app/fusion/novelty_overlay.h"
-#include "host_app/fusion/rig_demand.h"
-#include "host_app/fusion/stereoscopy.h"
-#include "host_app/fusion/synthesiser.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/moment_collector.h"
 #include "host_app/live/newest_set.h"
 #include "host_app/live/past_ring.h"
 #include "host_app/live/stage_times.h"
 #include "host_app/output/video_recorder.h"
+#include "host_app/synthesis/colour_harmoniser.h"
+#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/synthesis/rig_demand.h"
+#include "host_app/synthesis/stereoscopy.h"
+#include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
 

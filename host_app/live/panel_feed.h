@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "host_app/desk/operator_panel.h"
 #include "host_app/live/flight_controls.h"
 #include "host_app/live/rate_meter.h"
-#include "host_app/ui/operator_panel.h"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "common/base/stop_signal.h"
+#include "host_app/desk/operator_window.h"
 #include "host_app/live/flight_controls.h"
-#include "host_app/ui/operator_window.h"
 
 namespace vantage {
 

@@ -11,8 +11,8 @@
 
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/fusion/image_metrics.h"
-#include "host_app/fusion/synthesiser.h"
+#include "host_app/synthesis/synthesiser.h"
+#include "host_app/view_sets/image_metrics.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/passes/temporal_pass.h"
 #include "tests/support/deviation_along_time.h"

@@ -9,7 +9,7 @@
 
 #include "common/image/image_file.h"
 #include "common/image/pfm.h"
-#include "host_app/fusion/view_set.h"
+#include "host_app/view_sets/view_set.h"
 #include "tests/fuzz/input_file.h"
 
 namespace {

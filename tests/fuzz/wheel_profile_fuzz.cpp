@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "host_app/jog/wheel_profile.h"
+#include "host_app/control/hid/wheel_profile.h"
 #include "tests/fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

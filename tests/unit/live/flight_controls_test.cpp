@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/egl_context.h"
-#include "tests/unit/jog/scripted_port.h"
+#include "tests/unit/hid/scripted_port.h"
 #include "tests/unit/live/scripted_feed.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "host_app/ui/operator_window.h"
+#include "host_app/desk/operator_window.h"
 
 #include <cstdlib>
 #include <numbers>

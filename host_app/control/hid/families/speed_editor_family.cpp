@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "host_app/control/hid/jog_family.h"
+#include "host_app/control/hid/report_bytes.h"
+#include "host_app/control/hid/speed_editor_handshake.h"
+
+namespace vantage {
+namespace {
+
+struct Key {
+    std::uint16_t code;
+    const char* name;
+};
+constexpr Key keys[] = {{0x01, "smart_insert"}, {0x02, "append"},      {0x03, "ripple_overwrite"},
+                        {0x04, "close_up"},     {0x05, "on_top"},      {0x06, "source_overwrite"},
+                        {0x07, "in"},           {0x08, "out"},         {0x09, "trim_in"},
+                        {0x0a, "trim_out"},     {0x0b, "roll"},        {0x0c, "slip_source"},
+                        {0x0d, "slip_dest"},    {0x0e, "trans_dur"},   {0x0f, "cut"},
+                        {0x10, "dissolve"},     {0x11, "smooth_cut"},  {0x1a, "source"},
+                        {0x1b, "timeline"},     {0x1c, "shuttle_key"}, {0x1d, "jog_key"},
+                        {0x1e, "scroll_key"},   {0x1f, "sync_bin"},    {0x22, "transition"},
+                        {0x25, "video_only"},   {0x26, "audio_only"},  {0x2b, "ripple_delete"},
+                        {0x2c, "audio_level"},  {0x2d, "full_view"},   {0x2e, "snap"},
+                        {0x2f, "split"},        {0x30, "live"},        {0x31, "esc"},
+                        {0x33, "cam1"},         {0x34, "cam2"},        {0x35, "cam3"},
+                        {0x36, "cam4"},         {0x37, "cam5"},        {0x38, "cam6"},
+                        {0x39, "cam7"},         {0x3a, "cam8"},        {0x3b, "cam9"},
+                        {0x3c, "stop_play"}};
+constexpr std::uint16_t shuttle_key = 0x1c, jog_key = 0x1d, scroll_key = 0x1e;
+
+/// DaVinci Resolve Speed Editor.
+///   report 3  u8 mode of the wheel, int32 its value, u8: in modes 0 and 2 what it turned since the
+///             report before, in modes 1 and 3 where it stands; 8192 are about a turn
+///   report 4  up to six held keys, u16 each
+///   report 7  u8 charging, u8 battery in percent
+/// Its keys JOG and SCRL make the wheel count steps, SHTL makes it a shuttle: that is the device's
+/// own way, so it is done here. As a shuttle the wheel has no spring; it stands at 0 where it stood
+/// when SHTL was pressed, with a dead zone of the device's own.
+class SpeedEditorDecoder final : public JogDecoder {
+  public:
+    std::vector<JogControl> controls() const override {
+        std::vector<JogControl> all{{JogKind::step, "jog"}, {JogKind::axis, "shuttle"}};
+        for (const Key& key : keys) all.push_back({JogKind::button, key.name});
+        return all;
+    }
+
+    void start(JogPort& port, MonotonicTime now) override {
+        open(port, now);
+        set_wheel(port, as_jog);
+    }
+
+    void keep_alive(JogPort& port, MonotonicTime now) override {
+        if (renew_at_ && now >= *renew_at_) open(port, now);
+        if (wanted_) set_wheel(port, *wanted_);
+        wanted_.reset();
+    }
+
+    bool decode(std::span<const std::uint8_t> report, std::vector<JogEvent>& events) override {
+        if (report.empty()) return false;
+        switch (report[0]) {
+            case 3:
+                return decode_wheel(report, events);
+            case 4:
+                return decode_keys(report, events);
+            case 7:
+                return report.size() >= 3;
+            default:
+                return false;
+        }
+    }
+
+  private:
+    enum WheelMode : std::uint8_t { as_jog = 0, as_shuttle = 3 };
+    static constexpr double units_per_step = 8192.0 / 32;
+    static constexpr double full_shuttle = 4096;
+
+    void open(JogPort& port, MonotonicTime now) {
+        constexpr std::chrono::seconds margin{60}, least{10};
+        renew_at_ = now + std::max(open_speed_editor(port) - margin, least);
+    }
+
+    static void set_wheel(JogPort& port, WheelMode mode) {
+        const std::uint8_t choose[] = {3, mode, 0, 0, 0, 0, 255};
+        port.write(choose);
+        const std::uint8_t lamp[] = {4, static_cast<std::uint8_t>(mode == as_jog ? 1 : 2)};
+        port.write(lamp);
+    }
+
+    bool decode_wheel(std::span<const std::uint8_t> report, std::vector<JogEvent>& events) {
+        if (report.size() < 6) return false;
+        const auto value = static_cast<std::int32_t>(uint_at(report, 2, 4));
+        const bool is_position = report[1] == 1 || report[1] == 3;
+        if (is_position) {
+            move_shuttle(std::clamp(value / full_shuttle, -1.0, 1.0), events);
+        } else {
+            move_shuttle(0, events);
+            if (value != 0) events.push_back({JogKind::step, "jog", value / units_per_step});
+        }
+        return true;
+    }
+
+    void move_shuttle(double to, std::vector<JogEvent>& events) {
+        if (to != shuttle_) events.push_back({JogKind::axis, "shuttle", to});
+        shuttle_ = to;
+    }
+
+    bool decode_keys(std::span<const std::uint8_t> report, std::vector<JogEvent>& events) {
+        std::array<std::uint16_t, 6> now{};
+        if (report.size() < 1 + 2 * now.size()) return false;
+        for (std::size_t i = 0; i < now.size(); ++i) now[i] = uint16_at(report, 1 + 2 * i);
+        const auto holds = [](const std::array<std::uint16_t, 6>& held, std::uint16_t code) {
+            return std::find(held.begin(), held.end(), code) != held.end();
+        };
+        for (const Key& key : keys) {
+            const bool is_held = holds(now, key.code);
+            if (is_held == holds(held_, key.code)) continue;
+            events.push_back({JogKind::button, key.name, is_held ? 1.0 : 0.0});
+            if (is_held && key.code == shuttle_key) wanted_ = as_shuttle;
+            if (is_held && (key.code == jog_key || key.code == scroll_key)) wanted_ = as_jog;
+            if (wanted_ == as_jog) move_shuttle(0, events);
+        }
+        held_ = now;
+        return true;
+    }
+
+    std::optional<MonotonicTime> renew_at_;
+    std::optional<WheelMode> wanted_;
+    std::array<std::uint16_t, 6> held_{};
+    double shuttle_ = 0;
+};
+
+}  // namespace
+
+JogFamily speed_editor_family_entry() {
+    return {.name = "speed_editor",
+            .transport = JogTransport::hidraw,
+            .models = {{{0x1edb, 0xda0e}, "DaVinci Resolve Speed Editor"}},
+            .speaks = {},
+            .make_decoder = [](JogId) { return std::make_unique<SpeedEditorDecoder>(); }};
+}
+
+}  // namespace vantage

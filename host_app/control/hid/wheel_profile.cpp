@@ -1,0 +1,235 @@
+#include "host_app/control/hid/wheel_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/config/nearest_name.h"
+#include "common/config/toml_reader.h"
+#include "host_app/control/hid/embedded_wheels.h"
+
+namespace vantage {
+namespace {
+
+constexpr int wheel_file_version = 1;
+constexpr std::size_t max_file_bytes = 1 << 20;
+/// Reports are at most so long on USB.
+constexpr int max_report_byte = 63;
+
+template <class Action>
+struct Named {
+    const char* name;
+    Action action;
+};
+constexpr Named<AxisAction> axis_actions[] = {
+    {"nothing", AxisAction::nothing}, {"wheel", AxisAction::wheel},
+    {"shuttle", AxisAction::shuttle}, {"orbit", AxisAction::orbit},
+    {"elevate", AxisAction::elevate}, {"pan_right", AxisAction::pan_right},
+    {"pan_up", AxisAction::pan_up},   {"dolly", AxisAction::dolly},
+    {"zoom", AxisAction::zoom}};
+constexpr Named<ButtonAction> button_actions[] = {{"nothing", ButtonAction::nothing},
+                                                  {"store", ButtonAction::store},
+                                                  {"freeze", ButtonAction::freeze},
+                                                  {"mode", ButtonAction::mode},
+                                                  {"play", ButtonAction::play},
+                                                  {"reset", ButtonAction::reset},
+                                                  {"synthesiser", ButtonAction::synthesiser},
+                                                  {"live", ButtonAction::live}};
+constexpr int last_shot = 9;
+constexpr Named<ReportField::Kind> field_kinds[] = {{"delta", ReportField::Kind::delta},
+                                                    {"counter", ReportField::Kind::counter},
+                                                    {"axis", ReportField::Kind::axis},
+                                                    {"buttons", ReportField::Kind::buttons}};
+
+template <class Action, std::size_t count>
+std::vector<std::string> names_of(const Named<Action> (&all)[count]) {
+    std::vector<std::string> names;
+    for (const Named<Action>& named : all) names.emplace_back(named.name);
+    return names;
+}
+
+template <class Action, std::size_t count>
+const Action* find_named(const Named<Action> (&all)[count], const std::string& name) {
+    for (const Named<Action>& named : all)
+        if (name == named.name) return &named.action;
+    return nullptr;
+}
+
+template <class Action, std::size_t count>
+Action read_named(TomlTable& table, std::string_view key, const Named<Action> (&all)[count]) {
+    std::string name;
+    table.require(key);
+    table.read(key, name);
+    const Action* found = find_named(all, name);
+    if (!found && table.has(key))
+        table.refuse(key,
+                     fmt::format("must not be '{}'; {}", name, suggest_name(name, names_of(all))));
+    return found ? *found : Action{};
+}
+
+ButtonMap read_button(TomlTable& table, const std::string& control, const std::string& action) {
+    constexpr std::string_view shot = "shot ";
+    if (action.size() == shot.size() + 1 && action.starts_with(shot)) {
+        const int number = action.back() - '0';
+        if (number >= 1 && number <= last_shot) return {ButtonAction::shot, number};
+    }
+    if (const ButtonAction* found = find_named(button_actions, action)) return {*found, 0};
+    std::vector<std::string> names = names_of(button_actions);
+    for (int n = 1; n <= last_shot; ++n) names.push_back(fmt::format("shot {}", n));
+    table.refuse(control, fmt::format("must not be '{}'; {}", action, suggest_name(action, names)));
+}
+
+ReportField read_field(TomlTable& table) {
+    ReportField field;
+    table.require("name");
+    table.read("name", field.name);
+    field.kind = read_named(table, "kind", field_kinds);
+    int report_id = -1;
+    table.read("report_id", report_id, {1, 255});
+    if (table.has("report_id")) field.report_id = static_cast<std::uint8_t>(report_id);
+    table.require("byte");
+    table.read("byte", field.byte, {0, max_report_byte});
+    table.read("bit", field.bit, {0, 7});
+    table.read("bits", field.bits, {1, 32});
+    table.read("signed", field.is_signed);
+    table.read("centre", field.centre, {-1e9, 1e9});
+    table.read("full_scale", field.full_scale, {1, 1e9});
+    if (table.has("name") && field.name.empty()) table.refuse("name", "must not be empty");
+    if (field.report_id && field.byte == 0)
+        table.refuse("byte", "is 0, where the report's id stands: the first byte behind it is 1");
+    return field;
+}
+
+/// The controls of every device of a profile. Throws Error if nothing reads one of them.
+std::vector<std::vector<JogControl>> controls_of(const WheelProfile& profile,
+                                                 const TomlTable& top) {
+    if (!profile.report.empty()) return {make_described_decoder(profile.report)->controls()};
+    std::vector<std::vector<JogControl>> all;
+    for (const JogId id : profile.devices) {
+        const std::unique_ptr<JogDecoder> decoder = make_known_decoder(id);
+        if (!decoder)
+            top.refuse("devices",
+                       fmt::format("has {}, which Vantage cannot read by itself: describe its "
+                                   "reports with [[report]] tables",
+                                   to_text(id)));
+        all.push_back(decoder->controls());
+    }
+    return all;
+}
+
+bool has_control(const std::vector<std::vector<JogControl>>& devices, const std::string& name,
+                 JogKind kind) {
+    for (const std::vector<JogControl>& controls : devices)
+        for (const JogControl& control : controls)
+            if (control.kind == kind && control.name == name) return true;
+    return false;
+}
+
+/// Refuses a name that none of the devices has, in the way it is used.
+void check_control(const TomlTable& table, std::string_view key, const std::string& name,
+                   bool as_button, const std::vector<std::vector<JogControl>>& devices) {
+    std::vector<std::string> known;
+    for (const std::vector<JogControl>& controls : devices)
+        for (const JogControl& control : controls) {
+            if ((control.kind == JogKind::button) != as_button) continue;
+            if (control.name == name) return;
+            if (std::find(known.begin(), known.end(), control.name) == known.end())
+                known.push_back(control.name);
+        }
+    table.refuse(key, fmt::format("is no {} of this device; {}", as_button ? "button" : "axis",
+                                  suggest_name(name, known)));
+}
+
+WheelProfile read_members(TomlTable& top) {
+    WheelProfile profile;
+    top.require("name");
+    top.read("name", profile.name);
+    std::vector<std::string> devices;
+    top.require("devices");
+    top.read("devices", devices);
+    for (const std::string& device : devices) {
+        try {
+            profile.devices.push_back(parse_jog_id(device));
+        } catch (const Error& error) {
+            top.refuse("devices", fmt::format("cannot be taken: {}", error.what()));
+        }
+    }
+    if (top.has("devices") && devices.empty()) top.refuse("devices", "names no device");
+    std::set<std::string> fields;
+    top.read_tables("report", [&](TomlTable& table) {
+        profile.report.push_back(read_field(table));
+        if (!fields.insert(profile.report.back().name).second)
+            table.refuse("name", fmt::format("is '{}' a second time", profile.report.back().name));
+    });
+    const auto controls = controls_of(profile, top);
+    top.read_named_tables("axes", [&](const std::string& name, TomlTable& table) {
+        check_control(table, "action", name, false, controls);
+        AxisMap map;
+        map.action = read_named(table, "action", axis_actions);
+        if (map.action == AxisAction::shuttle && !has_control(controls, name, JogKind::axis))
+            table.refuse("action",
+                         "must not be 'shuttle' for a control without a rest; 'wheel' "
+                         "takes its steps");
+        table.read("dead_zone", map.dead_zone, {0, 0.9});
+        table.read("sensitivity", map.sensitivity, {0.001, 1000});
+        table.read("inverted", map.inverted);
+        profile.axes[name] = map;
+    });
+    top.read_table("buttons", [&](TomlTable& table) {
+        for (const std::string& name : table.keys()) {
+            std::string action;
+            table.read(name, action);
+            check_control(table, name, name, true, controls);
+            profile.buttons[name] = read_button(table, name, action);
+        }
+    });
+    return profile;
+}
+
+}  // namespace
+
+WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::path& name) {
+    WheelProfile profile;
+    read_toml_text(text, name, wheel_file_version,
+                   [&](TomlTable& top) { profile = read_members(top); });
+    return profile;
+}
+
+std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own) {
+    std::vector<WheelProfile> profiles;
+    for (const EmbeddedWheel& wheel : embedded_wheels())
+        profiles.push_back(
+            read_wheel_profile(wheel.text, fmt::format("hw_config/jog/{}", wheel.name)));
+    if (own.empty()) return profiles;
+    std::vector<std::filesystem::path> files{own};
+    if (std::filesystem::is_directory(own)) {
+        files.clear();
+        for (const auto& entry : std::filesystem::directory_iterator(own))
+            if (entry.path().extension() == ".toml") files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        if (files.empty())
+            fail("there is no wheel in {}: a wheel is a .toml file such as those in hw_config/jog",
+                 own.string());
+    }
+    for (const std::filesystem::path& file : files) {
+        const std::vector<std::byte> bytes = read_file(file, max_file_bytes);
+        profiles.push_back(read_wheel_profile(
+            std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file));
+    }
+    return profiles;
+}
+
+const WheelProfile* find_profile(const std::vector<WheelProfile>& profiles, JogId id) {
+    const auto found =
+        std::find_if(profiles.rbegin(), profiles.rend(), [&](const WheelProfile& profile) {
+            return std::find(profile.devices.begin(), profile.devices.end(), id) !=
+                   profile.devices.end();
+        });
+    return found == profiles.rend() ? nullptr : &*found;
+}
+
+}  // namespace vantage

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/gl/texture.h"
+#include "host_app/desk/style.h"
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+
+enum class RigState { present, late, missed, disconnected, refused };
+
+struct PanelRig {
+    std::string name;
+    RigState state = RigState::disconnected;
+    double rate_hz = 0;                  ///< frames received a second
+    double latency_ms = 0;               ///< exposure to decoded, median
+    std::uint64_t lost = 0;              ///< frames that met no set, wherever they were lost
+    const Texture* disparity = nullptr;  ///< colour-mapped; null: none yet
+    std::vector<std::string> worries =
+        {};  ///< what a technician should look after, a few words each
+};
+
+struct PanelStage {
+    std::string name;
+    double ms = 0;
+    bool at_rig = false;
+};
+
+/// What the novelty overlay's colours say.
+struct PanelNovelty {
+    struct Row {
+        std::string rig;
+        unsigned char rgb[3] = {0, 0, 0};
+        double share = 0;  ///< of the picture's pixels
+    };
+    std::vector<Row> rows;
+    std::string remark;  ///< why there is no overlay; empty: there is one
+};
+
+/// All that the operator's screen tells.
+struct PanelState {
+    const Texture* picture = nullptr;  ///< the virtual view
+    std::string timecode;
+    std::uint64_t pulse = 0;
+    bool waiting = true;  ///< no set has come yet
+    bool frozen = false, recording = false;
+    std::optional<double> behind_s;  ///< while in the past: how far
+    double picture_rate_hz = 0, latency_ms = 0;
+    std::vector<float> latency_history_ms;  ///< oldest first
+    std::string synthesiser, renderer;
+    std::vector<PanelStage> stages;
+    std::vector<PanelRig> rigs;
+    OrbitView view;
+    std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+    std::string wheel;                    ///< what the jog wheel does; empty: there is none
+    std::optional<PanelNovelty> novelty;  ///< while it is asked for
+    bool show_panels = true, show_help = false;
+};
+
+/// Lays out the whole screen in the current ImGui frame: the picture, letterboxed, with the panels
+/// around its edges.
+void draw_operator_screen(const PanelState& state, const UiFonts& fonts);
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#include "host_app/synthesis/layer_blender.h"
+
+namespace vantage {
+
+const Texture& LayerBlender::blend(const VirtualView& view, const Drawing& drawing,
+                                   const BeforeFilling& before_filling, const Texture* depth_test) {
+    blended_.resize({view.width_px, view.height_px}, notes_origins_, depth_test);
+    if (layers_.used().empty())
+        blended_.clear();
+    else
+        drawing(blended_, notes_origins_);
+    origins_.reset();
+    if (notes_origins_) {
+        origins_ = {blended_.shares(), {}};
+        for (const GpuView* layer : layers_.used()) origins_->rigs.push_back(layer->camera().name);
+    }
+    const DepthPicture& picture = before_filling ? before_filling(blended_) : blended_;
+    return filler_.fill(picture.colour(), picture.depth_m());
+}
+
+const Texture& LayerBlender::blend(const VirtualView& view, LayerPass& pass) {
+    return blend(view, [&](const DepthPicture& into, bool notes_origins) {
+        pass.use(layers_, notes_origins).draw(into.target());
+    });
+}
+
+}  // namespace vantage

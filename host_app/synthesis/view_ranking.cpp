@@ -1,0 +1,55 @@
+#include "host_app/synthesis/view_ranking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+constexpr double small_angle_rad = 0.02;
+
+}  // namespace
+
+double usefulness(std::span<const Eigen::Vector3d> sample_points_m,
+                  const Eigen::Vector3d& source_centre_m, const VirtualView& target) {
+    const Pose target_from_world = target.world_from_camera.inverse();
+    const Eigen::Vector3d source_centre = target_from_world * source_centre_m;
+    double sum = 0;
+    for (const Eigen::Vector3d& point_world : sample_points_m) {
+        const Eigen::Vector3d point = target_from_world * point_world;
+        if (point.z() <= 0) continue;
+        const Eigen::Vector3d pixel = target.K * point / point.z();
+        // A margin of a quarter of the picture: points are few, and surfaces reach past them.
+        const double margin_x = 0.25 * target.width_px, margin_y = 0.25 * target.height_px;
+        if (pixel.x() < -margin_x || pixel.x() > target.width_px + margin_x ||
+            pixel.y() < -margin_y || pixel.y() > target.height_px + margin_y)
+            continue;
+        const double cosine = point.normalized().dot((point - source_centre).normalized());
+        sum += 1 / (std::acos(std::clamp(cosine, -1.0, 1.0)) + small_angle_rad);
+    }
+    return sum;
+}
+
+std::vector<const GpuView*> most_useful(std::span<const std::unique_ptr<GpuView>> views,
+                                        const VirtualView& target, std::size_t at_most) {
+    std::vector<std::pair<double, const GpuView*>> ranked;
+    for (const auto& view : views)
+        if (const double use = usefulness(view->sample_points_m(),
+                                          view->camera().world_from_camera.translation(), target);
+            use > 0)
+            ranked.emplace_back(use, view.get());
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    if (ranked.size() > at_most) ranked.resize(at_most);
+    std::vector<const GpuView*> best;
+    for (const auto& [use, view] : ranked) best.push_back(view);
+    return best;
+}
+
+double near_plane_m(std::span<const GpuView* const> views) {
+    double typical_m = 0;
+    for (const GpuView* view : views) typical_m = std::max(typical_m, view->median_depth_m());
+    return typical_m > 0 ? 0.01 * typical_m : 0.01;
+}
+
+}  // namespace vantage

@@ -1,0 +1,164 @@
+#include "host_app/desk/operator_panel.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/egl_context.h"
+#include "common/image/colour_map.h"
+#include "common/image/image_file.h"
+#include "host_app/desk/ui_renderer.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width_px = 1280, height_px = 720;
+
+class OperatorScreen : public testing::Test {
+  protected:
+    OperatorScreen()
+        : picture_(TextureFormat::rgba8, 320, 180), disparity_(TextureFormat::rgba8, 160, 120) {
+        // Alpha 0, as where no rig saw the surface: the screen shows the pixel all the same.
+        picture_.upload(ColourImage(180, 320, cv::Vec4b(40, 90, 140, 0)));
+        cv::Mat1f ramp(120, 160);
+        for (int y = 0; y < ramp.rows; ++y)
+            for (int x = 0; x < ramp.cols; ++x) ramp(y, x) = static_cast<float>(x) * 0.2f;
+        disparity_.upload(colour_map_disparity(ramp, 0, 32));
+
+        state_.picture = &picture_;
+        state_.waiting = false;
+        state_.recording = true;
+        state_.timecode = "10:00:07:12";
+        state_.pulse = 1234567;
+        state_.picture_rate_hz = 29.97;
+        state_.latency_ms = 84;
+        for (int i = 0; i < 100; ++i)
+            state_.latency_history_ms.push_back(80.0f + static_cast<float>(i % 13));
+        state_.synthesiser = "mesh";
+        state_.stages = {{"capture", 2.1, true}, {"match", 18.4, true}, {"decode", 3.2, false}};
+        state_.rigs = {{"north", RigState::present, 30, 60, 0, &disparity_},
+                       {"south", RigState::late, 28.1, 190, 17, &disparity_},
+                       {"east", RigState::disconnected, 0, 0, 0, nullptr}};
+        state_.move_progress = 0.4;
+    }
+
+    ColourImage draw(const PanelState& state) {
+        ImGui::GetIO().DisplaySize = {width_px, height_px};
+        const Texture screen(TextureFormat::rgba8, width_px, height_px);
+        const Framebuffer target({&screen});
+        // A panel takes its size from what it held in the frame before.
+        for (int frame = 0; frame < 2; ++frame) {
+            ImGui::NewFrame();
+            draw_operator_screen(state, ui_.fonts());
+            ImGui::Render();
+            renderer_.draw(*ImGui::GetDrawData(), target);
+        }
+        const ColourImage drawn = screen.download();
+        // For looking at it.
+        if (const char* file = std::getenv("VANTAGE_TEST_PICTURE")) write_colour_image(file, drawn);
+        return drawn;
+    }
+    static cv::Vec3b at(const ColourImage& screen, int x, int y) {
+        const cv::Vec4b& pixel = screen(y, x);
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+    static int differing(const ColourImage& a, const ColourImage& b, cv::Rect region) {
+        ColourImage difference;
+        cv::absdiff(a(region), b(region), difference);
+        int count = 0;
+        for (const cv::Vec4b& d : difference) count += d[0] + d[1] + d[2] > 60;
+        return count;
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    UiContext ui_{13};
+    UiRenderer renderer_{shaders_};
+    Texture picture_, disparity_;
+    PanelState state_;
+};
+
+TEST_F(OperatorScreen, ShowsThePictureInItsShapeAndColour) {
+    state_.show_panels = false;
+    const ColourImage screen = draw(state_);
+    for (const cv::Point p : {cv::Point(1, 1), cv::Point(640, 360), cv::Point(1278, 718)})
+        EXPECT_EQ(at(screen, p.x, p.y), cv::Vec3b(40, 90, 140)) << p;
+}
+
+TEST_F(OperatorScreen, LetterboxesAPictureOfAnotherShape) {
+    Texture filled(TextureFormat::rgba8, 100, 100);
+    filled.upload(ColourImage(100, 100, cv::Vec4b(200, 0, 0, 255)));
+    state_.picture = &filled;
+    state_.show_panels = false;
+    const ColourImage screen = draw(state_);
+    EXPECT_LT(at(screen, 100, 360)[0], 20);
+    EXPECT_EQ(at(screen, 640, 360), cv::Vec3b(200, 0, 0));
+    EXPECT_EQ(at(screen, 290, 5), cv::Vec3b(200, 0, 0)) << "from (1280 - 720) / 2 = 280 on";
+    EXPECT_LT(at(screen, 270, 5)[0], 20);
+}
+
+TEST_F(OperatorScreen, LeavesTheMiddleOfThePictureFree) {
+    const ColourImage screen = draw(state_);
+    for (const cv::Point p : {cv::Point(640, 360), cv::Point(500, 200), cv::Point(900, 450)})
+        EXPECT_EQ(at(screen, p.x, p.y), cv::Vec3b(40, 90, 140)) << p;
+}
+
+TEST_F(OperatorScreen, TellsTheStateOfARig) {
+    const ColourImage before = draw(state_);
+    state_.rigs[0].state = RigState::refused;
+    const ColourImage after = draw(state_);
+    EXPECT_GT(differing(before, after, {0, 40, 400, 300}), 20) << "the table";
+    EXPECT_GT(differing(before, after, {400, 500, 500, 220}), 500) << "its disparity goes";
+}
+
+TEST_F(OperatorScreen, NamesTheColoursOfTheNoveltyOverlay) {
+    const cv::Rect panel(960, 30, 320, 300);
+    const auto patch = [&](cv::Scalar colour) {
+        cv::Mat1b mask;
+        cv::inRange(ColourImage(draw(state_)(panel)), colour, colour, mask);
+        return cv::countNonZero(mask);
+    };
+    const cv::Scalar of_north(230, 159, 0, 255), of_filled(255, 0, 255, 255);
+    EXPECT_EQ(patch(of_north) + patch(of_filled), 0);
+    state_.novelty = {{{"north", {230, 159, 0}, 0.61}, {"filled", {255, 0, 255}, 0.04}}, ""};
+    EXPECT_GT(patch(of_north), 40);
+    EXPECT_GT(patch(of_filled), 40);
+    const ColourImage shares = draw(state_);
+    state_.novelty = {{}, "The synthesiser points cannot tell."};
+    EXPECT_GT(differing(shares, draw(state_), panel), 100);
+}
+
+TEST_F(OperatorScreen, ShowsWhatATechnicianShouldLookAfter) {
+    const ColourImage before = draw(state_);
+    state_.rigs[0].worries = {"83 C, it slows down from 80", "its supply sags"};
+    EXPECT_GT(differing(before, draw(state_), {0, 40, 400, 400}), 100);
+}
+
+TEST_F(OperatorScreen, ShowsTheDisparitiesInColour) {
+    const ColourImage screen = draw(state_);
+    cv::Mat1b red, blue;
+    cv::inRange(screen, cv::Scalar(180, 0, 0, 0), cv::Scalar(255, 80, 60, 255), red);
+    cv::inRange(screen, cv::Scalar(20, 20, 120, 0), cv::Scalar(90, 130, 255, 255), blue);
+    const cv::Rect strip(300, 520, 680, 200);
+    EXPECT_GT(cv::countNonZero(red(strip)), 50);
+    EXPECT_GT(cv::countNonZero(blue(strip)), 50);
+}
+
+TEST_F(OperatorScreen, OpensTheHelpOverThePicture) {
+    const ColourImage before = draw(state_);
+    state_.show_help = true;
+    const ColourImage after = draw(state_);
+    EXPECT_GT(differing(before, after, {440, 200, 400, 300}), 60000);
+}
+
+TEST_F(OperatorScreen, DrawsWithNothingToShow) {
+    const ColourImage screen = draw(PanelState());
+    EXPECT_LT(at(screen, 640, 360)[0], 20);
+    ColourImage bar = screen(cv::Rect(0, 0, width_px, 30));
+    double most = 0;
+    cv::minMaxLoc(bar.reshape(1), nullptr, &most);
+    EXPECT_GT(most, 200) << "the title";
+}
+
+}  // namespace
+}  // namespace vantage
