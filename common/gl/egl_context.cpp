@@ -3,13 +3,14 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 
 #include <EGL/eglext.h>
 #include <fcntl.h>
 #include <gbm.h>
-#include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/unique_fd.h"
 
 namespace vantage {
 namespace {
@@ -24,6 +25,24 @@ bool lists_extension(const char* extensions, const char* wanted) {
     }
     return false;
 }
+
+constexpr const char* surfaceless_extension = "EGL_KHR_surfaceless_context";
+
+constexpr std::array<EGLint, 5> context_wanted = {EGL_CONTEXT_MAJOR_VERSION, 3,
+                                                  EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
+
+struct GbmDeviceDeleter {
+    void operator()(gbm_device* device) const { gbm_device_destroy(device); }
+};
+
+/// A render node and its buffers' manager.
+struct GbmDevice {
+    explicit GbmDevice(const std::string& node)
+        : fd(::open(node.c_str(), O_RDWR | O_CLOEXEC)),
+          device(fd ? gbm_create_device(fd.get()) : nullptr) {}
+    UniqueFd fd;
+    std::unique_ptr<gbm_device, GbmDeviceDeleter> device;
+};
 
 }  // namespace
 
@@ -41,6 +60,8 @@ std::string egl_error_name() {
             return "EGL_BAD_MATCH";
         case EGL_BAD_PARAMETER:
             return "EGL_BAD_PARAMETER";
+        case EGL_BAD_ACCESS:
+            return "EGL_BAD_ACCESS";
         case EGL_BAD_DISPLAY:
             return "EGL_BAD_DISPLAY";
         case EGL_BAD_ATTRIBUTE:
@@ -64,21 +85,47 @@ EglContext::EglContext() {
         tried);
 }
 
+EglContext::EglContext(EGLDisplay display, EGLContext shared)
+    : display_(display), hold_(EglDisplayHold::join(display)) {
+    if (!has_extension(surfaceless_extension))
+        fail("no second OpenGL context: the driver lacks {}", surfaceless_extension);
+    // The same configuration, so that every driver lets them share.
+    EGLint config_id = 0;
+    if (!eglQueryContext(display, shared, EGL_CONFIG_ID, &config_id))
+        fail("no second OpenGL context: the first one's configuration is unknown ({})",
+             egl_error_name());
+    const std::array<EGLint, 3> config_wanted = {EGL_CONFIG_ID, config_id, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &count) || count < 1)
+        fail("no second OpenGL context: configuration {} is gone ({})", config_id,
+             egl_error_name());
+    eglBindAPI(EGL_OPENGL_ES_API);
+    context_ = eglCreateContext(display, config, shared, context_wanted.data());
+    if (context_ == EGL_NO_CONTEXT)
+        fail("no second OpenGL ES 3.1 context that shares with the first ({})", egl_error_name());
+}
+
+EglContext EglContext::sharing_with_current() {
+    const EGLContext current = eglGetCurrentContext();
+    if (current == EGL_NO_CONTEXT)
+        fail("no second OpenGL context: none is current on this thread to share with");
+    return {eglGetCurrentDisplay(), current};
+}
+
 EglContext::~EglContext() {
-    if (display_ != EGL_NO_DISPLAY) {
+    if (context_ == EGL_NO_CONTEXT) return;
+    if (eglGetCurrentContext() == context_)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-        eglTerminate(display_);
-    }
-    if (gbm_device_) gbm_device_destroy(static_cast<gbm_device*>(gbm_device_));
-    if (gbm_fd_ >= 0) ::close(gbm_fd_);
+    eglDestroyContext(display_, context_);
 }
 
 bool EglContext::has_extension(const char* egl_extension) const {
     return lists_extension(eglQueryString(display_, EGL_EXTENSIONS), egl_extension);
 }
 
-bool EglContext::try_platform(EGLenum platform, void* native_display, const std::string& name) {
+bool EglContext::try_platform(EGLenum platform, void* native_display, const std::string& name,
+                              std::shared_ptr<void> native_owner) {
     const auto report = [&](std::string outcome) {
         attempts_.push_back({name, std::move(outcome)});
         return false;
@@ -88,33 +135,27 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
     if (!get_display) return report("eglGetPlatformDisplayEXT is missing");
     EGLDisplay display = get_display(platform, native_display, nullptr);
     if (display == EGL_NO_DISPLAY) return report("no such platform (" + egl_error_name() + ")");
-    EGLint major = 0, minor = 0;
-    if (!eglInitialize(display, &major, &minor))
-        return report("eglInitialize failed (" + egl_error_name() + ")");
-    const auto give_up = [&](std::string outcome) {
-        eglTerminate(display);
-        return report(std::move(outcome));
-    };
-    if (!lists_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
-        return give_up("EGL_KHR_surfaceless_context is missing");
-    if (!eglBindAPI(EGL_OPENGL_ES_API)) return give_up("no OpenGL ES (" + egl_error_name() + ")");
+    EglDisplayHold hold = EglDisplayHold::open(display, std::move(native_owner));
+    if (!hold.held()) return report("eglInitialize failed (" + egl_error_name() + ")");
+    if (!lists_extension(eglQueryString(display, EGL_EXTENSIONS), surfaceless_extension))
+        return report(fmt::format("{} is missing", surfaceless_extension));
+    if (!eglBindAPI(EGL_OPENGL_ES_API)) return report("no OpenGL ES (" + egl_error_name() + ")");
     constexpr std::array<EGLint, 5> config_wanted = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
                                                      EGL_SURFACE_TYPE, 0, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &count) || count < 1)
-        return give_up("no configuration with OpenGL ES 3 (" + egl_error_name() + ")");
-    constexpr std::array<EGLint, 5> context_wanted = {EGL_CONTEXT_MAJOR_VERSION, 3,
-                                                      EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
+        return report("no configuration with OpenGL ES 3 (" + egl_error_name() + ")");
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wanted.data());
     if (context == EGL_NO_CONTEXT)
-        return give_up("no OpenGL ES 3.1 context (" + egl_error_name() + ")");
+        return report("no OpenGL ES 3.1 context (" + egl_error_name() + ")");
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         const std::string reason = egl_error_name();
         eglDestroyContext(display, context);
-        return give_up("the context cannot be made current (" + reason + ")");
+        return report("the context cannot be made current (" + reason + ")");
     }
     display_ = display;
+    hold_ = std::move(hold);
     context_ = context;
     attempts_.push_back({name, "ok"});
     return true;
@@ -141,24 +182,32 @@ void EglContext::try_gbm() {
         const std::string node = fmt::format("/dev/dri/renderD{}", minor);
         if (!std::filesystem::exists(node)) continue;
         any = true;
-        const int fd = ::open(node.c_str(), O_RDWR | O_CLOEXEC);
-        if (fd < 0) {
+        const auto native = std::make_shared<GbmDevice>(node);
+        if (!native->fd)
             attempts_.push_back({"gbm " + node, std::strerror(errno)});
-            continue;
-        }
-        gbm_device* device = gbm_create_device(fd);
-        if (device && try_platform(EGL_PLATFORM_GBM_KHR, device, "gbm " + node)) {
-            gbm_fd_ = fd;
-            gbm_device_ = device;
-            return;
-        }
-        if (device)
-            gbm_device_destroy(device);
-        else
+        else if (!native->device)
             attempts_.push_back({"gbm " + node, "gbm_create_device failed"});
-        ::close(fd);
+        else
+            try_platform(EGL_PLATFORM_GBM_KHR, native->device.get(), "gbm " + node, native);
     }
     if (!any) attempts_.push_back({"gbm", "no render node /dev/dri/renderD*"});
+}
+
+CurrentContext::CurrentContext(const EglContext& context)
+    : display_(context.display_),
+      previous_display_(eglGetCurrentDisplay()),
+      previous_draw_(eglGetCurrentSurface(EGL_DRAW)),
+      previous_read_(eglGetCurrentSurface(EGL_READ)),
+      previous_(eglGetCurrentContext()) {
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_))
+        fail("an OpenGL context cannot be made current on this thread ({})", egl_error_name());
+}
+
+CurrentContext::~CurrentContext() {
+    if (previous_ == EGL_NO_CONTEXT)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    else
+        eglMakeCurrent(previous_display_, previous_draw_, previous_read_, previous_);
 }
 
 }  // namespace vantage

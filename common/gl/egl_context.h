@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <EGL/egl.h>
+
+#include "common/gl/egl_display.h"
 
 namespace vantage {
 
@@ -16,32 +19,58 @@ struct EglAttempt {
     std::string outcome;   ///< "ok", or the reason why not
 };
 
-/// A headless OpenGL ES 3.1 context that owns its display connection. Tried in this order: the
-/// surfaceless platform, EGL devices, GBM render nodes. The context is current on the constructing
-/// thread and must be used and destroyed there.
+/// An OpenGL ES 3.1 context without a window. A thread uses it while it is current there; it may be
+/// destroyed on another thread once it is current on none.
 class EglContext {
   public:
-    /// Throws Error that lists every attempt and its reason, if none works.
+    /// Current on the constructing thread. Tried in this order: the surfaceless platform, EGL
+    /// devices, GBM render nodes. Throws Error that lists every attempt and its reason, if none
+    /// works.
     EglContext();
+    /// One that shares textures, buffers, programs and fences with the context that is current on
+    /// this thread, a window's or another of these; framebuffers and vertex arrays stay each
+    /// context's own. Nothing becomes current: another thread takes it with CurrentContext. Throws
+    /// Error if no context is current or the driver refuses. A window's library (GLFW) must outlive
+    /// it.
+    static EglContext sharing_with_current();
     ~EglContext();
     EglContext(const EglContext&) = delete;
     EglContext& operator=(const EglContext&) = delete;
 
+    /// Of the search that the first constructor makes; empty for a sharing one.
     const std::vector<EglAttempt>& attempts() const { return attempts_; }
     EGLDisplay display() const { return display_; }
     bool has_extension(const char* egl_extension) const;
 
   private:
-    bool try_platform(EGLenum platform, void* native_display, const std::string& name);
+    friend class CurrentContext;
+    EglContext(EGLDisplay display, EGLContext shared);
+    bool try_platform(EGLenum platform, void* native_display, const std::string& name,
+                      std::shared_ptr<void> native_owner = {});
     void try_devices();
     void try_gbm();
     bool ready() const { return context_ != EGL_NO_CONTEXT; }
 
     std::vector<EglAttempt> attempts_;
     EGLDisplay display_ = EGL_NO_DISPLAY;
+    EglDisplayHold hold_;
     EGLContext context_ = EGL_NO_CONTEXT;
-    int gbm_fd_ = -1;
-    void* gbm_device_ = nullptr;
+};
+
+/// Makes a context current on this thread for its own life, and what was current before after it.
+class CurrentContext {
+  public:
+    /// Throws Error if it cannot be made current: it is so on another thread.
+    explicit CurrentContext(const EglContext& context);
+    ~CurrentContext();
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    EGLDisplay display_;  ///< of the context
+    EGLDisplay previous_display_;
+    EGLSurface previous_draw_, previous_read_;
+    EGLContext previous_;
 };
 
 }  // namespace vantage

@@ -2,11 +2,16 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <thread>
+#include <utility>
 
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/gl/texture.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -37,6 +42,64 @@ TEST(EglContext, LetsTheNextOneStartAfresh) {
     EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
     const EglContext second;
     EXPECT_EQ(second.attempts().back().outcome, "ok");
+}
+
+TEST(EglContext, OutlivesAnotherOneOfTheProcess) {
+    const EglContext first;
+    { const EglContext second; }
+    EXPECT_TRUE(first.has_extension("EGL_KHR_surfaceless_context"))
+        << "the other one took the display along";
+}
+
+TEST(EglContext, SharesObjectsWithOneThatIsCurrentElsewhere) {
+    const EglContext first;
+    const Texture texture(TextureFormat::r8, 3, 2);
+    const EglContext second = EglContext::sharing_with_current();
+    EXPECT_EQ(second.display(), first.display());
+    const EGLContext of_first = eglGetCurrentContext();
+    std::thread([&] {
+        EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+        {
+            const CurrentContext current(second);
+            EXPECT_NE(eglGetCurrentContext(), EGL_NO_CONTEXT);
+            EXPECT_TRUE(glIsTexture(texture.name()));
+        }
+        EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    }).join();
+    EXPECT_EQ(eglGetCurrentContext(), of_first) << "this thread keeps its own";
+}
+
+TEST(EglContext, SharedObjectsOutliveTheFirst) {
+    std::optional<EglContext> first(std::in_place);
+    const Texture texture(TextureFormat::r8, 3, 2);
+    const EglContext second = EglContext::sharing_with_current();
+    first.reset();
+    const CurrentContext current(second);
+    EXPECT_TRUE(glIsTexture(texture.name()));
+}
+
+TEST(EglContext, MakesWhatWasCurrentSoAgain) {
+    const EglContext first;
+    const EGLContext of_first = eglGetCurrentContext();
+    const EglContext second = EglContext::sharing_with_current();
+    {
+        const CurrentContext current(second);
+        EXPECT_NE(eglGetCurrentContext(), of_first);
+    }
+    EXPECT_EQ(eglGetCurrentContext(), of_first);
+}
+
+TEST(EglContext, SharesOnlyWithACurrentOne) {
+    EXPECT_EQ(thrown_sentence([] { EglContext::sharing_with_current(); }),
+              "no second OpenGL context: none is current on this thread to share with");
+}
+
+TEST(EglContext, IsCurrentOnOneThreadOnly) {
+    const EglContext context;
+    std::thread([&] {
+        EXPECT_EQ(thrown_sentence([&] { const CurrentContext current(context); }),
+                  "an OpenGL context cannot be made current on this thread (EGL_BAD_ACCESS)");
+    }).join();
 }
 
 TEST(EglContext, KnowsExtensionsByTheirWholeName) {

@@ -3,9 +3,13 @@
 #include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "common/gl/egl_context.h"
+#include "common/gl/fence.h"
+#include "common/gl/texture.h"
 #include "tests/support/virtual_screen.h"
 
 namespace vantage {
@@ -142,6 +146,19 @@ TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
     after({"key", "F1"});
     after({"key", "Tab"});
     EXPECT_LT(bright(), plain / 2);
+}
+
+TEST_F(OperatorHands, AnotherThreadDrawsIntoItsTextures) {
+    const EglContext sharing = EglContext::sharing_with_current();
+    Texture texture(TextureFormat::r8, 5, 4);
+    Fence drawn;
+    std::thread([&] {
+        const CurrentContext current(sharing);
+        texture.upload(cv::Mat1b(4, 5, uchar{77}));
+        drawn = Fence::insert();
+    }).join();
+    EXPECT_TRUE(drawn.reached_within(std::chrono::seconds(60)));
+    EXPECT_EQ(cv::Mat1b(texture.download())(3, 4), 77);
 }
 
 TEST_F(OperatorHands, EscapeEnds) {

@@ -1,0 +1,68 @@
+#include "common/gl/egl_display.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace vantage {
+namespace {
+
+struct OpenDisplay {
+    int holders = 1;
+    std::shared_ptr<void> native;
+};
+
+/// What is open, for the whole process: EGL itself keeps its connections so.
+struct OpenDisplays {
+    std::mutex mutex;
+    std::map<EGLDisplay, OpenDisplay> all;
+};
+
+OpenDisplays& open_displays() {
+    static OpenDisplays displays;
+    return displays;
+}
+
+}  // namespace
+
+EglDisplayHold EglDisplayHold::open(EGLDisplay display, std::shared_ptr<void> native) {
+    OpenDisplays& open = open_displays();
+    const std::scoped_lock lock(open.mutex);
+    if (const auto known = open.all.find(display); known != open.all.end())
+        ++known->second.holders;
+    else if (eglInitialize(display, nullptr, nullptr))
+        open.all.emplace(display, OpenDisplay{1, std::move(native)});
+    else
+        return {};
+    return EglDisplayHold(display);
+}
+
+EglDisplayHold EglDisplayHold::join(EGLDisplay display) {
+    OpenDisplays& open = open_displays();
+    const std::scoped_lock lock(open.mutex);
+    const auto known = open.all.find(display);
+    if (known == open.all.end()) return {};
+    ++known->second.holders;
+    return EglDisplayHold(display);
+}
+
+EglDisplayHold::EglDisplayHold(EglDisplayHold&& other) noexcept
+    : display_(std::exchange(other.display_, EGL_NO_DISPLAY)) {}
+
+EglDisplayHold& EglDisplayHold::operator=(EglDisplayHold&& other) noexcept {
+    std::swap(display_, other.display_);
+    return *this;
+}
+
+EglDisplayHold::~EglDisplayHold() {
+    if (!held()) return;
+    OpenDisplays& open = open_displays();
+    const std::scoped_lock lock(open.mutex);
+    const auto known = open.all.find(display_);
+    if (--known->second.holders > 0) return;
+    eglTerminate(display_);
+    open.all.erase(known);
+}
+
+}  // namespace vantage

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include <EGL/egl.h>
+
+namespace vantage {
+
+/// One holder's part of a display connection. EGL has one connection a native display for the whole
+/// process and ends it, with all its contexts, at the first eglTerminate: here the last holder's
+/// end does that. May be made and destroyed on any thread.
+class EglDisplayHold {
+  public:
+    EglDisplayHold() = default;
+    /// Initialises the display unless another hold did, and keeps `native` (what the display was
+    /// made from, where that is an object) until the display ends. `held()` is false, and
+    /// eglGetError() says why, where EGL refuses.
+    static EglDisplayHold open(EGLDisplay display, std::shared_ptr<void> native);
+    /// Joins the holds on `display`; on one that somebody else opened (a window's library, which
+    /// must outlive this) it has no say.
+    static EglDisplayHold join(EGLDisplay display);
+
+    EglDisplayHold(EglDisplayHold&& other) noexcept;
+    EglDisplayHold& operator=(EglDisplayHold&& other) noexcept;
+    ~EglDisplayHold();
+
+    bool held() const { return display_ != EGL_NO_DISPLAY; }
+
+  private:
+    explicit EglDisplayHold(EGLDisplay display) : display_(display) {}
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+};
+
+}  // namespace vantage
