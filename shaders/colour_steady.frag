@@ -3,11 +3,11 @@
 uniform sampler2D picture;  // this instant's
 uniform sampler2D before;   // mean of the instants before; alpha: how many they were, 0 = it has just changed
 uniform float has_before;   // 0: there is no instant before
+uniform float most_instants;  // that the mean is of
 
 layout(location = 0) out vec4 steady;
 layout(location = 1) out vec4 mean;
 
-const float most_instants = 8.0;
 // Changes of colour (0..1): up to `noise` they are averaged away, from `motion` on taken as they come; a window whose
 // mean changes by as much shows another thing.
 const float noise = 0.01, motion = 0.02;

@@ -3,9 +3,11 @@
 uniform float softness;    // relative depth within which two surfaces are one
 uniform float spread;      // relative uncertainty of depth, per metre of depth
 uniform float has_before;  // 0: there is no instant before
+uniform float most_instants;  // of the mean
+uniform float most_misses;    // in a row, after which a depth has changed for good
 
-const float most_instants = 32.0, fewest_misses = 2.0, most_misses = 15.0;
-const float one_miss = 1.0 / 16.0;
+const float fewest_misses = 2.0;
+const float one_miss = 1.0 / 32.0;
 
 bool is_one_surface(float now, float before) { return abs(now / before - 1.0) < softness + 4.0 * spread * abs(now); }
 

@@ -8,7 +8,7 @@ uniform sampler2D before;  // what came of the instants before: metres, votes
 
 layout(location = 0) out vec2 settled;
 
-const float held_from = 8.0;  // instants: a depth that wavers within its uncertainty is not moved any more
+uniform float held_from;  // instants: a depth that wavers within its uncertainty is not moved any more
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);

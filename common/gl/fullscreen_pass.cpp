@@ -1,5 +1,7 @@
 #include "common/gl/fullscreen_pass.h"
 
+#include "common/gl/sliced_drawing.h"
+
 namespace vantage {
 
 FullscreenPass::FullscreenPass(const ShaderLibrary& library, std::string fragment,
@@ -42,7 +44,11 @@ void FullscreenPass::draw_triangle(const Framebuffer& target) {
     vertices_.bind();
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    const auto draw = [] { glDrawArrays(GL_TRIANGLES, 0, 3); };
+    if (const SlicedDrawing* slices = SlicedDrawing::current())
+        slices->draw(target.size(), slice_rows_, draw);
+    else
+        draw();
 }
 
 }  // namespace vantage

@@ -6,7 +6,8 @@
 
 namespace vantage {
 
-/// Runs a fragment shader once for every pixel of a framebuffer, with shaders/fullscreen.vert. Row
+/// Runs a fragment shader once for every pixel of a framebuffer, with shaders/fullscreen.vert; in
+/// bands where the thread has a SlicedDrawing. Row
 /// 0 of the target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the pixel's
 /// (x, y).
 class FullscreenPass {
@@ -29,6 +30,7 @@ class FullscreenPass {
 
     Program program_;
     VertexArray vertices_;
+    int slice_rows_ = 0;
 };
 
 }  // namespace vantage

@@ -14,8 +14,10 @@
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "host_app/commands/stereoscopic_options.h"
-#include "host_app/live/headless_flight.h"
-#include "host_app/live/window_flight.h"
+#include "host_app/desk/operator_window.h"
+#include "host_app/live/live_show.h"
+#include "host_app/live/panel_feed.h"
+#include "host_app/live/progress_log.h"
 #include "host_app/output/picture_target.h"
 
 namespace vantage {
@@ -23,6 +25,7 @@ namespace {
 
 struct LiveOptions {
     std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
+    std::string quality = "auto";
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
     bool headless = false, json = false, novelty = false, harmonise = true;
@@ -54,22 +57,27 @@ OrbitView start_view(const StageConfig::View& view) {
 
 LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage) {
     LiveSettings settings{
-        .width_px = stage.view.width_px,
-        .height_px = stage.view.height_px,
+        .format = {.width_px = stage.view.width_px,
+                   .height_px = stage.view.height_px,
+                   .stereoscopy = options.stereoscopic.stereoscopy()},
         .rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz,
         .pulse_rate_hz = stage.rate_hz,
-        .past_bytes = static_cast<std::size_t>(options.past_mb * 1e6),
+        .replay_bytes = static_cast<std::size_t>(options.past_mb * 1e6),
         .synthesiser = options.synthesiser.empty() ? stage.view.synthesiser : options.synthesiser,
-        .novelty = options.novelty,
-        .stereoscopy = options.stereoscopic.stereoscopy(),
+        .quality = QualityWish::parse(options.quality),
+        .source_map = options.novelty,
         .film = options.film,
-        .contact_sheet = options.contact_sheet};
+        .contact_sheet = options.contact_sheet,
+        .harmonise = options.harmonise};
     if (!options.size.empty()) {
         const cv::Size size = parse_size(options.size);
-        settings.width_px = size.width;
-        settings.height_px = size.height;
+        settings.format.width_px = size.width;
+        settings.format.height_px = size.height;
     }
-    settings.harmonise = options.harmonise;
+    if (!settings.film.empty() &&
+        (settings.format.width_px % 2 != 0 || settings.format.height_px % 2 != 0))
+        fail("a film of {}x{} cannot be recorded: its sides have to be even",
+             settings.format.width_px, settings.format.height_px);
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     return settings;
@@ -80,66 +88,54 @@ std::unique_ptr<JogDeck> make_deck(const LiveOptions& options) {
     return std::make_unique<JogDeck>(make_system_jog_bus(), load_wheel_profiles(options.wheels));
 }
 
-/// What a session with a window and one without have in common.
-class Show {
-  public:
-    Show(const LiveOptions& options, const StageConfig& stage, const ShaderLibrary& shaders)
-        : options_(options),
-          settings_(live_settings(options, stage)),
-          deck_(make_deck(options)),
-          receiver_(stage),
-          session_(settings_, shaders, feed_of(receiver_)) {}
-
-    LiveSession& session() { return session_; }
-    /// Null: no wheel flies.
-    JogDeck* deck() { return deck_.get(); }
-    double rate_hz() const { return settings_.rate_hz; }
-
-    /// Ends the files, prints the summary. Returns how many pictures there were.
-    std::uint64_t finish(std::uint64_t skipped_ticks) {
-        session_.finish();
-        LiveReport report = session_.report();
-        report.skipped_ticks = skipped_ticks;
-        if (deck_) report.wheels = deck_->devices();
-        if (options_.json)
-            std::cout << to_json(report).dump() << '\n';
-        else
-            std::cout << to_text(report);
-        return report.pictures;
-    }
-
-  private:
-    const LiveOptions& options_;
-    LiveSettings settings_;
-    std::unique_ptr<JogDeck> deck_;
-    StageReceiver receiver_;
-    LiveSession session_;
-};
-
-void live_headless(const LiveOptions& options, const StageConfig& stage, const FlightPlan& plan,
-                   StopSignal& stop) {
-    const EglContext context;
-    GlInfo::query().require_vantage_minimum();
-    const ShaderLibrary shaders;
-    Show show(options, stage, shaders);
-    const auto limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
-        std::chrono::duration<double>(options.wait_s));
-    show.session().wait_for_rigs(limit, stop);
-    const std::uint64_t skipped =
-        fly_headless(show.session(), plan, show.deck(), show.rate_hz(), stop);
-    if (show.finish(skipped) > 0 && !options.snapshot.empty())
-        write_colour_image(options.snapshot, show.session().last_picture());
+/// Ends the files, prints the summary. Returns how many pictures there were.
+std::uint64_t finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck) {
+    show.finish();
+    LiveReport report = show.report();
+    if (deck) report.wheels = deck->devices();
+    if (options.json)
+        std::cout << to_json(report).dump() << '\n';
+    else
+        std::cout << to_text(report);
+    return report.programme.pictures;
 }
 
-void live_in_window(const LiveOptions& options, const StageConfig& stage, const FlightPlan& plan,
-                    StopSignal& stop) {
-    const LiveSettings settings = live_settings(options, stage);
-    OperatorWindow window("Vantage", settings.width_px, settings.height_px);
-    const ShaderLibrary shaders;
-    Show show(options, stage, shaders);
-    const std::uint64_t skipped =
-        fly_in_window(show.session(), window, plan, show.deck(), show.rate_hz(), stop);
-    if (show.finish(skipped) > 0 && !options.snapshot.empty())
+void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
+                   const JogDeck* deck, StopSignal& stop) {
+    const auto limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(options.wait_s));
+    if (!show.wait_for_rigs(limit, stop)) return;
+    show.start();
+    ProgressLog progress(plan);
+    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) progress.tell(show);
+    if (finish(options, show, deck) > 0 && !options.snapshot.empty()) {
+        const auto last = show.state().picture;
+        write_colour_image(options.snapshot,
+                           last->sources ? last->sources->picture : last->picture);
+    }
+}
+
+void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
+                    const JogDeck* deck, StopSignal& stop) {
+    OperatorWindow window("Vantage", show.settings().format.width_px,
+                          show.settings().format.height_px);
+    show.start();
+    PanelFeed panel;
+    ProgressLog progress(plan);
+    // Hands are looked at and the screen is drawn at a rate of its own.
+    constexpr std::chrono::milliseconds period{16};
+    MonotonicTime last = MonotonicClock::now();
+    while (!show.is_over() && !window.closed() &&
+           !stop.wait_for(
+               std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
+        const MonotonicTime now = MonotonicClock::now();
+        show.controls().hands().put(window.poll(std::chrono::duration<double>(now - last).count()),
+                                    now);
+        last = now;
+        window.show(panel.state(show));
+        progress.tell(show);
+    }
+    if (finish(options, show, deck) > 0 && !options.snapshot.empty())
         write_colour_image(options.snapshot, window.screenshot());
 }
 
@@ -153,10 +149,19 @@ void live(const LiveOptions& options) {
     if (options.seconds > 0) plan.seconds = options.seconds;
     for (const std::string& picture : {options.snapshot, options.contact_sheet})
         if (!picture.empty()) require_picture_target(picture);
+    // A flight that nobody steers ends with its move.
+    const bool has_hands = options.jog.value_or(!options.headless);
+    if (options.headless && plan.move && !plan.move->loops() && !plan.frames && !plan.seconds &&
+        !has_hands)
+        plan.seconds = plan.move->duration_s();
+    const LiveSettings settings = live_settings(options, stage);
+    const std::unique_ptr<JogDeck> deck = make_deck(options);
+    StageReceiver receiver(stage);
+    LiveShow show(settings, plan, feed_of(receiver), deck.get());
     if (options.headless)
-        live_headless(options, stage, plan, stop);
+        live_headless(options, show, plan, deck.get(), stop);
     else
-        live_in_window(options, stage, plan, stop);
+        live_in_window(options, show, plan, deck.get(), stop);
 }
 
 }  // namespace
@@ -196,7 +201,11 @@ CommandEntry live_command_entry() {
         command->add_flag(
             "--novelty", options->novelty,
             "Show which rigs the pixels come from, a colour a rig, what none has seen "
-            "hatched (key N), in films and snapshots too");
+            "hatched (key N); on screen and in snapshots, never in films");
+        command
+            ->add_option("--quality", options->quality,
+                         "auto: as good as the ticks allow; best; or a level from 0 (the best) on")
+            ->capture_default_str();
         options->stereoscopic.add_to(*command, "the camera's distance from its pivot");
         command
             ->add_option("--wait", options->wait_s,

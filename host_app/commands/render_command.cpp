@@ -45,7 +45,7 @@ class Rendering {
             side_by_side_.resize({target.width_px, target.height_px});
         }
         if (options.novelty) {
-            NoveltyOverlay::require(*synthesiser_, options.synthesiser);
+            NoveltyOverlay::require(synthesiser_->note_origins(true), options.synthesiser);
             synthesiser_->note_origins(false);
             for (const DepthView& view : set.views)
                 if (!view.depth_m.empty()) overlay_.name_rigs({view.name});

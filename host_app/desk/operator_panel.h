@@ -52,6 +52,7 @@ struct PanelState {
     double picture_rate_hz = 0, latency_ms = 0;
     std::vector<float> latency_history_ms;  ///< oldest first
     std::string synthesiser, renderer;
+    int render_level = 0, prepare_level = 0;  ///< of quality; 0 is the best
     std::vector<PanelStage> stages;
     std::vector<PanelRig> rigs;
     OrbitView view;
@@ -59,6 +60,7 @@ struct PanelState {
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
     std::optional<PanelNovelty> novelty;  ///< while it is asked for
     bool show_panels = true, show_help = false;
+    bool asks_to_end = false;  ///< Esc was pressed once
 };
 
 /// Lays out the whole screen in the current ImGui frame: the picture, letterboxed, with the panels

@@ -23,6 +23,8 @@ std::string glfw_reason() {
     return reason;
 }
 
+constexpr double end_asks_s = 3;
+
 /// 18 px for 1080 rows.
 float body_font_px(int window_height_px) {
     return std::clamp(static_cast<float>(window_height_px) / 60.0f, 13.0f, 36.0f);
@@ -122,7 +124,10 @@ void OperatorWindow::take_key(int key, bool control) {
             show_panels_ = !show_panels_;
             break;
         case GLFW_KEY_ESCAPE:
-            glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+            // Asks first: a second time within the time ends.
+            if (glfwGetTime() < end_asked_until_s_)
+                glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+            end_asked_until_s_ = glfwGetTime() + end_asks_s;
             break;
         default:
             if (key < GLFW_KEY_1 || key > GLFW_KEY_9) break;
@@ -191,6 +196,7 @@ FlightInput OperatorWindow::poll(double dt_s) {
 void OperatorWindow::show(PanelState state) {
     state.show_panels = show_panels_;
     state.show_help = show_help_;
+    state.asks_to_end = glfwGetTime() < end_asked_until_s_;
     draw_operator_screen(state, ui_->fonts());
     ImGui::Render();
     int width_px = 0, height_px = 0;

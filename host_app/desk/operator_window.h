@@ -76,6 +76,7 @@ class OperatorWindow {
     std::bitset<3> drags_;  ///< by button: it went down on the picture
     double cursor_x_ = 0, cursor_y_ = 0;
     bool show_panels_ = true, show_help_ = false;
+    double end_asked_until_s_ = 0;
 };
 
 }  // namespace vantage

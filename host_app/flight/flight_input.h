@@ -26,6 +26,11 @@ struct FlightInput {
         return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
                pan_up_widths != 0 || dolly != 0 || zoom != 0 || reset || recall_shot != 0;
     }
+    /// True if there is anything in it.
+    bool is_any() const {
+        return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
+               next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0;
+    }
     bool turns_wheel() const { return wheel_steps != 0 || shuttle_s != 0; }
 
     /// Both hands together.

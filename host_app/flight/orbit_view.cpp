@@ -16,15 +16,6 @@ Eigen::Vector3d OrbitView::eye_m() const {
 
 Pose OrbitView::world_from_camera() const { return look_at(eye_m(), pivot_m); }
 
-Eigen::Matrix3d OrbitView::K(int width_px, int height_px) const {
-    const double f_px = 0.5 * width_px / std::tan(0.5 * field_of_view_rad);
-    Eigen::Matrix3d k = Eigen::Matrix3d::Identity();
-    k(0, 0) = k(1, 1) = f_px;
-    k(0, 2) = 0.5 * (width_px - 1);
-    k(1, 2) = 0.5 * (height_px - 1);
-    return k;
-}
-
 OrbitView view_from_eye(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& target_m,
                         double field_of_view_rad, double near_azimuth_rad) {
     const Eigen::Vector3d arm = eye_m - target_m;

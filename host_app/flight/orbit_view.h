@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/pose.h"
+#include "host_app/flight/camera_state.h"
 
 namespace vantage {
 
@@ -17,8 +18,7 @@ struct OrbitView {
 
     Eigen::Vector3d eye_m() const;
     Pose world_from_camera() const;
-    /// K of a pinhole with square pixels and its centre in the middle of the picture.
-    Eigen::Matrix3d K(int width_px, int height_px) const;
+    CameraState camera() const { return {world_from_camera(), field_of_view_rad, distance_m}; }
 };
 
 /// The view of a camera at `eye` that looks at `target`. The azimuth is the one nearest to

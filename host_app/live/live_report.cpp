@@ -128,12 +128,54 @@ std::vector<std::string> worries_of(const RigStatus& status) {
     return worries;
 }
 
+double pictures_a_second(const ProgrammeBooks& programme) {
+    return programme.duration_s > 0 ? static_cast<double>(programme.pictures) / programme.duration_s
+                                    : 0;
+}
+
+std::vector<StepTime> step_times(const LiveReport& report) {
+    std::vector<StepTime> steps;
+    for (const auto& [name, ms] : {std::pair("capture", &report.rig_steps.capture_ms),
+                                   {"rectify", &report.rig_steps.rectify_ms},
+                                   {"match", &report.rig_steps.match_ms},
+                                   {"pack", &report.rig_steps.pack_ms},
+                                   {"network", &report.network_ms},
+                                   {"decode", &report.decode_ms},
+                                   {"prepare", &report.prepare_ms},
+                                   {"render", &report.programme.render_ms},
+                                   {"readback", &report.programme.readback_ms},
+                                   {"encode", &report.encode_ms}})
+        if (ms->count > 0) steps.push_back({name, *ms});
+    return steps;
+}
+
 nlohmann::ordered_json to_json(const LiveReport& report) {
-    nlohmann::ordered_json json{
-        {"pictures", report.pictures},       {"width_px", report.width_px},
-        {"height_px", report.height_px},     {"rate_hz", report.rate_hz},
-        {"duration_s", report.duration_s},   {"skipped_ticks", report.skipped_ticks},
-        {"synthesiser", report.synthesiser}, {"renderer", report.renderer}};
+    const ProgrammeBooks& programme = report.programme;
+    nlohmann::ordered_json json{{"pictures", programme.pictures},
+                                {"width_px", report.format.width_px},
+                                {"height_px", report.format.height_px},
+                                {"rate_hz", report.rate_hz},
+                                {"pictures_a_second", pictures_a_second(programme)},
+                                {"duration_s", programme.duration_s},
+                                {"ticks", programme.ticks},
+                                {"repeated_ticks", programme.repeated},
+                                {"synthesiser", report.synthesiser},
+                                {"renderer", report.renderer}};
+    json["interval_ms"] = to_json(programme.interval_ms);
+    json["latency_ms"] = to_json(programme.latency_ms);
+    json["hand_to_picture_ms"] = to_json(programme.hand_ms);
+    json["instants"] = {
+        {"prepared", report.instants_prepared},
+        {"a_second", programme.duration_s > 0
+                         ? static_cast<double>(report.instants_prepared) / programme.duration_s
+                         : 0},
+        {"skipped", report.sets_superseded}};
+    json["level_shares"] = {{"render", programme.render_shares},
+                            {"prepare", programme.prepare_shares}};
+    json["faults"] = report.faults;
+    for (const SinkState& sink : programme.sinks)
+        json["outputs"].push_back(
+            {{"name", sink.name}, {"pictures", sink.pictures}, {"failure", sink.failure}});
     constexpr double deg = 180 / std::numbers::pi;
     const OrbitView& view = report.view;
     json["camera"] = {{"azimuth_deg", view.azimuth_rad * deg},
@@ -144,7 +186,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["sets"] = {{"closed", report.sets_closed},
                     {"complete", report.sets_complete},
                     {"partial", report.sets_closed - report.sets_complete},
-                    {"fused", report.sets_fused},
+                    {"fused", report.instants_prepared},
                     {"superseded", report.sets_superseded},
                     {"dropped", report.sets_dropped}};
     json["rigs"] = nlohmann::ordered_json::array();
@@ -167,9 +209,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         json["rigs"].push_back(std::move(entry));
     }
     json["stages_ms"] = nlohmann::ordered_json::object();
-    for (const StageTime& time : report.stages)
-        if (time.ms.count > 0) json["stages_ms"][time.stage] = to_json(time.ms);
-    json["latency_ms"] = to_json(report.latency_ms);
+    for (const StepTime& step : step_times(report)) json["stages_ms"][step.name] = to_json(step.ms);
     if (report.stereoscopy) json["stereoscopic"] = to_json(*report.stereoscopy);
     if (report.novelty) json["novelty"] = to_json(*report.novelty);
     for (const DeckDevice& wheel : report.wheels)
@@ -186,27 +226,55 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     return json;
 }
 
+namespace {
+
+std::string shares_text(const std::vector<double>& shares) {
+    std::string text;
+    for (std::size_t level = 0; level < shares.size(); ++level)
+        if (shares[level] > 0.005)
+            text +=
+                fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
+    return text.empty() ? "none" : text;
+}
+
+std::string line_of(const char* what, const Percentiles& ms) {
+    return fmt::format("{}: p50 {:.0f} ms, p95 {:.0f}, p99 {:.0f}, max {:.0f}\n", what, ms.p50,
+                       ms.p95, ms.p99, ms.max);
+}
+
+}  // namespace
+
 std::string to_text(const LiveReport& report) {
+    const ProgrammeBooks& programme = report.programme;
     std::string text = fmt::format(
-        "\n{} pictures of {}x{} in {:.1f} s, {} output ticks of {:g} Hz passed without one "
-        "(synthesiser {}, on {})\n",
-        report.pictures, report.width_px, report.height_px, report.duration_s, report.skipped_ticks,
-        report.rate_hz, report.synthesiser, report.renderer);
+        "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, {} of {} "
+        "ticks repeated the last one (synthesiser {}, on {})\n",
+        report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
+        report.format.height_px, programme.duration_s, programme.repeated, programme.ticks,
+        report.synthesiser, report.renderer);
+    text += line_of("between two pictures", programme.interval_ms);
+    text += line_of("exposure to picture", programme.latency_ms);
+    if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    text +=
+        fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
+                    shares_text(programme.render_shares), shares_text(programme.prepare_shares));
     text += fmt::format(
-        "{} frame sets, {} complete and {} partial: {} fused, {} superseded by a newer one, {} "
-        "dropped\n\n",
+        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
+        "newer one, {} dropped\n\n",
         report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
-        report.sets_fused, report.sets_superseded, report.sets_dropped);
+        report.instants_prepared, report.sets_superseded, report.sets_dropped);
     text += rig_tables(report);
     text += rig_remarks(report);
-    text += fmt::format("{:<10}  {:>8}  {:>8}\n", "stage", "p50 ms", "p95 ms");
-    for (const StageTime& time : report.stages)
-        if (time.ms.count > 0)
-            text +=
-                fmt::format("{:<10}  {:>8.2f}  {:>8.2f}\n", time.stage, time.ms.p50, time.ms.p95);
-    text += fmt::format(
-        "\nexposure to picture: p50 {:.1f} ms, p95 {:.1f}, p99 {:.1f}, max {:.1f}\n",
-        report.latency_ms.p50, report.latency_ms.p95, report.latency_ms.p99, report.latency_ms.max);
+    text += fmt::format("{:<10}  {:>8}  {:>8}\n", "step", "p50 ms", "p95 ms");
+    for (const StepTime& step : step_times(report))
+        text += fmt::format("{:<10}  {:>8.2f}  {:>8.2f}\n", step.name, step.ms.p50, step.ms.p95);
+    if (report.faults > 0)
+        text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
+                            report.faults);
+    for (const SinkState& sink : programme.sinks)
+        if (!sink.failure.empty())
+            text += fmt::format("{} failed after {} pictures: {}\n", sink.name, sink.pictures,
+                                sink.failure);
     if (report.stereoscopy)
         text +=
             fmt::format("side by side: eyes {:.1f} mm apart, converging at {:.2f} m\n",

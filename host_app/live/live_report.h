@@ -11,7 +11,8 @@
 #include "common/receive/stage_receiver.h"
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/flight/orbit_view.h"
-#include "host_app/synthesis/colour_harmoniser.h"
+#include "host_app/instants/colour_harmoniser.h"
+#include "host_app/programme/programme.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
 
@@ -20,44 +21,48 @@ namespace vantage {
 /// What became of one rig's frames at the host.
 struct RigAccount {
     RigStatus status;
-    std::uint64_t fused = 0;       ///< in sets that the virtual view was made from
-    std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before a picture was due
+    std::uint64_t fused = 0;       ///< in sets that instants were made of
+    std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before they were prepared
     /// What live harmonisation adds to its colours; nothing if it never did.
     std::optional<ColourHarmoniser::Rig> harmony = {};
 };
 
-struct StageTime {
-    std::string stage;
-    Percentiles ms;
-};
-
 /// All that a live session did, for the closing summary and the operator's panel.
 struct LiveReport {
-    int width_px = 0, height_px = 0;
-    double rate_hz = 0;
+    PictureFormat format;
+    double rate_hz = 0;  ///< that was asked for
     std::string synthesiser, renderer;
-    double duration_s = 0;
     OrbitView view;  ///< of the last picture
-    std::uint64_t pictures = 0;
-    std::uint64_t skipped_ticks = 0;  ///< of the output, for which no picture was ready in time
+    ProgrammeBooks programme;
+    int faults = 0;  ///< renderers and preparers that were made anew
 
     std::uint64_t sets_closed = 0, sets_complete = 0;
-    std::uint64_t sets_fused = 0, sets_superseded = 0, sets_dropped = 0;
+    std::uint64_t instants_prepared = 0, sets_superseded = 0, sets_dropped = 0;
     std::vector<RigAccount> rigs;  ///< in the stage's order
 
-    /// The way of a frame: capture, rectify, match, pack (at the rigs), network, decode, upload,
-    /// render, readback, encode. Of network and decode the worst rig's; without samples: not done.
-    std::vector<StageTime> stages;
-    Percentiles latency_ms;  ///< from exposure to the picture, of every set that was shown
+    RigSteps rig_steps;
+    /// Steps of a frame's way at the host; of network and decode the worst rig's. Without samples:
+    /// not done.
+    Percentiles network_ms, decode_ms, prepare_ms, encode_ms;
 
     std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
-    std::optional<NoveltyShares> novelty;    ///< of the last picture, where it shows novelty
+    std::optional<NoveltyShares> novelty;  ///< of the last picture, where its source map was shown
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
     std::string film;  ///< path; empty: none
     std::uint64_t film_pictures = 0, film_dropped = 0;
 };
+
+/// The steps of a frame's way, by name, of which there are samples: at the rigs as the worst of
+/// them says, then at the host.
+struct StepTime {
+    std::string name;
+    Percentiles ms;
+};
+std::vector<StepTime> step_times(const LiveReport& report);
+/// New pictures a second.
+double pictures_a_second(const ProgrammeBooks& programme);
 
 /// For machines: keys with units, one object.
 nlohmann::ordered_json to_json(const LiveReport& report);

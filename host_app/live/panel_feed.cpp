@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "common/gl/limits.h"
-#include "host_app/live/disparity_picture.h"
 #include "host_app/live/live_report.h"
+#include "host_app/output/disparity_picture.h"
 
 namespace vantage {
 namespace {
@@ -25,6 +25,10 @@ RigState state_in(const FrameSet* set, const RigStatus& status) {
         if (slot.absence == Absence::disconnected) return RigState::disconnected;
     }
     return RigState::late;
+}
+
+bool is_at_rig(const std::string& step) {
+    return step == "capture" || step == "rectify" || step == "match" || step == "pack";
 }
 
 }  // namespace
@@ -57,77 +61,88 @@ void PanelFeed::refresh_disparities(const FrameSet& set) {
     }
 }
 
-std::optional<PanelNovelty> PanelFeed::novelty_of(const LiveSession& session) {
-    if (!session.novelty()) return std::nullopt;
+std::optional<PanelNovelty> PanelFeed::novelty_of(const ProgrammeState& programme) {
+    if (!programme.source_map) return std::nullopt;
     PanelNovelty novelty;
-    const std::optional<NoveltyShares> shares = session.last_shares();
-    if (!shares) {
-        novelty.remark = fmt::format("The synthesiser {} cannot tell.", session.synthesiser());
+    if (!programme.picture || !programme.picture->sources) {
+        novelty.remark = fmt::format("The synthesiser {} cannot tell.", programme.synthesiser);
         return novelty;
     }
-    for (const NoveltyOverlay::Key& key : session.novelty_legend()) {
-        const auto share = shares->rigs.find(key.rig);
+    const SourceMap& map = *programme.picture->sources;
+    for (const NoveltyOverlay::Key& key : map.legend) {
+        const auto share = map.shares.rigs.find(key.rig);
         novelty.rows.push_back({key.rig,
                                 {key.colour[0], key.colour[1], key.colour[2]},
-                                share == shares->rigs.end() ? 0.0 : share->second});
+                                share == map.shares.rigs.end() ? 0.0 : share->second});
     }
     const auto* filled = novelty_filled_colour;
-    novelty.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, shares->filled});
+    novelty.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, map.shares.filled});
     const auto* known = novelty_remembered_colour;
-    novelty.rows.push_back({"remembered", {known[0], known[1], known[2]}, shares->remembered});
+    novelty.rows.push_back({"remembered", {known[0], known[1], known[2]}, map.shares.remembered});
     return novelty;
 }
 
-void PanelFeed::refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now) {
-    picture_rate_.add(pictures, now);
-    const ReceiverStatus& status = session.refresh_status();
-    for (const RigStatus& rig : status.rigs) rig_rates_[rig.rig].add(rig.received, now);
-    if (session.shown()) refresh_disparities(*session.shown());
+void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
+                        MonotonicTime now) {
+    const LiveReport report = show.report();
+    picture_rate_.add(report.programme.pictures, now);
+    for (const RigAccount& rig : report.rigs)
+        rig_rates_[rig.status.rig].add(rig.status.received, now);
+    if (set) refresh_disparities(*set);
 
     state_.rigs.clear();
-    for (const RigStatus& rig : status.rigs) state_.rigs.push_back(rig_of(rig, session.shown()));
+    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig.status, set));
     state_.stages.clear();
-    for (const StageTime& time : session.stage_summary()) {
-        if (time.ms.count == 0) continue;
-        const bool at_rig =
-            time.stage == stage_name(Stage::capture) || time.stage == stage_name(Stage::rectify) ||
-            time.stage == stage_name(Stage::match) || time.stage == stage_name(Stage::pack);
-        state_.stages.push_back({time.stage, time.ms.p50, at_rig});
-    }
+    for (const StepTime& step : step_times(report))
+        state_.stages.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.picture_rate_hz = picture_rate_.per_second();
-    state_.latency_ms = session.latest_latency_ms();
-    state_.novelty = novelty_of(session);
+    state_.latency_ms = programme.latency_ms;
+    state_.novelty = novelty_of(programme);
+    state_.recording = !report.film.empty();
+    for (const SinkState& sink : report.programme.sinks)
+        if (!sink.failure.empty()) state_.recording = false;
 }
 
-PanelState PanelFeed::state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                            const FlightControls& controls, std::uint64_t pictures) {
+PanelState PanelFeed::state(LiveShow& show) {
     const MonotonicTime now = MonotonicClock::now();
+    const ProgrammeState programme = show.state();
     if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
-    if (session.sets_shown() != last_set_ && session.latest_latency_ms() > 0) {
-        last_set_ = session.sets_shown();
-        latencies_ms_.push_back(static_cast<float>(session.latest_latency_ms()));
+    if (programme.latency_ms > 0 && programme.latency_ms != last_latency_ms_) {
+        last_latency_ms_ = programme.latency_ms;
+        latencies_ms_.push_back(static_cast<float>(programme.latency_ms));
         if (latencies_ms_.size() > latency_samples) latencies_ms_.pop_front();
     }
+    const FrameSet* set = programme.picture ? programme.picture->job.instant->set.get() : nullptr;
     if (!refreshed_ || now - *refreshed_ >= refresh_period) {
         refreshed_ = now;
-        refresh(session, pictures, now);
+        refresh(show, programme, set, now);
     }
-    state_.picture = &picture;
-    state_.waiting = session.shown() == nullptr;
-    if (const FrameSet* set = session.shown()) {
+    if (programme.picture && programme.picture != uploaded_) {
+        uploaded_ = programme.picture;
+        const ColourImage& shown =
+            uploaded_->sources ? uploaded_->sources->picture : uploaded_->picture;
+        if (!picture_ || picture_->size() != shown.size())
+            picture_.emplace(TextureFormat::rgba8, shown.cols, shown.rows, Filter::linear);
+        picture_->upload(shown);
+    }
+    state_.picture = picture_ ? &*picture_ : nullptr;
+    state_.waiting = set == nullptr;
+    if (set) {
         state_.pulse = set->trigger_index;
         for (const FrameSet::Slot& slot : set->slots)
             if (slot.frame) state_.timecode = slot.frame->timecode;
     }
-    state_.frozen = session.frozen();
-    state_.behind_s = session.behind_s();
-    state_.recording = session.recording();
+    state_.frozen = programme.is_held;
+    state_.behind_s = programme.behind_s;
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
-    state_.synthesiser = session.synthesiser();
+    state_.synthesiser = programme.synthesiser;
+    state_.render_level = programme.render_level;
+    state_.prepare_level = programme.prepare_level;
     state_.renderer = renderer_;
-    state_.view = view;
-    state_.move_progress = controls.move_progress();
-    state_.wheel = controls.wheel_line();
+    state_.view = programme.view;
+    const FlightControls::Lines lines = show.controls().lines();
+    state_.move_progress = lines.move_progress;
+    state_.wheel = lines.wheel;
     return state_;
 }
 

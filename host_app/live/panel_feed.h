@@ -7,22 +7,23 @@
 #include <string>
 
 #include "host_app/desk/operator_panel.h"
-#include "host_app/live/flight_controls.h"
+#include "host_app/live/live_show.h"
 #include "host_app/live/rate_meter.h"
 
 namespace vantage {
 
-/// Puts together what the operator's screen tells, from the session's books. Rates, latencies and
+/// Puts together what the operator's screen tells, from the show's books. Rates, latencies and
 /// the disparity pictures are looked at a few times a second, so that numbers can be read.
 class PanelFeed {
   public:
-    PanelState state(LiveSession& session, const Texture& picture, const OrbitView& view,
-                     const FlightControls& controls, std::uint64_t pictures);
+    /// The context that shows it must be current at every call.
+    PanelState state(LiveShow& show);
 
   private:
-    void refresh(LiveSession& session, std::uint64_t pictures, MonotonicTime now);
+    void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
+                 MonotonicTime now);
     void refresh_disparities(const FrameSet& set);
-    static std::optional<PanelNovelty> novelty_of(const LiveSession& session);
+    static std::optional<PanelNovelty> novelty_of(const ProgrammeState& programme);
     PanelRig rig_of(const RigStatus& status, const FrameSet* set) const;
 
     std::optional<MonotonicTime> refreshed_;
@@ -30,8 +31,10 @@ class PanelFeed {
     std::map<std::string, RateMeter> rig_rates_;
     std::map<std::string, Texture> disparities_;
     std::deque<float> latencies_ms_;
-    std::uint64_t last_set_ = 0;  ///< sets shown when the latency was noted last
+    double last_latency_ms_ = 0;
     std::string renderer_;
+    std::optional<Texture> picture_;
+    std::shared_ptr<const MadePicture> uploaded_;
     PanelState state_;
 };
 

@@ -11,21 +11,29 @@ constexpr std::chrono::seconds period{2};
 
 }  // namespace
 
-void ProgressLog::tell(LiveSession& session, std::uint64_t pictures) {
+void ProgressLog::tell(const LiveShow& show) {
     constexpr double deg = 180 / std::numbers::pi;
     const MonotonicTime now = MonotonicClock::now();
     if (now - last_ < period) return;
+    const double elapsed_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
     int connected = 0;
-    const ReceiverStatus& status = session.refresh_status();
+    const ReceiverStatus status = show.status();
     for (const RigStatus& rig : status.rigs) connected += rig.connected;
+    const ProgrammeBooks books = show.books();
+    const InstantThread::Books instants = show.instant_books();
+    const ProgrammeState state = show.state();
     log_info(
-        "{}{} pictures, {:.1f} a second, {} of {} rigs, {:.0f} ms from exposure to picture, "
-        "camera at azimuth {:.1f} degrees",
-        pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
-        static_cast<double>(pictures) / std::chrono::duration<double>(now - start_).count(),
-        connected, status.rigs.size(), session.latest_latency_ms(),
-        session.last_view().azimuth_rad * deg);
+        "{}{} pictures, {:.1f} a second, {} ticks repeated, {:.1f} instants a second, {} of {} "
+        "rigs, {:.0f} ms from exposure to picture, levels {}/{}, camera at azimuth {:.1f} degrees",
+        books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
+        static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
+        static_cast<double>(instants.prepared - instants_) / elapsed_s, connected,
+        status.rigs.size(), state.latency_ms, state.render_level, state.prepare_level,
+        state.view.azimuth_rad * deg);
+    pictures_ = books.pictures;
+    repeated_ = books.repeated;
+    instants_ = instants.prepared;
 }
 
 }  // namespace vantage

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/base/time.h"
-#include "host_app/live/flight_plan.h"
-#include "host_app/live/live_session.h"
+#include "host_app/flight/flight_plan.h"
+#include "host_app/live/live_show.h"
 
 namespace vantage {
 
@@ -11,12 +11,13 @@ class ProgressLog {
   public:
     explicit ProgressLog(const FlightPlan& plan) : frames_(plan.frames) {}
 
-    /// To be told of every picture; `pictures` are made so far.
-    void tell(LiveSession& session, std::uint64_t pictures);
+    /// To be called often.
+    void tell(const LiveShow& show);
 
   private:
     std::optional<std::uint64_t> frames_;
-    MonotonicTime start_ = MonotonicClock::now(), last_ = start_;
+    MonotonicTime last_ = MonotonicClock::now();
+    std::uint64_t pictures_ = 0, repeated_ = 0, instants_ = 0;  ///< by then
 };
 
 }  // namespace vantage

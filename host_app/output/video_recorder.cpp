@@ -25,7 +25,12 @@ void VideoRecorder::finish() {
     queue_.close();
     thread_.join();
     if (failed_) std::rethrow_exception(failure_);
-    writer_.finish();
+    try {
+        writer_.finish();
+    } catch (...) {
+        writer_.keep_what_is_written();
+        throw;
+    }
 }
 
 void VideoRecorder::write() {
@@ -43,6 +48,7 @@ void VideoRecorder::write() {
                     .count());
         }
     } catch (...) {
+        writer_.keep_what_is_written();
         failure_ = std::current_exception();
         failed_ = true;
     }

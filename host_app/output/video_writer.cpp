@@ -156,7 +156,18 @@ void VideoWriter::drain() {
         packet_->stream_index = stream_->index;
         if (const int code = av_interleaved_write_frame(output_.get(), packet_.get()); code < 0)
             fail_writing(code);
+        ++packets_;
     }
+}
+
+void VideoWriter::keep_what_is_written() noexcept {
+    if (finished_ || packets_ == 0) return;
+    // Without its index, a Matroska file still opens.
+    av_write_trailer(output_.get());
+    avio_closep(&output_->pb);
+    std::error_code ignored;
+    std::filesystem::rename(partial_, path_, ignored);
+    finished_ = true;
 }
 
 void VideoWriter::fail_writing(int code) const {

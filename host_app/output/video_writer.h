@@ -37,6 +37,10 @@ class VideoWriter {
     /// picture was added.
     void finish();
 
+    /// After a failure: puts what was written until then in its place, if it is anything. Throws
+    /// nothing.
+    void keep_what_is_written() noexcept;
+
     std::uint64_t frames() const { return frames_; }
     std::string codec_name() const;
 
@@ -53,7 +57,7 @@ class VideoWriter {
     AvFramePtr frame_;
     AvPacketPtr packet_;
     AVStream* stream_ = nullptr;  ///< owned by output_
-    std::uint64_t frames_ = 0;
+    std::uint64_t frames_ = 0, packets_ = 0;
     std::int64_t last_pts_ = -1;
     bool finished_ = false;
 };

@@ -18,7 +18,8 @@ FusedColour::FusedColour(const ShaderLibrary& library)
     : kinds_pass_(library, "fused_kinds.frag"),
       first_rigs_(library, fragment, softness, {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}}, 1, 3),
       inner_(library, fragment, softness, {{"EDGES", "0"}}),
-      edges_(library, fragment, softness, {{"EDGES", "1"}}) {}
+      edges_(library, fragment, softness, {{"EDGES", "1"}}),
+      plain_(library, "fused_plain.frag", softness) {}
 
 const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());
@@ -33,25 +34,35 @@ const Texture& FusedColour::sort(const Texture& fused_depth) {
     return kinds_.texture();
 }
 
+FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
+                                 const Texture& fused_depth, bool notes_origins) {
+    FullscreenPass& drawing = pass.use(layers, notes_origins);
+    Program& program = drawing.use();
+    const int unit = layers.first_free_unit();
+    program.set("fused_depth", unit);
+    program.set("edge_ratio", edge_ratio);
+    fused_depth.bind(unit);
+    return drawing;
+}
+
+void FusedColour::draw_plainly(const RigLayers& layers, const Texture& fused_depth,
+                               const DepthPicture& into, bool notes_origins) {
+    use(plain_, layers, fused_depth, notes_origins).draw(into.target());
+}
+
 void FusedColour::draw(const RigLayers& layers, const Texture& fused_depth,
                        const DepthPicture& into, bool notes_origins) {
-    const auto use = [&](LayerPass& pass) -> FullscreenPass& {
-        FullscreenPass& drawing = pass.use(layers, notes_origins);
-        Program& program = drawing.use();
-        const int unit = layers.first_free_unit();
-        program.set("fused_depth", unit);
-        program.set("edge_ratio", edge_ratio);
-        fused_depth.bind(unit);
-        return drawing;
+    const auto ready = [&](LayerPass& pass) -> FullscreenPass& {
+        return use(pass, layers, fused_depth, notes_origins);
     };
     into.clear();
-    use(edges_).draw_where(into.target(), GL_LESS, 0.5f * (empty_kind + edge_kind), false);
+    ready(edges_).draw_where(into.target(), GL_LESS, 0.5f * (empty_kind + edge_kind), false);
     // What the first pass leaves out keeps its kind, what it draws is moved out of the second's
     // way.
     const float done = 0.5f * (inner_kind + empty_kind), left = 0.5f * (inner_kind + done);
     if (layers.used().size() > 2)
-        use(first_rigs_).draw_where(into.target(), GL_GREATER, done, true);
-    use(inner_).draw_where(into.target(), GL_GREATER, left, false);
+        ready(first_rigs_).draw_where(into.target(), GL_GREATER, done, true);
+    ready(inner_).draw_where(into.target(), GL_GREATER, left, false);
 }
 
 }  // namespace vantage

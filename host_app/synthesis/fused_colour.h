@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/synthesis/depth_picture.h"
-#include "host_app/synthesis/drawn_texture.h"
+#include "host_app/instants/depth_picture.h"
+#include "host_app/instants/drawn_texture.h"
 #include "host_app/synthesis/layer_pass.h"
 
 namespace vantage {
@@ -19,13 +19,20 @@ class FusedColour {
     /// nothing, negative = guessed) apart. The depth texture that the picture is to be drawn with.
     const Texture& sort(const Texture& fused_depth);
 
+    /// The picture at little cost, with hard depth edges; needs no sort().
+    void draw_plainly(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,
+                      bool notes_origins);
+
     /// Draws the picture; its target has what sort() returned.
     void draw(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,
               bool notes_origins);
 
   private:
     FullscreenPass kinds_pass_;
-    LayerPass first_rigs_, inner_, edges_;
+    FullscreenPass& use(LayerPass& pass, const RigLayers& layers, const Texture& fused_depth,
+                        bool notes_origins);
+
+    LayerPass first_rigs_, inner_, edges_, plain_;
     DrawnDepth kinds_;
 };
 

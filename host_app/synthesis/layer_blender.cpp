@@ -12,7 +12,8 @@ const Texture& LayerBlender::blend(const VirtualView& view, const Drawing& drawi
     origins_.reset();
     if (notes_origins_) {
         origins_ = {blended_.shares(), {}};
-        for (const GpuView* layer : layers_.used()) origins_->rigs.push_back(layer->camera().name);
+        for (const DrawnLayer& layer : layers_.used())
+            origins_->rigs.push_back(layer.surface->camera().name);
     }
     const DepthPicture& picture = before_filling ? before_filling(blended_) : blended_;
     return filler_.fill(picture.colour(), picture.depth_m());

@@ -4,10 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "host_app/synthesis/depth_picture.h"
+#include "host_app/instants/depth_picture.h"
 #include "host_app/synthesis/hole_filler.h"
 #include "host_app/synthesis/layer_pass.h"
 #include "host_app/synthesis/rig_layers.h"
+#include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
 

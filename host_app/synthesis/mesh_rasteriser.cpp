@@ -1,33 +1,21 @@
 #include "host_app/synthesis/mesh_rasteriser.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 
 #include <Eigen/Geometry>
 
-#include "host_app/synthesis/projection.h"
+#include "host_app/instants/projection.h"
 
 namespace vantage {
 namespace {
-
-/// Steeper than this against the line of sight, a step in depth is taken for two surfaces.
-constexpr double steepest_slope = 8.0;
-/// A step below this share of the depth never is (depth codes are quantised).
-constexpr double smallest_step = 0.0075;
 
 /// Half a pixel is where an edge is to be expected beyond the last pixel's middle. Seen from aside,
 /// a body's outline is another one, and of the rims of several rigs the widest shows.
 constexpr double widest_rim_px = 0.5, widest_rim_angle_rad = 0.07;
 
-DepthGrid surface_of(const GpuView& view, QuadGrid grid) {
-    return {view.surface(), view.triangles(grid), view.K_depth(), view.camera().world_from_camera,
-            grid};
-}
-
 /// From the view's pixels' middles, for its angle to the target.
-double rim_px(const GpuView& view, const VirtualView& target) {
+double rim_px(const RigSurface& view, const VirtualView& target) {
     const Pose& world_from_camera = view.camera().world_from_camera;
     const Eigen::Vector3d point = world_from_camera * Eigen::Vector3d(0, 0, view.median_depth_m());
     const Eigen::Vector3d a = point - world_from_camera.translation();
@@ -39,56 +27,12 @@ double rim_px(const GpuView& view, const VirtualView& target) {
 }  // namespace
 
 MeshRasteriser::MeshRasteriser(const ShaderLibrary& library)
-    : build_(Program::compute(library, "mesh_triangles.comp")),
-      build_coarse_(
-          Program::compute(library, "mesh_triangles.comp",
-                           {{"STEP", std::to_string(static_cast<int>(QuadGrid::coarse))}})),
-      build_rims_(Program::compute(library, "mesh_rims.comp")),
-      draw_(Program::render(library, "mesh_depth.vert", "depth_only.frag")),
+    : draw_(Program::render(library, "mesh_depth.vert", "depth_only.frag")),
       draw_rims_(Program::render(library, "mesh_depth.vert", "depth_only.frag", {{"RIMS", "1"}})) {}
 
-void MeshRasteriser::build_triangles(const GpuView& view, QuadGrid grid) {
-    build_triangles(surface_of(view, grid));
-}
-
-void MeshRasteriser::build_triangles(const DepthGrid& grid) {
-    if (triangle_indices(grid.depth_m.size(), grid.grid) == 0) return;
-    const int step = static_cast<int>(grid.grid);
-    Program& build = grid.grid == QuadGrid::fine ? build_ : build_coarse_;
-    set_edge_filter(build, grid);
-    grid.triangles.bind_storage(0);
-    build.dispatch_over((grid.depth_m.width_px() - 1) / step,
-                        (grid.depth_m.height_px() - 1) / step);
-    glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
-}
-
-void MeshRasteriser::set_edge_filter(Program& program, const DepthGrid& grid) {
-    program.use();
-    program.set("depth_map", 0);
-    // The same for all grids: a coarse quad that a fine one would not span is left out.
-    program.set("tolerance",
-                static_cast<float>(std::max(steepest_slope / grid.K(0, 0), smallest_step)));
-    grid.depth_m.bind(0);
-}
-
-void MeshRasteriser::build_rims(GpuView& view) {
-    if (view.triangle_indices() == 0) return;
-    const SurfaceRims& rims = view.rims_to_build();
-    const std::array<std::uint32_t, 5> empty = {0, 1, 0, 0, 0};
-    glBindBuffer(GL_SHADER_STORAGE_BUFFER, rims.command.name());
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(empty), empty.data());
-    const DepthGrid grid = surface_of(view, QuadGrid::fine);
-    set_edge_filter(build_rims_, grid);
-    build_rims_.set("capacity", rims.capacity);
-    rims.indices.bind_storage(0);
-    rims.command.bind_storage(1);
-    build_rims_.dispatch_over(grid.depth_m.width_px() - 1, grid.depth_m.height_px() - 1);
-    glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-}
-
-void MeshRasteriser::draw_depth(const GpuView& view, const VirtualView& target, double near_m,
+void MeshRasteriser::draw_depth(const RigSurface& view, const VirtualView& target, double near_m,
                                 const Framebuffer& depth_only, QuadGrid grid) {
-    DepthGrid surface = surface_of(view, grid);
+    DepthGrid surface = view.grid(grid);
     if (grid == QuadGrid::fine && view.rims()) {
         surface.rims = view.rims();
         surface.rim_px = rim_px(view, target);

@@ -66,8 +66,8 @@ NoveltyShares novelty_shares(const ColourImage& picture, const PixelOrigins& ori
     return result;
 }
 
-void NoveltyOverlay::require(Synthesiser& synthesiser, const std::string& name) {
-    if (!synthesiser.note_origins(true))
+void NoveltyOverlay::require(bool can_tell, const std::string& name) {
+    if (!can_tell)
         fail(
             "the synthesiser '{}' cannot tell which rig a pixel comes from, so that there is no "
             "novelty overlay with it; take {}",

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/synthesis/drawn_texture.h"
+#include "host_app/instants/drawn_texture.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
@@ -47,8 +47,8 @@ class NoveltyOverlay {
     const std::vector<Key>& legend() const { return legend_; }
 
     /// Throws Error, with the mend, if the synthesiser of this name cannot tell where its pixels
-    /// come from; else lets it note them.
-    static void require(Synthesiser& synthesiser, const std::string& name);
+    /// come from.
+    static void require(bool can_tell, const std::string& name);
 
     /// The result is rgba8 and of the picture's size, alpha as in `picture`; valid until the next
     /// call.

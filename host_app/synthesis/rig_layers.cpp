@@ -1,36 +1,33 @@
 #include "host_app/synthesis/rig_layers.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "host_app/synthesis/projection.h"
-#include "host_app/synthesis/view_ranking.h"
+#include "host_app/instants/depth_spread.h"
+#include "host_app/instants/projection.h"
 
 namespace vantage {
-namespace {
-
-/// Disparities are trusted to this many pixels.
-constexpr double disparity_sigma_px = 0.15;
-
-}  // namespace
-
-float depth_spread(const DepthView& camera) {
-    const double f_baseline = camera.K(0, 0) * camera.baseline_m;
-    return f_baseline > 0 ? static_cast<float>(disparity_sigma_px / f_baseline) : 0.0f;
+double near_plane_m(std::span<const DrawnLayer> layers) {
+    double typical_m = 0;
+    for (const DrawnLayer& layer : layers)
+        typical_m = std::max(typical_m, layer.surface->median_depth_m());
+    return typical_m > 0 ? 0.01 * typical_m : 0.01;
 }
 
-void RigLayers::draw(std::span<const GpuView* const> views, const VirtualView& target,
+void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
                      std::size_t fine) {
-    assert(views.size() <= max_layers);
-    used_.assign(views.begin(), views.end());
+    assert(layers.size() <= max_layers);
+    used_.assign(layers.begin(), layers.end());
     target_ = target;
-    near_m_ = near_plane_m(views);
-    for (std::size_t i = 0; i < views.size(); ++i) {
+    near_m_ = near_plane_m(layers);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
         layers_[i].resize({target.width_px, target.height_px});
-        rasteriser_.draw_depth(*views[i], target, near_m_, layers_[i].target(),
-                               i < fine ? QuadGrid::fine : QuadGrid::coarse);
+        rasteriser_.draw_depth(
+            *layers[i].surface, target, near_m_, layers_[i].target(),
+            i < fine && layers[i].surface->has_fine_grid() ? QuadGrid::fine : QuadGrid::coarse);
     }
 }
 
@@ -38,7 +35,8 @@ void RigLayers::bind(Program& program) const {
     const Pose target_from_world = target_.world_from_camera.inverse();
     const int count = static_cast<int>(used_.size());
     for (int i = 0; i < count; ++i) {
-        const GpuView& view = *used_[static_cast<std::size_t>(i)];
+        const DrawnLayer& layer = used_[static_cast<std::size_t>(i)];
+        const RigSurface& view = *layer.surface;
         const DepthView& camera = view.camera();
         const Eigen::Vector3d centre = target_from_world * camera.world_from_camera.translation();
         const auto set = [&](const char* name, const auto& value) {
@@ -53,10 +51,10 @@ void RigLayers::bind(Program& program) const {
                                            static_cast<float>(view.colour().height_px())));
         set("centre", Eigen::Vector3f(centre.cast<float>()));
         set("spread", depth_spread(camera));
-        set("presence", view.presence());
+        set("presence", layer.presence);
         layers_[static_cast<std::size_t>(i)].texture().bind(i);
-        view.trusted_colour().bind(count + i);
-        view.surface().bind(2 * count + i);
+        view.colour().bind(count + i);
+        view.depth().bind(2 * count + i);
     }
     program.set("ray_from_pixel", Eigen::Matrix3f(target_.K.inverse().cast<float>()));
     program.set("near_m", static_cast<float>(near_m_));

@@ -5,29 +5,33 @@
 #include <vector>
 
 #include "common/gl/program.h"
-#include "host_app/synthesis/drawn_texture.h"
+#include "host_app/instants/drawn_texture.h"
+#include "host_app/instants/instant.h"
 #include "host_app/synthesis/mesh_rasteriser.h"
 
 namespace vantage {
 
-/// The relative uncertainty of a stereo rig's depth, per metre of depth; 0 where it is not known to
-/// be stereo.
-float depth_spread(const DepthView& camera);
+/// One surface in a virtual view, and how far it takes part, 0..1.
+struct DrawnLayer {
+    const RigSurface* surface = nullptr;
+    float presence = 1;
+};
+
+/// A near plane that clips nothing one would want to see: a hundredth of the scene's typical depth.
+double near_plane_m(std::span<const DrawnLayer> layers);
 
 /// The surfaces of the rigs that take part in one virtual view, each drawn alone into a depth
 /// buffer of the view's size, ready to be merged by a fragment shader that includes
 /// rig_layers.glsl.
 class RigLayers {
   public:
-    static constexpr std::size_t max_layers = 4;
+    static constexpr std::size_t max_layers = most_drawn_rigs;
 
     explicit RigLayers(const ShaderLibrary& library) : rasteriser_(library) {}
 
-    MeshRasteriser& rasteriser() { return rasteriser_; }
-
-    /// Draws the views' surfaces, those after the first `fine` ones by their coarse grids.
+    /// Draws the surfaces, those after the first `fine` ones by their coarse grids.
     /// Preconditions: at most max_layers, none null; the grids' triangles have been built.
-    void draw(std::span<const GpuView* const> views, const VirtualView& target,
+    void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               std::size_t fine = max_layers);
 
     /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
@@ -36,12 +40,12 @@ class RigLayers {
     /// The first texture unit that bind() leaves alone.
     int first_free_unit() const { return 3 * static_cast<int>(used_.size()); }
 
-    std::span<const GpuView* const> used() const { return used_; }
+    std::span<const DrawnLayer> used() const { return used_; }
 
   private:
     MeshRasteriser rasteriser_;
     std::array<DrawnDepth, max_layers> layers_;
-    std::vector<const GpuView*> used_;
+    std::vector<DrawnLayer> used_;
     VirtualView target_;
     double near_m_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "common/base/error.h"
-#include "host_app/synthesis/surface_samples.h"
+#include "host_app/instants/surface_samples.h"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_app/synthesis/depth_view.h"
-#include "host_app/synthesis/drawn_texture.h"
+#include "host_app/instants/depth_view.h"
+#include "host_app/instants/drawn_texture.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {

@@ -8,16 +8,9 @@
 
 #include "common/gl/shader_library.h"
 #include "common/gl/texture.h"
-#include "host_app/synthesis/depth_view.h"
+#include "host_app/instants/instant_preparer.h"
 
 namespace vantage {
-
-/// The camera that is rendered: a pinhole with any intrinsics.
-struct VirtualView {
-    int width_px = 0, height_px = 0;
-    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
-    Pose world_from_camera = Pose::Identity();
-};
 
 /// Alpha of pixels that no rig sees now, but one saw before what hides them came.
 inline constexpr unsigned char remembered_alpha = 96;
@@ -32,25 +25,33 @@ struct PixelOrigins {
     std::vector<std::string> rigs;  ///< at most max_rigs; a rig may be there twice
 };
 
-/// Renders one view from several rigs' depth views, on the GPU. The context that was current at
-/// construction must be current at every call.
-class Synthesiser {
+/// How well a view is rendered, and so at what cost. The governor moves along render_levels().
+struct RenderLevel {
+    int rank = 0;  ///< 0: the best; a higher one is cheaper
+    std::size_t rigs = most_drawn_rigs;
+    /// So many rigs' surfaces are drawn by every pixel, the others' by a quarter of the quads.
+    /// Where there are no more rigs than a picture takes, all are at rank 0.
+    std::size_t finely = 2;
+    double scale = 1;        ///< of the picture that is rendered to the one that is shown
+    bool is_plain = false;   ///< every pixel is coloured by the same little work
+    std::size_t plates = 2;  ///< rigs whose background plates are shown
+};
+
+/// From the best to the cheapest, by rank.
+std::span<const RenderLevel> render_levels();
+
+/// Renders views of instants, on the GPU. Belongs to one thread and to the context that was current
+/// at construction; instants may come from a preparer on another context that shares objects.
+class ViewRenderer {
   public:
-    virtual ~Synthesiser() = default;
+    virtual ~ViewRenderer() = default;
 
-    /// Takes the newest instant; uploads what changed. Views may differ in size, lack depth, or be
-    /// one or none.
-    virtual void set_views(std::span<const DepthView> views) = 0;
-
-    /// The next instant does not follow the last one (a cut, or time that is gone through): what
-    /// was learnt along time is not to be shown in it.
-    virtual void forget() {}
-
-    /// Renders. The result is an rgba8 texture of the view's size, top row first, owned by the
-    /// synthesiser and valid until the next call. Alpha is 255 where a rig saw the surface, and
-    /// below 128 where the pixel was filled in or stayed empty (this is what `coverage` counts):
-    /// remembered_alpha where a rig saw it at an instant before.
-    virtual const Texture& render(const VirtualView& view) = 0;
+    /// The result is an rgba8 texture of the view's size, top row first, owned by the renderer and
+    /// valid until the next call. Alpha is 255 where a rig saw the surface, and below 128 where the
+    /// pixel was filled in or stayed empty (this is what `coverage` counts): remembered_alpha where
+    /// a rig saw it at an instant before.
+    virtual const Texture& render(const Instant& instant, const VirtualView& view,
+                                  const RenderLevel& level) = 0;
 
     /// Lets render() note, or no longer note, which rigs its pixels come from. False: this one
     /// cannot tell.
@@ -64,12 +65,39 @@ class Synthesiser {
 struct SynthesiserEntry {
     std::string name;
     std::string summary;
-    std::function<std::unique_ptr<Synthesiser>(const ShaderLibrary&)> make;
+    std::function<std::unique_ptr<InstantPreparer>(const ShaderLibrary&)> make_preparer;
+    std::function<std::unique_ptr<ViewRenderer>(const ShaderLibrary&)> make_renderer;
+    bool tells_origins = true;  ///< which rigs its pixels come from
 };
 std::vector<SynthesiserEntry> synthesiser_entries();
 
 /// The name of the one to use where nobody asks for another.
 inline constexpr const char* default_synthesiser = "fused";
+
+/// Throws Error that lists the known names if `name` is none of them.
+SynthesiserEntry find_synthesiser(const std::string& name);
+
+/// Preparing and rendering on one context, at the best level: for pictures that need not be live.
+class Synthesiser {
+  public:
+    Synthesiser(const SynthesiserEntry& entry, const ShaderLibrary& library)
+        : preparer_(entry.make_preparer(library)), renderer_(entry.make_renderer(library)) {}
+
+    /// Takes the next instant. Views may differ in size, lack depth, or be one or none.
+    void set_views(std::span<const DepthView> views, double dt_s = 1.0 / 30) {
+        preparer_->take(views, dt_s);
+    }
+    void forget() { preparer_->forget(); }
+    /// As ViewRenderer::render().
+    const Texture& render(const VirtualView& view);
+    bool note_origins(bool noted) { return renderer_->note_origins(noted); }
+    const PixelOrigins* origins() const { return renderer_->origins(); }
+
+  private:
+    std::unique_ptr<InstantPreparer> preparer_;
+    std::unique_ptr<ViewRenderer> renderer_;
+    std::shared_ptr<const Instant> instant_;  ///< of the picture that was rendered last
+};
 
 /// Throws Error that lists the known names if `name` is none of them.
 std::unique_ptr<Synthesiser> make_synthesiser(const std::string& name,

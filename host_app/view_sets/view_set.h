@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_app/synthesis/depth_view.h"
+#include "host_app/instants/depth_view.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {

@@ -19,7 +19,7 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/synthesis/learnt_plate.h"
+#include "host_app/instants/plate_learner.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
@@ -160,7 +160,7 @@ class Bench {
         for (const std::size_t rigs : {1u, 2u, 4u, 8u}) {
             Timed& one =
                 ones.emplace_back(std::span(all).first(rigs), make_synthesiser(name, shaders_));
-            for (int i = 0; i < LearntPlate::confirmations; ++i)
+            for (int i = 0; i < PlateLearner::confirmations; ++i)
                 one.synthesiser->set_views(one.views);
             one.synthesiser->render(target);
         }
@@ -187,9 +187,9 @@ class Bench {
   private:
     ColourImage picture(const SynthesiserEntry& entry, const std::vector<DepthView>& views,
                         const DepthView& truth) {
-        const auto synthesiser = entry.make(shaders_);
-        synthesiser->set_views(views);
-        return synthesiser->render(target_of(truth)).download();
+        Synthesiser synthesiser(entry, shaders_);
+        synthesiser.set_views(views);
+        return synthesiser.render(target_of(truth)).download();
     }
 
     void row(const std::string& what, const std::string& name, const ColourImage& picture,

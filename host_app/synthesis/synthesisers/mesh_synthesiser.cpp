@@ -1,10 +1,9 @@
 #include <memory>
-#include <vector>
 
-#include "host_app/synthesis/gpu_view.h"
+#include "host_app/instants/plain_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
+#include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"
-#include "host_app/synthesis/view_ranking.h"
 
 namespace vantage {
 namespace {
@@ -15,18 +14,15 @@ constexpr float softness = 0.005f;
 /// The system of Edling and Franke (2006): every rig's depth map as a quad grid displaced by depth,
 /// stretched quads cut by an edge filter, and the rigs' meshes blended by viewing angle where they
 /// show the same surface.
-class MeshSynthesiser final : public Synthesiser {
+class MeshRenderer final : public ViewRenderer {
   public:
-    explicit MeshSynthesiser(const ShaderLibrary& library)
+    explicit MeshRenderer(const ShaderLibrary& library)
         : blend_(library, "mesh_blend.frag", softness), blender_(library) {}
 
-    void set_views(std::span<const DepthView> views) override {
-        upload_views(views, views_);
-        for (const auto& view : views_) blender_.layers().rasteriser().build_triangles(*view);
-    }
-
-    const Texture& render(const VirtualView& view) override {
-        blender_.layers().draw(most_useful(views_, view, RigLayers::max_layers), view);
+    const Texture& render(const Instant& instant, const VirtualView& view,
+                          const RenderLevel& level) override {
+        blender_.layers().draw(layers_of(instant, view, level.rigs), view,
+                               finely_drawn(instant, level));
         return blender_.blend(view, blend_);
     }
 
@@ -37,7 +33,6 @@ class MeshSynthesiser final : public Synthesiser {
     const PixelOrigins* origins() const override { return blender_.origins(); }
 
   private:
-    std::vector<std::unique_ptr<GpuView>> views_;
     LayerPass blend_;
     LayerBlender blender_;
 };
@@ -45,9 +40,9 @@ class MeshSynthesiser final : public Synthesiser {
 }  // namespace
 
 SynthesiserEntry mesh_synthesiser_entry() {
-    return {
-        "mesh", "quad grids displaced by depth, cut at edges, blended by viewing angle",
-        [](const ShaderLibrary& library) { return std::make_unique<MeshSynthesiser>(library); }};
+    return {"mesh", "quad grids displaced by depth, cut at edges, blended by viewing angle",
+            [](const ShaderLibrary& library) { return std::make_unique<PlainPreparer>(library); },
+            [](const ShaderLibrary& library) { return std::make_unique<MeshRenderer>(library); }};
 }
 
 }  // namespace vantage

@@ -7,29 +7,28 @@
 #include "common/gl/framebuffer.h"
 #include "common/gl/program.h"
 #include "common/gl/vertex_array.h"
-#include "host_app/synthesis/gpu_view.h"
-#include "host_app/synthesis/projection.h"
+#include "host_app/instants/plain_preparer.h"
+#include "host_app/instants/projection.h"
+#include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"
-#include "host_app/synthesis/view_ranking.h"
 
 namespace vantage {
 namespace {
 
 /// Every pixel of every rig as a splat, nothing cut, blended or filled: what the depth maps say,
 /// for inspection.
-class PointsSynthesiser final : public Synthesiser {
+class PointsRenderer final : public ViewRenderer {
   public:
-    explicit PointsSynthesiser(const ShaderLibrary& library)
+    explicit PointsRenderer(const ShaderLibrary& library)
         : draw_(Program::render(library, "points.vert", "points.frag")) {}
 
-    void set_views(std::span<const DepthView> views) override { upload_views(views, views_); }
-
-    const Texture& render(const VirtualView& view) override {
+    const Texture& render(const Instant& instant, const VirtualView& view,
+                          const RenderLevel& /*level*/) override {
         if (!picture_ || picture_->colour.size() != cv::Size(view.width_px, view.height_px))
             picture_.emplace(view.width_px, view.height_px);
         picture_->clear();
-        const auto useful = most_useful(views_, view, views_.size());
-        for (const GpuView* source : useful) draw(*source, view, near_plane_m(useful));
+        const std::vector<DrawnLayer> useful = layers_of(instant, view, instant.rigs.size());
+        for (const DrawnLayer& source : useful) draw(*source.surface, view, near_plane_m(useful));
         return picture_->colour;
     }
 
@@ -53,7 +52,7 @@ class PointsSynthesiser final : public Synthesiser {
         }
     };
 
-    void draw(const GpuView& source, const VirtualView& view, double near_m) {
+    void draw(const RigSurface& source, const VirtualView& view, double near_m) {
         picture_->target.bind();
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
@@ -80,16 +79,16 @@ class PointsSynthesiser final : public Synthesiser {
 
     Program draw_;
     VertexArray vertices_;
-    std::vector<std::unique_ptr<GpuView>> views_;
     std::optional<Picture> picture_;
 };
 
 }  // namespace
 
 SynthesiserEntry points_synthesiser_entry() {
-    return {
-        "points", "a splat for every pixel of every rig, for inspection",
-        [](const ShaderLibrary& library) { return std::make_unique<PointsSynthesiser>(library); }};
+    return {"points", "a splat for every pixel of every rig, for inspection",
+            [](const ShaderLibrary& library) { return std::make_unique<PlainPreparer>(library); },
+            [](const ShaderLibrary& library) { return std::make_unique<PointsRenderer>(library); },
+            false};
 }
 
 }  // namespace vantage

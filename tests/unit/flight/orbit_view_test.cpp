@@ -26,7 +26,7 @@ TEST(OrbitView, ShowsThePivotInTheMiddleAndWorldUpUpwards) {
     view.azimuth_rad = 0.7;
     view.elevation_rad = 0.4;
     const Pose camera_from_world = view.world_from_camera().inverse();
-    const Eigen::Matrix3d K = view.K(101, 51);
+    const Eigen::Matrix3d K = view.camera().K(101, 51);
     const auto project = [&](const Eigen::Vector3d& world) {
         return Eigen::Vector2d((K * (camera_from_world * world)).hnormalized());
     };
@@ -39,7 +39,7 @@ TEST(OrbitView, ShowsThePivotInTheMiddleAndWorldUpUpwards) {
 TEST(OrbitView, FieldOfViewSpansTheWholeWidth) {
     OrbitView view;
     view.field_of_view_rad = 1.0;
-    const Eigen::Matrix3d K = view.K(640, 360);
+    const Eigen::Matrix3d K = view.camera().K(640, 360);
     EXPECT_NEAR(2 * std::atan(320 / K(0, 0)), 1.0, 1e-12);
     EXPECT_EQ(K(0, 0), K(1, 1));
 }

@@ -1,4 +1,4 @@
-#include "host_app/live/flight_controls.h"
+#include "host_app/control/flight_controls.h"
 
 #include <thread>
 
@@ -6,7 +6,7 @@
 
 #include "common/gl/egl_context.h"
 #include "tests/unit/hid/scripted_port.h"
-#include "tests/unit/live/scripted_feed.h"
+#include "tests/unit/sets/scripted_feed.h"
 
 namespace vantage {
 namespace {

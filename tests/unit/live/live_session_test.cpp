@@ -10,7 +10,7 @@
 #include "host_app/live/headless_flight.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
-#include "tests/unit/live/scripted_feed.h"
+#include "tests/unit/sets/scripted_feed.h"
 
 namespace vantage {
 namespace {

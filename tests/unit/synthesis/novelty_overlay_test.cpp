@@ -109,7 +109,7 @@ TEST(NoveltyOverlay, SaysWhichSynthesiserCannotTell) {
     const ShaderLibrary shaders;
     const auto points = make_synthesiser("points", shaders);
     const std::string sentence =
-        thrown_sentence([&] { NoveltyOverlay::require(*points, "points"); });
+        thrown_sentence([&] { NoveltyOverlay::require(points->note_origins(true), "points"); });
     EXPECT_NE(sentence.find("'points' cannot tell"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("take fused"), std::string::npos) << sentence;
 }

@@ -9,7 +9,7 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/synthesis/rig_presence.h"
+#include "host_app/instants/rig_presence.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/deviation_along_time.h"
@@ -265,6 +265,7 @@ TEST(StageFades, LetARigThatDropsOutGoInSteps) {
     };
     const double both = redness({left, right});
     double before = both;
+    const int fade_instants = static_cast<int>(std::lround(fade_s / nominal_dt_s));
     for (int instant = 1; instant < fade_instants; ++instant) {
         const double now = redness({left});
         EXPECT_LT(now, before + 0.5) << instant;

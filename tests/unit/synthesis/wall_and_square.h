@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "host_app/synthesis/depth_view.h"
+#include "host_app/instants/depth_view.h"
 
 namespace vantage {
 

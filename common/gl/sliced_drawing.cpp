@@ -1,0 +1,52 @@
+#include "common/gl/sliced_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <GLES3/gl31.h>
+
+#include "common/base/time.h"
+#include "common/gl/fence.h"
+
+namespace vantage {
+namespace {
+
+/// Like the current context, it belongs to the thread.
+thread_local const SlicedDrawing* current_slicing = nullptr;
+
+constexpr int first_rows = 32, fewest_rows = 8;
+/// A driver that does not answer for so long is lost, not slow.
+constexpr std::chrono::seconds patience{10};
+
+}  // namespace
+
+SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice)
+    : slice_(slice), before_(current_slicing) {
+    current_slicing = this;
+}
+
+SlicedDrawing::~SlicedDrawing() { current_slicing = before_; }
+
+const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
+
+void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>& draw) const {
+    if (rows == 0) rows = first_rows;
+    glEnable(GL_SCISSOR_TEST);
+    for (int y = 0; y < target.height;) {
+        const int height = std::min(rows, target.height - y);
+        const MonotonicTime start = MonotonicClock::now();
+        glScissor(0, y, target.width, height);
+        draw();
+        (void)Fence::insert().reached_within(patience);
+        const double share = std::chrono::duration<double>(MonotonicClock::now() - start) /
+                             std::chrono::duration<double>(slice_);
+        y += height;
+        // Halfway to what would have filled the slice: one band says little.
+        const double fitting = height / std::max(share, 0.05);
+        rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
+                          std::max(target.height, fewest_rows));
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include <opencv2/core.hpp>
+
+namespace vantage {
+
+/// While it lives, fullscreen passes of this thread are drawn in bands of rows, each waited for
+/// before the next is begun, so that another context that shares the GPU (or the software
+/// rasteriser) gets its turn between them. How many rows a band has follows from what the bands of
+/// the same pass took before.
+class SlicedDrawing {
+  public:
+    explicit SlicedDrawing(std::chrono::nanoseconds slice);
+    ~SlicedDrawing();
+    SlicedDrawing(const SlicedDrawing&) = delete;
+    SlicedDrawing& operator=(const SlicedDrawing&) = delete;
+
+    /// Of this thread; null: nothing is to be sliced.
+    static const SlicedDrawing* current();
+
+    /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory of
+    /// a band's height; 0 at first.
+    void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
+
+  private:
+    std::chrono::nanoseconds slice_;
+    const SlicedDrawing* before_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,73 @@
+#include "host_app/control/flight_controls.h"
+
+#include <fmt/format.h>
+
+namespace vantage {
+
+void HandsBox::put(const FlightInput& input, MonotonicTime now) {
+    if (!input.is_any()) return;
+    const std::lock_guard lock(mutex_);
+    taken_.input.add(input);
+    if (!taken_.since) taken_.since = now;
+}
+
+HandsBox::Taken HandsBox::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(taken_, {});
+}
+
+FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view)
+    : settings_(std::move(settings)),
+      helm_(settings_.plan.start, settings_.plan.move, settings_.has_past),
+      deck_(deck),
+      rig_view_(std::move(rig_view)) {}
+
+PilotStep FlightControls::step(double time_s) {
+    const double dt_s = time_s - last_s_;
+    last_s_ = time_s;
+    auto [hands, since] = hands_.take();
+    if (deck_) {
+        while (const std::optional<DeckEvent> event = deck_->next()) {
+            mapper_.take(*event);
+            if (event->kind == DeckEvent::Kind::control && (!since || event->time < *since))
+                since = event->time;
+        }
+        hands.add(mapper_.input(dt_s));
+    }
+    PilotStep step;
+    step.hand = since;
+    step.toggle_hold = hands.toggle_freeze;
+    step.next_synthesiser = hands.next_synthesiser;
+    step.toggle_source_map = hands.toggle_novelty;
+    step.to_live = hands.to_live;
+    step.past_pulses = hands.past_steps;
+    if (helm_.wheel_mode() == WheelMode::past)
+        step.past_pulses += hands.wheel_steps + hands.shuttle_s * settings_.pulse_rate_hz;
+    helm_.take(hands, rig_view_);
+    helm_.advance(dt_s);
+    step.view = helm_.view();
+    const std::lock_guard lock(mutex_);
+    lines_ = {helm_.move_progress(), wheel_line()};
+    return step;
+}
+
+FlightControls::Lines FlightControls::lines() const {
+    const std::lock_guard lock(mutex_);
+    return lines_;
+}
+
+std::string FlightControls::wheel_line() const {
+    if (!deck_) return "";
+    std::string names, fault;
+    for (const DeckDevice& device : deck_->devices()) {
+        if (device.usable)
+            names += (names.empty() ? "" : ", ") + device.model;
+        else if (!device.fault.empty())
+            fault = device.fault;
+    }
+    if (names.empty()) return fault;
+    return fmt::format("{} drives the {}{}", names, name_of(helm_.wheel_mode()),
+                       mapper_.is_storing() ? "; the next shot button stores" : "");
+}
+
+}  // namespace vantage

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/hid/jog_mapper.h"
+#include "host_app/flight/flight_plan.h"
+#include "host_app/flight/helm.h"
+#include "host_app/flight/pilot.h"
+
+namespace vantage {
+
+/// What hands did at mouse and keyboard, on its way from the window's thread to the programme's.
+class HandsBox {
+  public:
+    void put(const FlightInput& input, MonotonicTime now);
+    struct Taken {
+        FlightInput input;
+        std::optional<MonotonicTime> since;  ///< of the earliest that is in it
+    };
+    Taken take();
+
+  private:
+    std::mutex mutex_;
+    Taken taken_;
+};
+
+/// All hands on the virtual camera: mouse and keyboard where there is a window, and the jog wheels
+/// of the deck. Whatever came until a picture is begun is in that picture.
+class FlightControls final : public Pilot {
+  public:
+    struct Settings {
+        FlightPlan plan;
+        double pulse_rate_hz = 30;
+        bool has_past = false;  ///< there is a past to go through
+    };
+    /// What rig 1, 2, ... sees, for shots that nobody has stored; empty: no such rig.
+    using RigView = std::function<std::optional<OrbitView>(int number)>;
+    /// Without a deck there are no wheels; else it must outlive this.
+    FlightControls(Settings settings, JogDeck* deck, RigView rig_view);
+
+    HandsBox& hands() { return hands_; }
+    /// Throws what the deck throws.
+    PilotStep step(double time_s) override;
+
+    /// For the desk, from any thread.
+    struct Lines {
+        std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+        std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
+    };
+    Lines lines() const;
+
+  private:
+    std::string wheel_line() const;
+
+    Settings settings_;
+    Helm helm_;
+    JogDeck* deck_;
+    RigView rig_view_;
+    JogMapper mapper_;
+    HandsBox hands_;
+    double last_s_ = 0;
+    mutable std::mutex mutex_;
+    Lines lines_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "common/base/time.h"
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+
+/// What hands and plans want of one tick.
+struct PilotStep {
+    OrbitView view;
+    bool toggle_hold = false, to_live = false, next_synthesiser = false, toggle_source_map = false;
+    double past_pulses = 0;               ///< through the past, either way
+    std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in this step
+};
+
+/// Whoever flies the virtual camera. Asked once a tick, on the programme's thread, as late as
+/// possible; never waits.
+class Pilot {
+  public:
+    virtual ~Pilot() = default;
+    /// The camera at `time_s` after the start of the programme; times grow.
+    virtual PilotStep step(double time_s) = 0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "common/geometry/pose.h"
+#include "common/gl/buffer.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// How many pixels of a depth map a quad of its grid spans.
+enum class QuadGrid { fine = 1, coarse = 2 };
+
+/// Indices of two triangles a quad of the grid over a depth map of this size.
+int triangle_indices(cv::Size depth_size, QuadGrid grid);
+
+/// Triangles at the edges of a depth map's surfaces, as an indirect draw: how many they are is
+/// known to the GPU alone.
+struct SurfaceRims {
+    Buffer indices, command;
+    int capacity;  ///< indices
+
+    explicit SurfaceRims(int most_indices);
+};
+
+/// A depth map of a camera, as a grid of quads.
+struct DepthGrid {
+    const Texture& depth_m;   ///< metres in its first channel, 0 = unknown, negative = guessed
+    const Buffer& triangles;  ///< of triangle_indices() of the depth map's size and the grid
+    Eigen::Matrix3d K;        ///< of the depth map
+    Pose world_from_camera;
+    QuadGrid grid = QuadGrid::fine;
+    const SurfaceRims* rims = nullptr;  ///< drawn too where there are any
+    double rim_px = 0;                  ///< how far they reach from the middles of their pixels
+};
+
+}  // namespace vantage

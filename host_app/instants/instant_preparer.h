@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+
+#include "host_app/instants/depth_view.h"
+#include "host_app/instants/instant.h"
+#include "host_app/instants/virtual_view.h"
+
+namespace vantage {
+
+/// How well an instant is prepared, and so at what cost. The governor moves along
+/// prepare_levels().
+struct PrepareLevel {
+    enum class Refinement {
+        none,   ///< every rig's depth as it is
+        carve,  ///< what other rigs see through is taken away
+        sweep,  ///< and depth is moved to where the rigs' pictures agree
+    };
+    int rank = 0;  ///< 0: the best; a higher one is cheaper
+    std::size_t rigs = most_drawn_rigs;
+    Refinement refinement = Refinement::sweep;
+    bool has_fine_grid = true;  ///< surfaces may be drawn by every pixel, with their rims
+};
+
+/// From the best to the cheapest, by rank.
+std::span<const PrepareLevel> prepare_levels();
+
+/// Makes instants of the rigs' depth views, on the GPU. Belongs to one thread and to the context
+/// that was current at construction. What is learnt along time is kept here, in seconds.
+class InstantPreparer {
+  public:
+    virtual ~InstantPreparer() = default;
+
+    /// Takes the views of the next instant, filmed `dt_s` after the one before: uploads them and
+    /// learns from them. Views may differ in size, lack depth, or be one or none.
+    virtual void take(std::span<const DepthView> views, double dt_s) = 0;
+
+    /// The instant that was taken last, ready to be rendered from `target` and near it. May be
+    /// called again for another target or a better level.
+    virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
+                                                   const PrepareLevel& level) = 0;
+
+    /// The next instant does not follow the last one (a cut, or time that is gone through): what
+    /// was learnt along time is not to be used for it.
+    virtual void forget() {}
+};
+
+}  // namespace vantage

@@ -1,0 +1,250 @@
+#include "host_app/instants/instant_thread.h"
+
+#include <algorithm>
+
+#include "common/base/log.h"
+#include "common/gl/limits.h"
+#include "common/gl/sliced_drawing.h"
+#include "host_app/instants/depth_views.h"
+
+namespace vantage {
+namespace {
+
+/// What a slice may hold up another context's picture for.
+constexpr std::chrono::milliseconds slice{4};
+/// How long the thread waits for a set before it looks at what is wished.
+constexpr std::chrono::milliseconds patience{5};
+/// After a fault, before everything is made anew.
+constexpr std::chrono::milliseconds recovery{200};
+/// Between two looks at whether what is held could be better.
+constexpr std::chrono::milliseconds betterings{100};
+/// Instants further apart have nothing to say to each other.
+constexpr double longest_gap_s = 1;
+
+double ms_since(MonotonicTime start) {
+    return std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
+}
+
+std::optional<TaiTime> exposure_of(const FrameSet& set) {
+    std::optional<TaiTime> exposure;
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame && (!exposure || slot.frame->exposure < *exposure))
+            exposure = slot.frame->exposure;
+    return exposure;
+}
+
+/// Whether what was prepared for `before` would be another instant, or a better one, for `wish`.
+bool is_better(const InstantWish& wish, const InstantWish& before) {
+    return wish.level.rank < before.level.rank ||
+           !wish.target.world_from_camera.isApprox(before.target.world_from_camera, 1e-6);
+}
+
+StageFeed kept(StageFeed feed, ReplayBuffer& replay, std::size_t bytes) {
+    return bytes > 0 ? kept_feed(std::move(feed), replay) : feed;
+}
+
+}  // namespace
+
+InstantThread::InstantThread(Settings settings, StageFeed feed, const EglContext& context)
+    : settings_(std::move(settings)),
+      context_(&context),
+      replay_(settings_.replay_bytes),
+      sets_(kept(std::move(feed), replay_, settings_.replay_bytes)),
+      thread_([this] { run(); }) {}
+
+InstantThread::~InstantThread() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+}
+
+void InstantThread::prepare_for(const std::string& synthesiser, MakePreparer make) {
+    const std::lock_guard lock(mutex_);
+    maker_ = {synthesiser, std::move(make)};
+}
+
+void InstantThread::wish(const InstantWish& wish) {
+    const std::lock_guard lock(mutex_);
+    wish_ = wish;
+}
+
+std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
+    const std::lock_guard lock(mutex_);
+    if (failure_) std::rethrow_exception(failure_);
+    return newest_;
+}
+
+InstantThread::Books InstantThread::books() const {
+    const std::lock_guard lock(mutex_);
+    Books books = books_;
+    books.superseded = sets_.superseded();
+    books.prepare_ms = prepare_ms_.summary();
+    books.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
+                       pack_ms_.summary()};
+    return books;
+}
+
+void InstantThread::run() {
+    for (;;) {
+        try {
+            prepare_instants();
+            return;
+        } catch (const std::exception& error) {
+            log_error("an instant could not be prepared, and its preparer is made anew: {}",
+                      error.what());
+        }
+        std::unique_lock lock(mutex_);
+        ++books_.faults;
+        if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
+    }
+}
+
+std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish,
+                                                std::uint64_t shown_pulse) {
+    if (!wish.pulse && !wish.is_held) {
+        fetched_.reset();
+        try {
+            return sets_.take(patience);
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            failure_ = std::current_exception();
+            is_stopping_ = true;
+            return std::nullopt;
+        }
+    }
+    // Once only: what is shown stays, though the buffer drops its set meanwhile.
+    if (wish.pulse && wish.pulse != fetched_) {
+        fetched_ = wish.pulse;
+        std::optional<FrameSet> set = replay_.at(*wish.pulse);
+        if (set && set->trigger_index != shown_pulse) return set;
+    }
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, patience, [&] { return is_stopping_; });
+    return std::nullopt;
+}
+
+std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_live) {
+    std::vector<DepthView> views;
+    for (const FrameSet::Slot& slot : set.slots) {
+        if (!slot.frame) continue;
+        views.push_back(depth_view_of(*slot.frame));
+        const auto colour = settings_.colours.find(slot.rig);
+        if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
+    }
+    if (!settings_.harmonise) return views;
+    if (is_live) {
+        const double pulses = last_harmonised_ && set.trigger_index > *last_harmonised_
+                                  ? static_cast<double>(set.trigger_index - *last_harmonised_)
+                                  : 0;
+        harmoniser_.see(views, pulses / settings_.pulse_rate_hz);
+        last_harmonised_ = set.trigger_index;
+    }
+    for (DepthView& view : views) harmoniser_.apply(view);
+    return views;
+}
+
+void InstantThread::ask_for_rigs(std::span<const DepthView> views, const VirtualView& target) {
+    demand_.see(views);
+    if (target.width_px == 0) return;
+    for (const RigDemand::Change& change : demand_.update(target, MonotonicClock::now())) {
+        log_info("asking rig {} to {} sending", change.rig, change.streaming ? "start" : "stop");
+        sets_.ask(change.rig, change.streaming);
+    }
+}
+
+void InstantThread::publish(const InstantWish& wish, InstantPreparer& preparer,
+                            MonotonicTime start) {
+    next_.instant = preparer.prepare(wish.target, wish.level);
+    glFinish();
+    check_gl("preparing an instant");
+    next_.prepare_ms = ms_since(start);
+    ++next_.number;
+    const std::lock_guard lock(mutex_);
+    newest_ = std::make_shared<const ReadyInstant>(next_);
+}
+
+void InstantThread::prepare_instants() {
+    const CurrentContext current(*context_);
+    const SlicedDrawing slices(slice);
+    const ShaderLibrary shaders;
+    std::unique_ptr<InstantPreparer> preparer;
+    std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
+    MonotonicTime bettered{};
+    for (;;) {
+        InstantWish wish;
+        Maker maker;
+        {
+            const std::lock_guard lock(mutex_);
+            if (is_stopping_) break;
+            wish = wish_;
+            maker = maker_;
+        }
+        if (maker.make && (!preparer || next_.synthesiser != maker.synthesiser)) {
+            preparer = maker.make(shaders);
+            next_.synthesiser = maker.synthesiser;
+            last_pulse_.reset();
+            prepared.reset();
+            if (next_.set) {
+                const MonotonicTime start = MonotonicClock::now();
+                preparer->take(views_of(*next_.set, false), 0);
+                publish(wish, *preparer, start);
+                prepared = wish;
+            }
+        }
+        if (!preparer) {
+            std::unique_lock lock(mutex_);
+            woken_.wait_for(lock, patience, [&] { return is_stopping_; });
+            continue;
+        }
+        const std::uint64_t shown = next_.set ? next_.set->trigger_index : 0;
+        std::optional<FrameSet> set = next_set(wish, next_.set ? shown : shown - 1);
+        const MonotonicTime start = MonotonicClock::now();
+        if (set) {
+            const bool is_live = !wish.pulse;
+            const std::uint64_t pulse = set->trigger_index;
+            const double dt_s =
+                last_pulse_ && pulse > *last_pulse_
+                    ? static_cast<double>(pulse - *last_pulse_) / settings_.pulse_rate_hz
+                    : 2 * longest_gap_s;
+            if (dt_s > longest_gap_s) preparer->forget();
+            last_pulse_ = pulse;
+            const std::vector<DepthView> views = views_of(*set, is_live);
+            // In the past the camera says nothing of what is needed live.
+            if (is_live) ask_for_rigs(views, wish.target);
+            preparer->take(views, std::min(dt_s, longest_gap_s));
+            next_.set = std::make_shared<const FrameSet>(std::move(*set));
+            next_.exposure = exposure_of(*next_.set);
+            next_.is_live = is_live;
+            publish(wish, *preparer, start);
+            prepared = wish;
+            const std::lock_guard lock(mutex_);
+            if (is_live) {
+                ++books_.prepared;
+                count_frames(*next_.set, books_.frames);
+                for (const FrameSet::Slot& slot : next_.set->slots) {
+                    if (!slot.frame) continue;
+                    capture_ms_.add(slot.frame->times.capture_ms);
+                    rectify_ms_.add(slot.frame->times.rectify_ms);
+                    match_ms_.add(slot.frame->times.match_ms);
+                    pack_ms_.add(slot.frame->times.pack_ms);
+                }
+            }
+            books_.harmony = harmoniser_.rigs();
+            prepare_ms_.add(next_.prepare_ms);
+        } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
+                   start - bettered > betterings) {
+            publish(wish, *preparer, start);
+            prepared = wish;
+            bettered = start;
+        }
+    }
+    // The pool's surfaces go with the preparer, on this context.
+    const std::lock_guard lock(mutex_);
+    newest_.reset();
+    next_ = {};
+}
+
+}  // namespace vantage

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "common/base/percentiles.h"
+#include "common/base/time.h"
+#include "common/gl/egl_context.h"
+#include "host_app/instants/colour_harmoniser.h"
+#include "host_app/instants/instant_preparer.h"
+#include "host_app/instants/rig_demand.h"
+#include "host_app/sets/newest_set.h"
+#include "host_app/sets/replay_buffer.h"
+
+namespace vantage {
+
+/// An instant with the frame set that it was made of. Immutable.
+struct ReadyInstant {
+    std::shared_ptr<const Instant> instant;
+    std::shared_ptr<const FrameSet> set;
+    std::optional<TaiTime> exposure;  ///< the earliest of its frames
+    std::uint64_t number = 0;         ///< grows with every instant, also with one that is bettered
+    std::string synthesiser;          ///< that it was prepared for
+    bool is_live = true;
+    double prepare_ms = 0;
+};
+
+/// What the programme wants of the pulses' clock.
+struct InstantWish {
+    /// Of the replay buffer: the newest set that is not later; nothing: what arrives.
+    std::optional<double> pulse;
+    bool is_held = false;  ///< nothing new; what is shown is bettered
+    VirtualView target;    ///< rigs that it needs are prepared
+    PrepareLevel level;
+};
+
+/// What the steps of a frame's way took at the rigs.
+struct RigSteps {
+    Percentiles capture_ms, rectify_ms, match_ms, pack_ms;
+};
+
+using MakePreparer = std::function<std::unique_ptr<InstantPreparer>(const ShaderLibrary&)>;
+
+/// The pulses' clock: makes the newest frame set, or the one that is asked for, ready to be
+/// rendered, on a thread and a context of its own and in slices of a few milliseconds, so that
+/// whoever renders meanwhile is not held up. What is learnt along time lives here.
+class InstantThread {
+  public:
+    struct Settings {
+        double pulse_rate_hz = 30;
+        std::size_t replay_bytes = 0;
+        bool harmonise = true;
+        std::map<std::string, ColourCorrection> colours = {};  ///< by rig
+    };
+    /// `context` is current on no thread. `feed` is read from now on.
+    InstantThread(Settings settings, StageFeed feed, const EglContext& context);
+    ~InstantThread();
+    InstantThread(const InstantThread&) = delete;
+    InstantThread& operator=(const InstantThread&) = delete;
+
+    /// From now on instants are prepared for this synthesiser.
+    void prepare_for(const std::string& synthesiser, MakePreparer make);
+    void wish(const InstantWish& wish);
+    /// The newest that is ready; null before the first. Throws what the feed threw.
+    std::shared_ptr<const ReadyInstant> newest() const;
+
+    std::optional<ReplayBuffer::Span> replay_span() const { return replay_.span(); }
+    ReceiverStatus status() const { return sets_.status(); }
+
+    struct Books {
+        std::uint64_t prepared = 0;  ///< live sets
+        RigCounts frames;            ///< of them
+        NewestSet::Superseded superseded;
+        std::map<std::string, ColourHarmoniser::Rig> harmony;
+        Percentiles prepare_ms;
+        RigSteps rig_steps;
+        int faults = 0;
+    };
+    Books books() const;
+    /// Ends the reading; whatever nobody took counts as superseded.
+    ReceiverStatus close() { return sets_.close(); }
+
+  private:
+    struct Maker {
+        std::string synthesiser;
+        MakePreparer make;
+    };
+    void run();
+    void prepare_instants();
+    std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse);
+    std::vector<DepthView> views_of(const FrameSet& set, bool is_live);
+    /// Asks the rigs that the view needs to send, and the others to stop.
+    void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
+    void publish(const InstantWish& wish, InstantPreparer& preparer, MonotonicTime start);
+
+    Settings settings_;
+    const EglContext* context_;
+    ReplayBuffer replay_;
+    NewestSet sets_;
+    ColourHarmoniser harmoniser_;  ///< of the thread
+    RigDemand demand_;             ///< of the thread
+    std::optional<std::uint64_t> last_pulse_, last_harmonised_;
+    std::optional<double> fetched_;  ///< the pulse that was looked up in the buffer last
+    ReadyInstant next_;              ///< of the thread: what is being prepared
+
+    mutable std::mutex mutex_;
+    std::condition_variable woken_;
+    Maker maker_;
+    InstantWish wish_;
+    bool is_stopping_ = false;
+    std::shared_ptr<const ReadyInstant> newest_;
+    std::exception_ptr failure_;
+    Books books_;
+    PercentileRecorder prepare_ms_, capture_ms_, rectify_ms_, match_ms_, pack_ms_;
+    std::thread thread_;
+};
+
+}  // namespace vantage

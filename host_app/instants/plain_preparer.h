@@ -1,0 +1,25 @@
+#pragma once
+
+#include "host_app/instants/instant_preparer.h"
+#include "host_app/instants/recycle_pool.h"
+#include "host_app/instants/triangle_builder.h"
+
+namespace vantage {
+
+/// The rigs' pictures and depth maps as they come, with the triangles of their grids.
+class PlainPreparer final : public InstantPreparer {
+  public:
+    explicit PlainPreparer(const ShaderLibrary& library) : triangles_(library) {}
+
+    void take(std::span<const DepthView> views, double dt_s) override;
+    std::shared_ptr<const Instant> prepare(const VirtualView& target,
+                                           const PrepareLevel& level) override;
+
+  private:
+    RecyclePool<RigSurface> surfaces_;
+    std::unique_ptr<ColourCorrector> corrector_;
+    TriangleBuilder triangles_;
+    std::shared_ptr<const Instant> instant_ = std::make_shared<Instant>();
+};
+
+}  // namespace vantage

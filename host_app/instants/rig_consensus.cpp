@@ -1,0 +1,215 @@
+#include "host_app/instants/rig_consensus.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host_app/instants/depth_edges.h"
+#include "host_app/instants/depth_spread.h"
+#include "host_app/instants/projection.h"
+#include "host_app/instants/view_ranking.h"
+
+namespace vantage {
+namespace {
+
+/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+constexpr float softness = 0.02f;
+/// Other rigs tell something new from this many of a rig's own parallaxes on.
+constexpr double least_news = 2;
+/// Steps of the two sweeps: parallax in pixels of the depth map.
+constexpr double coarse_step_px = 2, fine_step_px = 1;
+/// Parallax that does not show, and that depth is not moved for.
+constexpr double exact_px = 0.7, least_change_px = 0.5;
+
+/// The view's camera for a depth map of some size.
+VirtualView depth_camera(const RigHistory& view, cv::Size size) {
+    return {size.width, size.height,
+            scaled_intrinsics(view.camera().K,
+                              static_cast<double>(size.width) / view.colour().width_px(),
+                              static_cast<double>(size.height) / view.colour().height_px()),
+            view.camera().world_from_camera};
+}
+
+double own_parallax_px(const RigHistory& view) {
+    const double z = view.median_depth_m();
+    return z > 0 ? view.K_depth()(0, 0) * view.camera().baseline_m / z : 0;
+}
+
+}  // namespace
+
+RigConsensus::Sweep::Sweep(cv::Size size)
+    : unlike{Texture(TextureFormat::rgba8, size.width, size.height),
+             Texture(TextureFormat::rgba8, size.width, size.height),
+             Texture(TextureFormat::rgba8, size.width, size.height),
+             Texture(TextureFormat::rgba8, size.width, size.height)},
+      target({&unlike[0], &unlike[1], &unlike[2], &unlike[3]}) {}
+
+RigConsensus::RigConsensus(const ShaderLibrary& library)
+    : halve_(library, "rig_smooth.frag", {{"SCALE", "2"}}),
+      smooth_(library, "rig_smooth.frag"),
+      refine_(library, "rig_refine.frag") {
+    for (std::size_t others = 1; others <= max_others; ++others) {
+        const std::pair<std::string, std::string> count{"OTHERS", std::to_string(others)};
+        sweep_.emplace_back(library, "rig_sweep.frag", ShaderDefines{count});
+        agreement_pass_.emplace_back(library, "rig_agreement.frag", ShaderDefines{count});
+        carve_.emplace_back(library, "rig_carve.frag", ShaderDefines{count, {"MOVES", "0"}});
+        move_and_carve_.emplace_back(library, "rig_carve.frag",
+                                     ShaderDefines{count, {"MOVES", "1"}});
+        adopt_.emplace_back(library, "rig_adopt.frag", ShaderDefines{count});
+    }
+}
+
+void RigConsensus::bind_view(Program& program, const Texture& depth_m,
+                             const RigHistory& view) const {
+    program.set("depth_map", 0);
+    program.set("picture", 1);
+    program.set("edge_ratio", depth_edge_ratio);
+    depth_m.bind(0);
+    view.colour().bind(1);
+}
+
+int RigConsensus::bind_others(Program& program, const Texture& depth_m,
+                              const RigHistory& view) const {
+    bind_view(program, depth_m, view);
+    const VirtualView camera = depth_camera(view, depth_m.size());
+    program.set("spread", depth_spread(view.camera()));
+    int unit = 2;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const RigHistory& other = *others_[i];
+        const auto set = [&](const char* name, const auto& value) {
+            program.set(fmt::format("{}[{}]", name, i), value);
+        };
+        set("other_depth", unit);
+        other.steady_depth().bind(unit++);
+        set("other_colour", unit);
+        other.colour().bind(unit++);
+        set("other_from_pixel",
+            Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
+        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
+                                          static_cast<float>(other.colour().height_px())));
+        set("other_spread", depth_spread(other.camera()));
+    }
+    return unit;
+}
+
+double RigConsensus::parallax_px(const RigHistory& view) const {
+    constexpr double small = 0.01;
+    const VirtualView camera = depth_camera(view, view.depth().size());
+    const double z = view.median_depth_m();
+    double largest = 0;
+    for (const RigHistory* other : others_) {
+        const Eigen::Matrix4d map = pixel_from_target_pixel(other->camera(), camera);
+        const auto project = [&](double depth_m) {
+            const Eigen::Vector4d q =
+                map * Eigen::Vector4d(0.5 * camera.width_px * depth_m,
+                                      0.5 * camera.height_px * depth_m, depth_m, 1);
+            return Eigen::Vector2d(q.head<2>() / q.z());
+        };
+        const double moved_px = (project(z * (1 + small)) - project(z)).norm() / small;
+        if (std::isfinite(moved_px)) largest = std::max(largest, moved_px);
+    }
+    return largest;
+}
+
+void RigConsensus::smooth(FullscreenPass& pass, const Texture& depth_m, const RigHistory& view,
+                          const Framebuffer& target) const {
+    bind_view(pass.use(), depth_m, view);
+    pass.draw(target);
+}
+
+void RigConsensus::sweep(const RigHistory& view, double relative_step) {
+    const cv::Size size = half_.texture().size();
+    // Asked for before anything is bound: making a texture binds it.
+    const Framebuffer& refined = half_.next_target(size);
+    FullscreenPass& comparing = sweep_[others_.size() - 1];
+    Program& compare = comparing.use();
+    bind_others(compare, half_.texture(), view);
+    compare.set("relative_step", static_cast<float>(relative_step));
+    compare.set("lod", std::log2(static_cast<float>(view.colour().width_px()) /
+                                 static_cast<float>(size.width)));
+    comparing.draw(costs_->target);
+
+    Program& refine = refine_.use();
+    bind_view(refine, half_.texture(), view);
+    refine.set("relative_step", static_cast<float>(relative_step));
+    for (int i = 0; i < 4; ++i) {
+        refine.set(fmt::format("unlike[{}]", i), 2 + i);
+        costs_->unlike[static_cast<std::size_t>(i)].bind(2 + i);
+    }
+    refine_.draw(refined);
+    half_.finish();
+}
+
+void RigConsensus::refine(const RigHistory& view, double parallax_px) {
+    const Texture& depth_m = view.steady_depth();
+    const cv::Size half((depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2);
+    half_before_.resize(half);
+    if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
+
+    smooth(halve_, depth_m, view, half_before_.target());
+    smooth(smooth_, half_before_.texture(), view, half_.next_target(half));
+    half_.finish();
+    sweep(view, coarse_step_px / parallax_px);
+    smooth(smooth_, half_.texture(), view, half_.next_target(half));
+    half_.finish();
+    sweep(view, fine_step_px / parallax_px);
+}
+
+void RigConsensus::compare(const RigHistory& view, double parallax_px) {
+    const Texture& depth_m = view.steady_depth();
+    agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
+    FullscreenPass& comparing = agreement_pass_[others_.size() - 1];
+    Program& agreement = comparing.use();
+    bind_others(agreement, depth_m, view);
+    agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
+    comparing.draw(agreement_.target());
+    agreement_.generate_mipmaps();
+}
+
+const Texture& RigConsensus::better(const RigHistory& view,
+                                    std::span<const std::unique_ptr<RigHistory>> all,
+                                    PrepareLevel::Refinement refinement) {
+    const Texture& depth_m = view.steady_depth();
+    others_.clear();
+    for (const RigHistory* other :
+         most_useful(all, depth_camera(view, depth_m.size()), max_others + 1))
+        if (other != &view && others_.size() < max_others) others_.push_back(other);
+    if (others_.empty()) return depth_m;
+    // Before anything is bound: making a texture binds it.
+    result_.resize(depth_m.size());
+    judged_.resize(depth_m.size());
+
+    const double own_px = own_parallax_px(view), parallax = parallax_px(view);
+    const bool moves = refinement == PrepareLevel::Refinement::sweep && own_px > 0 &&
+                       parallax > least_news * own_px;
+    compare(view, parallax);
+    if (moves) refine(view, parallax);
+    FullscreenPass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];
+    Program& carve = carving.use();
+    const int unit = bind_others(carve, depth_m, view);
+    carve.set("softness", softness);
+    carve.set("agreement", unit);
+    agreement_.texture().bind(unit);
+    if (moves) {
+        carve.set("half_before", unit + 1);
+        carve.set("half_after", unit + 2);
+        carve.set("least_change", static_cast<float>(least_change_px / parallax));
+        half_before_.texture().bind(unit + 1);
+        half_.texture().bind(unit + 2);
+    }
+    if (!moves) {
+        carving.draw(result_.target());
+        return result_.texture();
+    }
+    carving.draw(judged_.target());
+    FullscreenPass& adopting = adopt_[others_.size() - 1];
+    Program& adopt = adopting.use();
+    const int free_unit = bind_others(adopt, depth_m, view);
+    adopt.set("softness", softness);
+    adopt.set("judged", free_unit);
+    judged_.texture().bind(free_unit);
+    adopting.draw(result_.target());
+    return result_.texture();
+}
+
+}  // namespace vantage

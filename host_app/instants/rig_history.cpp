@@ -1,0 +1,48 @@
+#include "host_app/instants/rig_history.h"
+
+#include "host_app/instants/projection.h"
+
+namespace vantage {
+
+void RigHistory::forget() {
+    steady_colour_.forget();
+    steady_.forget();
+    surface_.reset();
+    before_.reset();
+    plate_.reset();
+    plate_instants_ = 0;
+}
+
+void RigHistory::upload(const DepthView& view, double dt_s) {
+    const bool is_same_camera =
+        colour_ && depth_ && colour_->size() == view.colour.size() &&
+        depth_->size() == view.depth_m.size() && camera_.K == view.K &&
+        camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
+    dt_s_ = dt_s;
+    if (!is_same_camera) forget();
+    if (!prepared_rank_) surface_.reset();
+    prepared_rank_.reset();
+    before_.reset();
+    // A filter that left an upload out has no past for the next.
+    if (!is_colour_steady_) steady_colour_.forget();
+    if (!is_depth_steady_) steady_.forget();
+    is_colour_steady_ = is_depth_steady_ = false;
+    camera_ = view;
+    camera_.colour.release();
+    camera_.depth_m.release();
+    if (!colour_ || colour_->size() != view.colour.size())
+        colour_.emplace(TextureFormat::rgba8, view.colour.cols, view.colour.rows, Filter::linear);
+    if (!depth_ || depth_->size() != view.depth_m.size())
+        depth_.emplace(TextureFormat::r32f, view.depth_m.cols, view.depth_m.rows);
+    upload_colour(view, corrector_, *colour_);
+    depth_->upload(view.depth_m);
+    samples_ = surface_samples(view);
+}
+
+Eigen::Matrix3d RigHistory::K_depth() const {
+    return scaled_intrinsics(camera_.K,
+                             static_cast<double>(depth_->width_px()) / colour_->width_px(),
+                             static_cast<double>(depth_->height_px()) / colour_->height_px());
+}
+
+}  // namespace vantage

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "common/colour/colour_corrector.h"
+#include "host_app/instants/depth_grid.h"
+#include "host_app/instants/depth_view.h"
+#include "host_app/instants/drawn_texture.h"
+#include "host_app/instants/rig_plate.h"
+#include "host_app/instants/surface_samples.h"
+
+namespace vantage {
+
+/// What is drawn of one rig at one instant. Made on the context that prepares instants; once its
+/// instant is published nothing of it changes, and any context that shares objects may read it.
+class RigSurface {
+  public:
+    /// Camera, name and sizes; its pictures are empty.
+    const DepthView& camera() const { return camera_; }
+    /// Metres in the first channel, 0 = unknown, negative = guessed.
+    const Texture& depth() const { return is_settled_ ? settled_.texture() : drawn_.texture(); }
+    /// rgba8, trilinear; alpha says how far the colour can be trusted.
+    const Texture& colour() const { return colour_.texture(); }
+
+    /// What the rig has learnt of its background; null: too little to be shown.
+    const RigPlate* plate() const { return plate_.get(); }
+
+    /// Index buffer of the depth map's triangles: two a quad of the grid.
+    const Buffer& triangles(QuadGrid grid = QuadGrid::fine) const {
+        return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
+    }
+    int triangle_indices(QuadGrid grid = QuadGrid::fine) const {
+        return vantage::triangle_indices(depth().size(), grid);
+    }
+    /// Whether triangles of the fine grid were built.
+    bool has_fine_grid() const { return has_fine_grid_; }
+    /// Null where none were built.
+    const SurfaceRims* rims() const { return has_rims_ ? &*rims_ : nullptr; }
+    Eigen::Matrix3d K_depth() const;
+    DepthGrid grid(QuadGrid grid) const;
+
+    /// A few known surface points in world coordinates, evenly over the picture.
+    std::span<const Eigen::Vector3d> sample_points_m() const { return samples_.points_m; }
+    double median_depth_m() const { return samples_.median_depth_m; }
+    const SurfaceSamples& samples() const { return samples_; }
+
+    // For those that make it.
+
+    /// Begins anew for an instant of this camera, whose picture and depth map have these sizes.
+    void begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
+               const SurfaceSamples& samples);
+    /// The view as it came. Precondition: it has depth.
+    void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector);
+    const Framebuffer& depth_target() const { return drawn_.target(); }
+    /// What was drawn into depth_target().
+    const Texture& fresh_depth() const { return drawn_.texture(); }
+    /// Into which fresh_depth() is settled: rg32f, metres and votes.
+    const Framebuffer& settled_target();
+    void finish_settled() { is_settled_ = true; }
+    bool is_settled() const { return is_settled_; }
+    const Framebuffer& colour_target() const { return colour_.target(); }
+    void finish_colour() { colour_.generate_mipmaps(); }
+    const SurfaceRims& rims_to_build();
+    void set_has_fine_grid(bool has) { has_fine_grid_ = has; }
+    void set_plate(std::shared_ptr<const RigPlate> plate) { plate_ = std::move(plate); }
+
+  private:
+    DepthView camera_;
+    SurfaceSamples samples_;
+    DrawnTexture drawn_{TextureFormat::r32f}, settled_{TextureFormat::rg32f};
+    DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
+    bool is_settled_ = false, has_rims_ = false, has_fine_grid_ = true;
+    std::optional<Buffer> triangles_, coarse_triangles_;
+    std::optional<SurfaceRims> rims_;
+    cv::Size grid_size_;
+    std::shared_ptr<const RigPlate> plate_;
+};
+
+/// A view's picture, with its colour correction, into a texture of its size.
+/// `corrector` is made when a view first needs one.
+void upload_colour(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
+                   Texture& into);
+
+}  // namespace vantage

@@ -1,0 +1,187 @@
+#include "host_app/live/live_show.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/gl/limits.h"
+#include "host_app/output/contact_sheet_sink.h"
+
+namespace vantage {
+namespace {
+
+/// The states of the rigs that are not in the set; of all, without one.
+std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
+    std::string text;
+    for (const RigStatus& rig : status.rigs) {
+        if (set &&
+            std::any_of(set->slots.begin(), set->slots.end(), [&](const FrameSet::Slot& slot) {
+                return slot.frame && slot.rig == rig.rig;
+            }))
+            continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, state_of(rig));
+        if (!rig.last_error.empty() && rig.refused.empty())
+            text += fmt::format(" ({})", rig.last_error);
+    }
+    return text;
+}
+
+Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
+    Percentiles most;
+    for (const RigStatus& rig : status.rigs)
+        if ((rig.*times).count > 0 && (rig.*times).p95 >= most.p95) most = rig.*times;
+    return most;
+}
+
+const LiveSettings& checked(const LiveSettings& settings) {
+    const SynthesiserEntry entry = find_synthesiser(settings.synthesiser);
+    if (settings.source_map) NoveltyOverlay::require(entry.tells_origins, entry.name);
+    if (settings.format.stereoscopy)
+        (void)settings.format.stereoscopy->settled(
+            view_of(CameraState{}, {settings.format.width_px, settings.format.height_px}), 1);
+    return settings;
+}
+
+}  // namespace
+
+LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
+                   JogDeck* deck)
+    : settings_(checked(settings)),
+      plan_(plan),
+      renderer_(GlInfo::query().renderer),
+      instants_context_(EglContext::sharing_with_current()),
+      instants_({.pulse_rate_hz = settings.pulse_rate_hz,
+                 .replay_bytes = settings.replay_bytes,
+                 .harmonise = settings.harmonise,
+                 .colours = settings.colours},
+                std::move(feed), instants_context_),
+      controls_({plan, settings.pulse_rate_hz, settings.replay_bytes > 0}, deck,
+                [this](int number) { return rig_view(number); }),
+      programme_({.format = settings.format,
+                  .rate_hz = settings.rate_hz,
+                  .pulse_rate_hz = settings.pulse_rate_hz,
+                  .synthesiser = settings.synthesiser,
+                  .quality = settings.quality,
+                  .source_map = settings.source_map},
+                 instants_, controls_) {
+    GlInfo::query().require_vantage_minimum();
+    if (!settings.film.empty()) {
+        auto film = std::make_unique<FilmSink>(settings.film,
+                                               VideoSettings{.width_px = settings.format.width_px,
+                                                             .height_px = settings.format.height_px,
+                                                             .rate_hz = settings.rate_hz});
+        film_ = film.get();
+        programme_.add(std::move(film));
+    }
+    if (!settings.contact_sheet.empty())
+        programme_.add(std::make_unique<ContactSheetSink>(settings.contact_sheet));
+}
+
+bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
+    const MonotonicTime deadline = MonotonicClock::now() + limit;
+    const auto newest_set = [&]() -> const FrameSet* {
+        const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        return ready ? ready->set.get() : nullptr;
+    };
+    log_info("waiting for {} rigs", status().rigs.size());
+    while (MonotonicClock::now() < deadline) {
+        if (stop.wait_for(std::chrono::milliseconds(20))) {
+            log_info("interrupted while waiting for the rigs, before anything was flown: {}",
+                     states_of_missing(status(), newest_set()));
+            return false;
+        }
+        const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        if (ready && ready->set->present() == static_cast<int>(ready->set->slots.size()))
+            return true;
+        const ReceiverStatus now = status();
+        if (!now.rigs.empty() &&
+            std::all_of(now.rigs.begin(), now.rigs.end(),
+                        [](const RigStatus& rig) { return !rig.refused.empty(); }))
+            fail("every rig refuses this host: {}", states_of_missing(now, newest_set()));
+    }
+    const double limit_s = std::chrono::duration<double>(limit).count();
+    if (!instants_.newest())
+        fail("no frame of any rig came within {:g} s; are the rigs running? ({})", limit_s,
+             states_of_missing(status(), nullptr));
+    log_warning("after {:g} s these rigs are missing: {}", limit_s,
+                states_of_missing(status(), newest_set()));
+    return true;
+}
+
+void LiveShow::start() {
+    programme_.start([this](std::uint64_t pictures, double time_s) {
+        return plan_.is_over(pictures, time_s);
+    });
+}
+
+void LiveShow::finish() {
+    programme_.stop();
+    last_status_ = instants_.close();
+}
+
+std::optional<OrbitView> LiveShow::rig_view(int number) const {
+    const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+    const auto index = static_cast<std::size_t>(number - 1);
+    if (!ready || index >= ready->set->slots.size() || !ready->set->slots[index].frame)
+        return std::nullopt;
+    const RigFrame& frame = *ready->set->slots[index].frame;
+    const double field_of_view_rad =
+        2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
+    // The point on the rig's axis that is nearest to the stage's pivot.
+    const Eigen::Vector3d eye = frame.world_from_camera.translation();
+    const Eigen::Vector3d axis = frame.world_from_camera.linear().col(2);
+    const double distance_m = std::max(0.5, axis.dot(plan_.start.pivot_m - eye));
+    return view_from_eye(eye, eye + distance_m * axis, field_of_view_rad);
+}
+
+LiveReport LiveShow::report() const {
+    const ReceiverStatus status = last_status_.value_or(this->status());
+    const InstantThread::Books instants = instants_.books();
+    LiveReport report;
+    report.format = settings_.format;
+    report.rate_hz = settings_.rate_hz;
+    report.programme = programme_.books();
+    const ProgrammeState state = programme_.state();
+    report.synthesiser = state.synthesiser;
+    report.view = state.view;
+    report.renderer = renderer_;
+    report.instants_prepared = instants.prepared;
+    report.prepare_ms = instants.prepare_ms;
+    report.rig_steps = instants.rig_steps;
+    report.faults = instants.faults + report.programme.faults;
+    report.sets_closed = status.sets;
+    report.sets_complete = status.complete_sets;
+    report.sets_dropped = status.sets_dropped;
+    report.sets_superseded = instants.superseded.sets;
+    const auto count_of = [](const RigCounts& counts, const std::string& rig) {
+        const auto found = counts.find(rig);
+        return found == counts.end() ? 0 : found->second;
+    };
+    for (const RigStatus& rig : status.rigs) {
+        RigAccount account{rig, count_of(instants.frames, rig.rig),
+                           count_of(instants.superseded.frames, rig.rig)};
+        if (const auto harmony = instants.harmony.find(rig.rig); harmony != instants.harmony.end())
+            account.harmony = harmony->second;
+        report.rigs.push_back(std::move(account));
+    }
+    report.network_ms = worst(status, &RigStatus::network_ms);
+    report.decode_ms = worst(status, &RigStatus::decode_ms);
+    if (state.picture) {
+        if (settings_.format.stereoscopy)
+            report.stereoscopy = settings_.format.stereoscopy->settled(
+                view_of(state.picture->job.camera,
+                        {settings_.format.width_px, settings_.format.height_px}),
+                state.picture->job.camera.focus_m);
+        if (state.picture->sources) report.novelty = state.picture->sources->shares;
+    }
+    if (film_) {
+        report.film = film_->path().string();
+        report.film_pictures = film_->recorder().frames();
+        report.film_dropped = film_->recorder().dropped();
+        report.encode_ms = film_->recorder().encode_ms();
+    }
+    return report;
+}
+
+}  // namespace vantage

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/base/stop_signal.h"
+#include "common/colour/colour_correction.h"
+#include "common/gl/egl_context.h"
+#include "host_app/control/flight_controls.h"
+#include "host_app/live/live_report.h"
+#include "host_app/output/film_sink.h"
+#include "host_app/programme/programme.h"
+#include "host_app/sets/stage_feed.h"
+
+namespace vantage {
+
+struct LiveSettings {
+    PictureFormat format;
+    double rate_hz = 30;            ///< of the output
+    double pulse_rate_hz = 30;      ///< of the stage
+    std::size_t replay_bytes = 0;   ///< of frames kept to go back to; 0: none
+    std::string synthesiser = default_synthesiser;
+    QualityWish quality;
+    bool source_map = false;                    ///< shown at first
+    std::filesystem::path film, contact_sheet;  ///< empty: none
+    bool harmonise = true;                      ///< the rigs' colours, by a ColourHarmoniser
+    std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
+};
+
+/// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
+/// books of all of them. Makes an OpenGL context that is current on the constructing thread until
+/// another is made so; all work is done on threads of its own.
+class LiveShow {
+  public:
+    /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show, or
+    /// there can be no stereoscopic picture of this width, or an output cannot be opened. Without a
+    /// deck no wheel flies; else it must outlive the show.
+    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDeck* deck);
+
+    /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
+    /// there and says which are missing. Throws Error, with every rig's state, if none came, and at
+    /// once if all rigs refuse this host. False: the program was asked to stop meanwhile.
+    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+
+    /// Starts the programme's clock.
+    void start();
+    /// Whether the plan is at its end. Throws what ended the programme.
+    bool is_over() const { return programme_.is_over(); }
+    /// Ends the programme, closes the books, ends the outputs.
+    void finish();
+
+    /// Precondition: finish().
+    LiveReport report() const;
+
+    const LiveSettings& settings() const { return settings_; }
+    FlightControls& controls() { return controls_; }
+    ProgrammeState state() const { return programme_.state(); }
+    ProgrammeBooks books() const { return programme_.books(); }
+    InstantThread::Books instant_books() const { return instants_.books(); }
+    ReceiverStatus status() const { return instants_.status(); }
+    std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
+
+  private:
+    std::optional<OrbitView> rig_view(int number) const;
+
+    LiveSettings settings_;
+    FlightPlan plan_;
+    EglContext context_;
+    std::string renderer_;
+    EglContext instants_context_;
+    InstantThread instants_;
+    FlightControls controls_;
+    Programme programme_;
+    const FilmSink* film_ = nullptr;  ///< owned by the programme
+    std::optional<ReceiverStatus> last_status_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/image/image.h"
+#include "common/receive/frame_set.h"
+
+namespace vantage {
+
+/// What a tick hands out. Pictures and sets are shared and never change.
+struct ProgrammePicture {
+    std::uint64_t tick = 0;  ///< from the first picture on; none is left out
+    ColourImage picture;     ///< clean
+    ColourImage overlaid;    ///< for people: with the source map where that is asked for
+    std::shared_ptr<const FrameSet> set;
+    std::string title;  ///< one line for people: when, of what, from where
+};
+
+/// Where the programme's pictures go. One that fails is closed and reported; neither the programme
+/// nor another sink notices.
+class PictureSink {
+  public:
+    virtual ~PictureSink() = default;
+    virtual std::string name() const = 0;
+    /// Never waits: what cannot be taken now is left out and counted. Throws Error if the sink has
+    /// failed.
+    virtual void take(const ProgrammePicture& picture) = 0;
+    /// Ends it: what waits is written. Throws Error if the sink has failed.
+    virtual void finish() {}
+};
+
+}  // namespace vantage

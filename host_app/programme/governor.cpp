@@ -1,0 +1,100 @@
+#include "host_app/programme/governor.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+/// Works in a row that do not fit before the level falls.
+constexpr int most_misfits = 3;
+/// Of the time for a work at the next better level, by what it took before or, untried, by what
+/// this one takes.
+constexpr double room = 0.75, untried_ratio = 1.6;
+/// Before the level rises: at first, and at most, after it had to fall again.
+constexpr double first_patience_s = 2, longest_patience_s = 60;
+/// A level that had to be left within so long after it was risen to was a mistake.
+constexpr double mistake_s = 5;
+constexpr double mean_share = 0.2;
+
+double seconds(MonotonicTime from, MonotonicTime to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+LevelChooser::LevelChooser(std::size_t levels, double share)
+    : share_(share), usual_ms_(levels), spent_s_(levels), patience_s_(first_patience_s) {}
+
+void LevelChooser::fix(std::size_t level) {
+    level_ = std::min(level, usual_ms_.size() - 1);
+    is_fixed_ = true;
+}
+
+void LevelChooser::go_to(std::size_t level, MonotonicTime now) {
+    if (since_) spent_s_[level_] += seconds(*since_, now);
+    level_ = level;
+    since_ = now;
+    misfits_ = 0;
+    fitting_since_.reset();
+}
+
+void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, MonotonicTime now) {
+    if (!since_) since_ = now;
+    if (level >= usual_ms_.size()) return;
+    std::optional<double>& usual_ms = usual_ms_[level];
+    usual_ms = usual_ms ? *usual_ms + mean_share * (work_ms - *usual_ms) : work_ms;
+    if (is_fixed_ || level != level_) return;
+    const double allowed_ms = share_ * time_ms;
+    misfits_ = work_ms > allowed_ms ? misfits_ + 1 : 0;
+    if (misfits_ >= most_misfits && level_ + 1 < usual_ms_.size()) {
+        // One that was risen to and left soon: wait longer before the next try.
+        patience_s_ = seconds(*since_, now) < mistake_s
+                          ? std::min(2 * patience_s_, longest_patience_s)
+                          : first_patience_s;
+        go_to(level_ + 1, now);
+        return;
+    }
+    if (level_ == 0) return;
+    const double better_ms = usual_ms_[level_ - 1].value_or(untried_ratio * *usual_ms);
+    if (std::min(better_ms, untried_ratio * *usual_ms) > room * allowed_ms) {
+        fitting_since_.reset();
+        return;
+    }
+    if (!fitting_since_) fitting_since_ = now;
+    if (seconds(*fitting_since_, now) >= patience_s_) go_to(level_ - 1, now);
+}
+
+std::vector<double> LevelChooser::shares(MonotonicTime now) const {
+    std::vector<double> shares = spent_s_;
+    if (since_) shares[level_] += seconds(*since_, now);
+    double sum = 0;
+    for (const double spent_s : shares) sum += spent_s;
+    for (double& share : shares) share = sum > 0 ? share / sum : 0;
+    return shares;
+}
+
+QualityWish QualityWish::parse(const std::string& text) {
+    if (text == "auto") return {};
+    if (text == "best") return {0};
+    std::size_t level = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), level);
+    if (fault != std::errc() || end != text.data() + text.size() || level >= render_levels().size())
+        fail("--quality is best, auto or a level from 0 (the best) to {}, not '{}'",
+             render_levels().size() - 1, text);
+    return {level};
+}
+
+Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)
+    : tick_ms_(1000 / rate_hz),
+      instant_ms_(1000 / pulse_rate_hz),
+      render_(render_levels().size(), 0.8),
+      prepare_(prepare_levels().size(), 0.9) {
+    if (!wish.level) return;
+    render_.fix(*wish.level);
+    prepare_.fix(*wish.level);
+}
+
+}  // namespace vantage

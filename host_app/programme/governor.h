@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/time.h"
+#include "host_app/synthesis/synthesiser.h"
+
+namespace vantage {
+
+/// Finds, among levels that get cheaper by rank, the best one whose work fits into a time. Falls as
+/// soon as several works in a row did not fit; rises only after a while of room, and the more
+/// cautiously the sooner it had to fall again, so that nothing pumps.
+class LevelChooser {
+  public:
+    /// Works may take `share` of the time.
+    LevelChooser(std::size_t levels, double share);
+
+    std::size_t level() const { return level_; }
+    /// From now on this one, whatever it takes.
+    void fix(std::size_t level);
+
+    /// A work at `level` took `work_ms` of the `time_ms` that there were for it.
+    void saw(std::size_t level, double work_ms, double time_ms, MonotonicTime now);
+
+    /// Shares of the time that the levels were taken for until now.
+    std::vector<double> shares(MonotonicTime now) const;
+
+  private:
+    void go_to(std::size_t level, MonotonicTime now);
+
+    double share_;
+    std::size_t level_ = 0;
+    bool is_fixed_ = false;
+    std::vector<std::optional<double>> usual_ms_;  ///< of every level that was tried
+    int misfits_ = 0;
+    std::optional<MonotonicTime> since_;       ///< of this level
+    std::optional<MonotonicTime> fitting_since_;
+    std::vector<double> spent_s_;
+    double patience_s_;
+};
+
+/// What `--quality` asks for.
+struct QualityWish {
+    std::optional<std::size_t> level;  ///< nothing: what fits
+    /// "best", "auto" or a number from 0 (the best) on. Throws Error with the mend otherwise.
+    static QualityWish parse(const std::string& text);
+};
+
+/// Holds the programme's ticks and the stage's instants: measures what rendering and preparing
+/// take, and lowers or raises either's level of quality.
+class Governor {
+  public:
+    /// `rate_hz` of the output; `pulse_rate_hz` of the stage.
+    Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish);
+
+    const RenderLevel& render() const { return render_levels()[render_.level()]; }
+    const PrepareLevel& prepare() const { return prepare_levels()[prepare_.level()]; }
+
+    void saw_render(const RenderLevel& level, double ms, MonotonicTime now) {
+        render_.saw(static_cast<std::size_t>(level.rank), ms, tick_ms_, now);
+    }
+    void saw_prepare(int rank, double ms, MonotonicTime now) {
+        prepare_.saw(static_cast<std::size_t>(rank), ms, instant_ms_, now);
+    }
+    std::vector<double> render_shares(MonotonicTime now) const { return render_.shares(now); }
+    std::vector<double> prepare_shares(MonotonicTime now) const { return prepare_.shares(now); }
+
+  private:
+    double tick_ms_, instant_ms_;
+    LevelChooser render_, prepare_;
+};
+
+}  // namespace vantage

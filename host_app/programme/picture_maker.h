@@ -1,0 +1,79 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "common/base/time.h"
+#include "common/gl/egl_context.h"
+#include "common/image/image.h"
+#include "host_app/flight/camera_state.h"
+#include "host_app/instants/instant_thread.h"
+#include "host_app/programme/view_painter.h"
+
+namespace vantage {
+
+/// What the programme wants a picture of.
+struct PictureJob {
+    std::shared_ptr<const ReadyInstant> instant;
+    CameraState camera;
+    RenderLevel level;
+    bool source_map = false;         ///< also which rigs its pixels come from
+    std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in it
+};
+
+/// A picture of the virtual camera. Immutable.
+struct MadePicture {
+    PictureJob job;
+    ColourImage picture;                ///< rgba8 of the programme's size
+    std::optional<SourceMap> sources;   ///< where it was wanted
+    double render_ms = 0, readback_ms = 0;
+};
+
+/// Renders on a thread and a context of its own, one picture at a time, so that the programme's
+/// clock waits for neither GPU nor compiler. A fault is logged, and everything of the context is
+/// made anew.
+class PictureMaker {
+  public:
+    enum class Manner {
+        at_once,
+        in_slices,  ///< lets other contexts have their turn: for pictures that may take long
+    };
+    /// `context` is current on no thread. Compiles at once; is_idle() tells when it is done.
+    PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, const EglContext& context,
+                 Manner manner = Manner::at_once);
+    ~PictureMaker();
+    PictureMaker(const PictureMaker&) = delete;
+    PictureMaker& operator=(const PictureMaker&) = delete;
+
+    const std::string& synthesiser() const { return synthesiser_.name; }
+    /// It can begin a picture now.
+    bool is_idle() const;
+    /// Precondition: is_idle().
+    void start(PictureJob job);
+    /// What was finished since the last call.
+    std::shared_ptr<const MadePicture> take_finished();
+    /// Times that everything was made anew after a fault.
+    int faults() const;
+
+  private:
+    void run();
+    void make_pictures();
+
+    SynthesiserEntry synthesiser_;
+    PictureFormat format_;
+    const EglContext* context_;
+    Manner manner_;
+    mutable std::mutex mutex_;
+    std::condition_variable woken_;
+    std::optional<PictureJob> job_;
+    bool is_ready_ = false, is_stopping_ = false;
+    std::shared_ptr<const MadePicture> finished_;
+    int faults_ = 0;
+    std::thread thread_;
+};
+
+}  // namespace vantage

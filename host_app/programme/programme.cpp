@@ -1,0 +1,344 @@
+#include "host_app/programme/programme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "common/base/log.h"
+#include "host_app/programme/tick_clock.h"
+
+namespace vantage {
+namespace {
+
+/// How often a tick looks whether the picture maker has become free.
+constexpr std::chrono::milliseconds look_period{2};
+/// A camera and an instant that were left alone for so long are worth the best picture.
+constexpr std::chrono::milliseconds rest{250};
+/// Pictures that the lead before a tick is judged by, and what is added to the longest of them.
+constexpr std::size_t judged_pictures = 12;
+constexpr double lead_ratio = 1.15, lead_margin_ms = 3;
+
+double ms_between(MonotonicTime start, MonotonicTime end) {
+    return std::chrono::duration<double, std::milli>(end - start).count();
+}
+
+void sleep_until(MonotonicTime time) {
+    std::this_thread::sleep_for(time - MonotonicClock::now());
+}
+
+/// Whether a picture of one would be that of the other.
+bool is_same(const PictureJob& a, const PictureJob& b) {
+    return a.instant->number == b.instant->number && is_same_view(a.camera, b.camera) &&
+           a.level.rank == b.level.rank && a.source_map == b.source_map;
+}
+
+std::string title_of(const MadePicture& made, double time_s) {
+    constexpr double deg = 180 / std::numbers::pi;
+    const FrameSet& set = *made.job.instant->set;
+    const Eigen::Vector3d& at = made.job.camera.world_from_camera.translation();
+    return fmt::format(
+        "{:.1f} s   pulse {}   {} of {} rigs   camera at {:.1f}, {:.1f}, {:.1f} m, {:.0f} degrees "
+        "wide",
+        time_s, set.trigger_index, set.present(), set.slots.size(), at.x(), at.y(), at.z(),
+        made.job.camera.field_of_view_rad * deg);
+}
+
+}  // namespace
+
+Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
+    : settings_(std::move(settings)),
+      instants_(instants),
+      pilot_(pilot),
+      contexts_{EglContext::sharing_with_current(), EglContext::sharing_with_current()},
+      still_context_(EglContext::sharing_with_current()),
+      governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
+      entry_(find_synthesiser(settings_.synthesiser)),
+      source_map_(settings_.source_map) {
+    // The first instant is prepared for where the camera begins.
+    view_ = pilot_.step(0).view;
+    camera_ = view_.camera();
+    wish_for_instant(MonotonicClock::now());
+    instants_.prepare_for(entry_.name, entry_.make_preparer);
+    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[context_]);
+    state_.view = view_;
+    state_.synthesiser = entry_.name;
+}
+
+Programme::~Programme() {
+    is_stopping_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+void Programme::start(std::function<bool(std::uint64_t, double)> is_over) {
+    is_over_ = std::move(is_over);
+    thread_ = std::thread([this] {
+        try {
+            run();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            failure_ = std::current_exception();
+        }
+        const std::lock_guard lock(mutex_);
+        is_ended_ = true;
+    });
+}
+
+bool Programme::is_over() const {
+    const std::lock_guard lock(mutex_);
+    if (failure_) std::rethrow_exception(failure_);
+    return is_ended_;
+}
+
+void Programme::stop() {
+    is_stopping_ = true;
+    if (thread_.joinable()) thread_.join();
+    maker_.reset();
+    next_maker_.reset();
+    retired_maker_.reset();
+    still_maker_.reset();
+    for (Sink& sink : sinks_) {
+        if (!sink.state.failure.empty()) continue;
+        try {
+            sink.sink->finish();
+        } catch (const std::exception& error) {
+            sink.state.failure = error.what();
+            log_error("{}: {}", sink.state.name, error.what());
+        }
+    }
+    const std::lock_guard lock(mutex_);
+    books_.sinks.clear();
+    for (const Sink& sink : sinks_) books_.sinks.push_back(sink.state);
+}
+
+std::chrono::nanoseconds Programme::lead() const {
+    const std::chrono::duration<double> period(1 / settings_.rate_hz);
+    if (make_ms_.empty()) return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
+    const double longest_ms = *std::max_element(make_ms_.begin(), make_ms_.end());
+    const std::chrono::duration<double, std::milli> lead(lead_ratio * longest_ms + lead_margin_ms);
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::min<std::chrono::duration<double>>(lead, period));
+}
+
+void Programme::run() {
+    for (Sink& sink : sinks_) sink.state.name = sink.sink->name();
+    TickClock clock(settings_.rate_hz, MonotonicClock::now());
+    const MonotonicTime start = MonotonicClock::now();
+    std::uint64_t tick = clock.next_tick(start);
+    while (!is_stopping_) {
+        const MonotonicTime due = start + clock.time_of(tick + 1);
+        const double due_s = std::chrono::duration<double>(clock.time_of(tick + 1)).count();
+        sleep_until(due - lead());
+        bool was_due = look(due_s, MonotonicClock::now());
+        bool is_begun = false;
+        for (;;) {
+            const MonotonicTime now = MonotonicClock::now();
+            if (was_due && !is_begun && maker_->is_idle()) {
+                begin_picture();
+                is_begun = true;
+            }
+            better_what_is_held(now);
+            if (now >= due) break;
+            sleep_until(is_begun || !was_due ? due : std::min(due, now + look_period));
+        }
+        follow_synthesiser();
+        const std::uint64_t next = clock.next_tick(MonotonicClock::now());
+        hand_over(next - tick, was_due);
+        tick = next;
+        const std::lock_guard lock(mutex_);
+        if (is_over_(books_.pictures + books_.repeated, due_s)) return;
+    }
+}
+
+bool Programme::look(double time_s, MonotonicTime now) {
+    const PilotStep step = pilot_.step(time_s);
+    if (step.hand && !hand_) hand_ = step.hand;
+    instant_ = instants_.newest();
+    const std::optional<ReplayBuffer::Span> span = instants_.replay_span();
+    if (step.toggle_hold) transport_.toggle_hold();
+    if (step.to_live) transport_.to_live();
+    if (step.past_pulses != 0 && instant_)
+        transport_.travel(step.past_pulses, instant_->set->trigger_index, span);
+    if (step.toggle_source_map) source_map_ = !source_map_;
+    if (step.next_synthesiser && !next_maker_ && !retired_maker_) {
+        const std::vector<SynthesiserEntry> all = synthesiser_entries();
+        const auto at = std::find_if(all.begin(), all.end(), [&](const SynthesiserEntry& entry) {
+            return entry.name == entry_.name;
+        });
+        entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
+        next_maker_ =
+            std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[1 - context_]);
+        still_maker_.reset();
+        begun_still_.reset();
+    }
+    const CameraState camera = step.view.camera();
+    if (!is_same_view(camera, camera_) || step.past_pulses != 0 || step.toggle_hold ||
+        step.to_live)
+        changed_ = now;
+    view_ = step.view;
+    camera_ = camera;
+    wish_for_instant(now);
+    {
+        const std::lock_guard lock(mutex_);
+        state_.view = view_;
+        state_.is_held = transport_.is_held();
+        state_.source_map = source_map_;
+        state_.behind_s =
+            transport_.pulse() && span
+                ? std::optional(std::max(0.0, (static_cast<double>(span->newest) -
+                                               *transport_.pulse()) /
+                                                  settings_.pulse_rate_hz))
+                : std::nullopt;
+        state_.render_level = governor_.render().rank;
+        state_.prepare_level = governor_.prepare().rank;
+        books_.render_shares = governor_.render_shares(now);
+        books_.prepare_shares = governor_.prepare_shares(now);
+    }
+    if (!instant_ || instant_->synthesiser != maker_->synthesiser()) return false;
+    const PictureJob job{instant_, camera_, governor_.render(), source_map_};
+    if (shown_ && shown_->job.level.rank < job.level.rank) {
+        PictureJob better = job;
+        better.level = shown_->job.level;
+        if (is_same(better, shown_->job)) return false;
+    }
+    return !shown_ || !is_same(job, shown_->job);
+}
+
+void Programme::wish_for_instant(MonotonicTime now) {
+    const bool is_resting = !transport_.is_live() && now - changed_ > rest;
+    instants_.wish({transport_.pulse(), transport_.is_held(),
+                    view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
+                    is_resting && !settings_.quality.level ? prepare_levels().front()
+                                                           : governor_.prepare()});
+    if (instant_ && instant_->is_live && instant_->number != seen_prepared_ &&
+        transport_.is_live()) {
+        seen_prepared_ = instant_->number;
+        governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);
+    }
+}
+
+void Programme::begin_picture() {
+    begun_ = PictureJob{instant_, camera_, governor_.render(), source_map_, hand_};
+    hand_.reset();
+    maker_->start(*begun_);
+}
+
+void Programme::better_what_is_held(MonotonicTime now) {
+    if (settings_.quality.level || transport_.is_live() || now - changed_ < rest || !instant_ ||
+        !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
+        return;
+    if (!still_maker_) {
+        still_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, still_context_,
+                                                      PictureMaker::Manner::in_slices);
+        return;
+    }
+    const PictureJob job{instant_, camera_, render_levels().front(), source_map_};
+    if (!still_maker_->is_idle() || (begun_still_ && is_same(*begun_still_, job))) return;
+    begun_still_ = job;
+    still_maker_->start(job);
+}
+
+void Programme::follow_synthesiser() {
+    if (retired_maker_ && retired_maker_->is_idle()) retired_maker_.reset();
+    if (!next_maker_ || !next_maker_->is_idle()) return;
+    instants_.prepare_for(entry_.name, entry_.make_preparer);
+    if (!instant_ || instant_->synthesiser != entry_.name) return;
+    retired_maker_ = std::move(maker_);
+    maker_ = std::move(next_maker_);
+    context_ = 1 - context_;
+    const std::lock_guard lock(mutex_);
+    state_.synthesiser = entry_.name;
+}
+
+void Programme::note(const MadePicture& made, MonotonicTime now) {
+    make_ms_.push_back(made.render_ms + made.readback_ms);
+    if (make_ms_.size() > judged_pictures) make_ms_.pop_front();
+    governor_.saw_render(made.job.level, made.render_ms + made.readback_ms, now);
+    render_ms_.add(made.render_ms);
+    readback_ms_.add(made.readback_ms);
+    if (last_new_) interval_ms_.add(ms_between(*last_new_, now));
+    last_new_ = now;
+    if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
+    const ReadyInstant& instant = *made.job.instant;
+    if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
+        latency_of_ = instant.set->trigger_index;
+        const double latency_ms =
+            std::chrono::duration<double, std::milli>(TaiClock::now() - *instant.exposure).count();
+        latency_ms_.add(latency_ms);
+        state_.latency_ms = latency_ms;
+    }
+}
+
+void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
+    const MonotonicTime now = MonotonicClock::now();
+    std::shared_ptr<const MadePicture> fresh = maker_->take_finished();
+    const bool is_new = fresh != nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        if (is_new) {
+            if (!first_picture_) {
+                first_picture_ = now;
+                passed_ticks = 1;
+            }
+            ++books_.pictures;
+            books_.faults = maker_->faults();
+            note(*fresh, now);
+        } else if (!was_due) {
+            last_new_.reset();
+        }
+        if (!is_new && still_maker_) {
+            fresh = still_maker_->take_finished();
+            if (fresh && (transport_.is_live() || !is_same_view(fresh->job.camera, camera_) ||
+                          fresh->job.instant != instant_))
+                fresh.reset();
+        }
+        if (fresh) shown_ = state_.picture = std::move(fresh);
+        if (!shown_) return;
+        books_.ticks += passed_ticks;
+        books_.repeated += passed_ticks - 1 + (was_due && !is_new ? 1 : 0);
+        books_.duration_s = ms_between(*first_picture_, now) / 1000;
+    }
+    give_to_sinks(*shown_, passed_ticks);
+}
+
+void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
+    for (std::uint64_t i = 0; i < ticks; ++i, ++sink_ticks_) {
+        const ProgrammePicture picture{
+            sink_ticks_, shown.picture, shown.sources ? shown.sources->picture : shown.picture,
+            shown.job.instant->set,
+            title_of(shown, static_cast<double>(sink_ticks_) / settings_.rate_hz)};
+        for (Sink& sink : sinks_) {
+            if (!sink.state.failure.empty()) continue;
+            try {
+                sink.sink->take(picture);
+                ++sink.state.pictures;
+            } catch (const std::exception& error) {
+                sink.state.failure = error.what();
+                log_error("{} is closed, and the programme goes on: {}", sink.state.name,
+                          error.what());
+            }
+        }
+    }
+    const std::lock_guard lock(mutex_);
+    books_.sinks.clear();
+    for (const Sink& sink : sinks_) books_.sinks.push_back(sink.state);
+}
+
+ProgrammeState Programme::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+ProgrammeBooks Programme::books() const {
+    const std::lock_guard lock(mutex_);
+    ProgrammeBooks books = books_;
+    books.interval_ms = interval_ms_.summary();
+    books.latency_ms = latency_ms_.summary();
+    books.hand_ms = hand_ms_.summary();
+    books.render_ms = render_ms_.summary();
+    books.readback_ms = readback_ms_.summary();
+    return books;
+}
+
+}  // namespace vantage

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/base/percentiles.h"
+#include "host_app/flight/pilot.h"
+#include "host_app/instants/instant_thread.h"
+#include "host_app/output/picture_sink.h"
+#include "host_app/programme/governor.h"
+#include "host_app/programme/picture_maker.h"
+#include "host_app/replay/transport.h"
+
+namespace vantage {
+
+/// A sink as the programme sees it.
+struct SinkState {
+    std::string name;
+    std::uint64_t pictures = 0;
+    std::string failure;  ///< empty: it works
+};
+
+/// What the programme counted and measured.
+struct ProgrammeBooks {
+    std::uint64_t ticks = 0;     ///< since the first picture
+    std::uint64_t pictures = 0;  ///< ticks with a new one
+    std::uint64_t repeated = 0;  ///< ticks for which a new one was due and not ready
+    double duration_s = 0;       ///< since the first picture
+    Percentiles interval_ms;     ///< between two new pictures
+    Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
+    Percentiles hand_ms;         ///< from an input to the hand-over of the first picture with it
+    Percentiles render_ms, readback_ms;
+    std::vector<double> render_shares, prepare_shares;  ///< of the time, by level
+    int faults = 0;                                     ///< renderers that were made anew
+    std::vector<SinkState> sinks;
+};
+
+/// How the programme stands, for the desk.
+struct ProgrammeState {
+    std::shared_ptr<const MadePicture> picture;  ///< null before the first
+    OrbitView view;
+    bool is_held = false, source_map = false;
+    std::optional<double> behind_s;  ///< in the past: how far
+    std::string synthesiser;
+    int render_level = 0, prepare_level = 0;
+    double latency_ms = 0;
+};
+
+/// The programme's clock: at every tick the newest picture goes to the sinks, and the next one is
+/// begun, of the newest camera and the newest ready instant. It waits for nothing but its ticks: a
+/// tick without a new picture repeats the last one and is counted.
+class Programme {
+  public:
+    struct Settings {
+        PictureFormat format;
+        double rate_hz = 30, pulse_rate_hz = 30;
+        std::string synthesiser = default_synthesiser;
+        QualityWish quality;
+        bool source_map = false;  ///< shown at first
+    };
+    /// Makes contexts that share with the current one. Runs from start() on. `pilot` and `instants`
+    /// must outlive it.
+    Programme(Settings settings, InstantThread& instants, Pilot& pilot);
+    ~Programme();
+    Programme(const Programme&) = delete;
+    Programme& operator=(const Programme&) = delete;
+
+    /// Before start().
+    void add(std::unique_ptr<PictureSink> sink) { sinks_.push_back({std::move(sink), {}}); }
+    /// `is_over` is asked at every tick: pictures so far and seconds since the first tick.
+    void start(std::function<bool(std::uint64_t pictures, double time_s)> is_over);
+    /// Whether it ended by itself. Throws what ended it.
+    bool is_over() const;
+    /// Ends the ticks, then the sinks.
+    void stop();
+
+    ProgrammeState state() const;
+    ProgrammeBooks books() const;
+
+  private:
+    struct Sink {
+        std::unique_ptr<PictureSink> sink;
+        SinkState state;
+    };
+    void run();
+    /// Asks hands and plans; true if a picture is due that would differ from the last one.
+    bool look(double time_s, MonotonicTime now);
+    void wish_for_instant(MonotonicTime now);
+    void begin_picture();
+    void better_what_is_held(MonotonicTime now);
+    void follow_synthesiser();
+    void hand_over(std::uint64_t passed_ticks, bool was_due);
+    void give_to_sinks(const MadePicture& shown, std::uint64_t ticks);
+    void note(const MadePicture& made, MonotonicTime now);
+    /// How long before a tick its picture is to be begun.
+    std::chrono::nanoseconds lead() const;
+
+    Settings settings_;
+    InstantThread& instants_;
+    Pilot& pilot_;
+    EglContext contexts_[2], still_context_;  ///< of the maker and, while it changes, the next one
+    std::vector<Sink> sinks_;
+    std::function<bool(std::uint64_t, double)> is_over_;
+
+    // Of the programme's thread.
+    Governor governor_;
+    Transport transport_;
+    SynthesiserEntry entry_;  ///< that is wanted
+    std::size_t context_ = 0;  ///< of maker_
+    std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_;
+    OrbitView view_;
+    CameraState camera_;
+    std::optional<MonotonicTime> hand_;          ///< of an input that no picture has yet
+    std::shared_ptr<const ReadyInstant> instant_;
+    std::optional<PictureJob> begun_, begun_still_;
+    std::shared_ptr<const MadePicture> shown_;
+    MonotonicTime changed_{};                    ///< camera or time, last
+    std::optional<MonotonicTime> first_picture_, last_new_;
+    std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0;
+    bool source_map_ = false;
+    std::deque<double> make_ms_;  ///< of the last pictures
+
+    mutable std::mutex mutex_;
+    ProgrammeState state_;
+    ProgrammeBooks books_;
+    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, render_ms_, readback_ms_;
+    std::exception_ptr failure_;
+    bool is_ended_ = false;
+    std::atomic<bool> is_stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace vantage

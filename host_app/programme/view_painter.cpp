@@ -1,0 +1,63 @@
+#include "host_app/programme/view_painter.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/time.h"
+#include "common/gl/limits.h"
+
+namespace vantage {
+
+VirtualView view_of(const CameraState& camera, cv::Size size) {
+    return {size.width, size.height, camera.K(size.width, size.height), camera.world_from_camera};
+}
+
+ViewPainter::ViewPainter(const SynthesiserEntry& synthesiser, const PictureFormat& format,
+                         const ShaderLibrary& shaders)
+    : format_(format), renderer_(synthesiser.make_renderer(shaders)), overlay_(shaders) {}
+
+const Texture& ViewPainter::render(const Instant& instant, const CameraState& camera, cv::Size size,
+                                   const RenderLevel& level, bool is_map) {
+    const VirtualView target = view_of(camera, size);
+    const auto eye = [&](const VirtualView& view) -> const Texture& {
+        const Texture& plain = renderer_->render(instant, view, level);
+        const PixelOrigins* origins = is_map ? renderer_->origins() : nullptr;
+        return origins ? overlay_.lay(plain, *origins) : plain;
+    };
+    if (!format_.stereoscopy) return eye(target);
+    const auto [left, right] =
+        eye_views(target, format_.stereoscopy->settled(target, camera.focus_m));
+    side_by_side_.resize(size);
+    side_by_side_.put_left(eye(left));
+    side_by_side_.put_right(eye(right));
+    return side_by_side_.picture();
+}
+
+ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera,
+                               const RenderLevel& level, std::optional<SourceMap>* sources) {
+    const cv::Size full(format_.width_px, format_.height_px);
+    const cv::Size size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
+    const Texture& texture = render(instant, camera, size, level, false);
+    glFinish();
+    check_gl("rendering the virtual view");
+    const MonotonicTime start = MonotonicClock::now();
+    ColourImage picture = texture.download();
+    if (size != full) {
+        ColourImage enlarged;
+        cv::resize(picture, enlarged, full, 0, 0, cv::INTER_CUBIC);
+        picture = std::move(enlarged);
+    }
+    readback_ms_ = std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
+    if (sources && renderer_->note_origins(true)) {
+        const Texture& map = render(instant, camera, full, level, true);
+        SourceMap seen;
+        seen.picture = map.download();
+        for (const InstantRig& rig : instant.rigs) overlay_.name_rigs({rig.camera().name});
+        seen.shares = novelty_shares(seen.picture, *renderer_->origins());
+        seen.legend = overlay_.legend();
+        *sources = std::move(seen);
+        renderer_->note_origins(false);
+    }
+    return picture;
+}
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/image.h"
+#include "host_app/flight/camera_state.h"
+#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/synthesis/stereoscopy.h"
+#include "host_app/synthesis/synthesiser.h"
+
+namespace vantage {
+
+/// The programme's picture: one camera, or two eyes side by side.
+struct PictureFormat {
+    int width_px = 1280, height_px = 720;
+    /// Eyes that converge, where this does not say, at the focus.
+    std::optional<Stereoscopy> stereoscopy = {};
+};
+
+/// The view of a camera in a picture of this size.
+VirtualView view_of(const CameraState& camera, cv::Size size);
+
+/// The source map of a picture, for people and in numbers.
+struct SourceMap {
+    ColourImage picture;
+    NoveltyShares shares;
+    std::vector<NoveltyOverlay::Key> legend;
+};
+
+/// Renders whole pictures of instants and reads them back, on the context that was current at
+/// construction.
+class ViewPainter {
+  public:
+    ViewPainter(const SynthesiserEntry& synthesiser, const PictureFormat& format,
+                const ShaderLibrary& shaders);
+
+    /// Of the format's size, whatever size is rendered at this level. Waits for the GPU. With
+    /// `sources` also the source map, if the synthesiser can tell.
+    ColourImage paint(const Instant& instant, const CameraState& camera, const RenderLevel& level,
+                      std::optional<SourceMap>* sources = nullptr);
+    double last_readback_ms() const { return readback_ms_; }
+
+  private:
+    const Texture& render(const Instant& instant, const CameraState& camera, cv::Size size,
+                          const RenderLevel& level, bool is_map);
+
+    PictureFormat format_;
+    std::unique_ptr<ViewRenderer> renderer_;
+    NoveltyOverlay overlay_;
+    SideBySide side_by_side_;
+    double readback_ms_ = 0;
+};
+
+}  // namespace vantage

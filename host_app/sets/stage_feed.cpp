@@ -1,0 +1,12 @@
+#include "host_app/sets/stage_feed.h"
+
+namespace vantage {
+
+StageFeed feed_of(StageReceiver& receiver) {
+    return {
+        [&receiver](std::chrono::nanoseconds timeout) { return receiver.next(timeout); },
+        [&receiver] { return receiver.status(); },
+        [&receiver](const std::string& rig, bool streaming) { receiver.ask(rig, streaming, 1); }};
+}
+
+}  // namespace vantage
