@@ -47,75 +47,78 @@ struct FigurePose {
     Limb left_arm, right_arm, left_leg, right_leg;
 };
 
-FigurePose walk(const PerformerStyle& style, float t) {
-    // Strides are as long as the arc that is walked, so that feet do not slide.
-    constexpr float speed_m_per_s = 0.85f, stride_m = 1.3f;
-    const float distance =
-        speed_m_per_s * style.tempo * t + style.phase * tau * style.walk_radius_m;
-    const float around = distance / style.walk_radius_m;
-    const float gait = tau * distance / stride_m;
+/// An angle that is kept in double precision until its sine is taken: every one turns a whole
+/// number of times in a loop, so that motion has no seam.
+using Turns = double;
+float sine(Turns turns) { return static_cast<float>(std::sin(2 * std::numbers::pi * turns)); }
+float cosine(Turns turns) { return static_cast<float>(std::cos(2 * std::numbers::pi * turns)); }
+
+/// The way that is walked, and legs whose strides are as long as it, so that feet do not slide.
+FigurePose walk(const PerformerStyle& style, double share) {
+    const double way_m = style.speed_m_per_s() * std::chrono::duration<double>(stage_loop).count();
+    // People take longer strides when they walk faster.
+    const double usual_stride_m = 0.75 + 0.45 * style.speed_m_per_s();
+    const double strides = std::max(1.0, std::round(way_m / usual_stride_m));
+    const auto stride_of_model_m =
+        static_cast<float>(way_m / strides) * model_height_m / style.height_m;
+    const Turns around = style.laps * share + style.phase, gait = strides * share + style.phase;
     FigurePose pose;
-    pose.place_m =
-        style.home_m + style.walk_radius_m * Eigen::Vector2f(std::sin(around), std::cos(around));
-    pose.heading = around + 0.25f * tau;
-    const auto leg = [&](float phase) {
+    pose.place_m = style.walk_radius_m * Eigen::Vector2f(sine(around), cosine(around));
+    const Turns ahead = around - std::floor(around) + (style.laps < 0 ? -0.25 : 0.25);
+    pose.heading = tau * static_cast<float>(ahead);
+    const float swing = 0.31f * stride_of_model_m;
+    const auto leg = [&](Turns phase) {
         Limb limb;
-        limb.pitch = 0.40f * std::sin(phase);
-        limb.bend = 0.12f + 0.85f * std::pow(std::max(0.0f, std::cos(phase)), 2.0f);
-        limb.pitch += 0.35f * limb.bend;
+        const float lifted = std::max(0.0f, cosine(phase));
+        limb.bend = 0.12f + 0.85f * lifted * lifted;
+        limb.pitch = swing * sine(phase) + 0.35f * limb.bend;
         return limb;
     };
     pose.left_leg = leg(gait);
-    pose.right_leg = leg(gait + 0.5f * tau);
-    pose.left_arm = {-0.45f * std::sin(gait), 0.10f, 0.35f + 0.2f * std::sin(-gait)};
-    pose.right_arm = {0.45f * std::sin(gait), 0.10f, 0.35f + 0.2f * std::sin(gait)};
-    pose.twist = 0.10f * std::sin(gait);
-    pose.hip_roll = 0.03f * std::cos(gait);
+    pose.right_leg = leg(gait + 0.5);
+    pose.left_arm = {-1.1f * swing * sine(gait), 0.10f, 0.35f - 0.2f * sine(gait)};
+    pose.right_arm = {1.1f * swing * sine(gait), 0.10f, 0.35f + 0.2f * sine(gait)};
+    pose.twist = 0.10f * sine(gait);
+    pose.hip_roll = 0.03f * cosine(gait);
     pose.lean = 0.05f;
-    pose.head_yaw = 0.5f * std::sin(0.35f * t);
+    pose.head_yaw = 0.5f * sine(2 * share);
     return pose;
 }
 
-FigurePose dance(const PerformerStyle& style, float t) {
-    const float beat = tau * (1.0f * style.tempo * t + style.phase);
-    FigurePose pose;
-    pose.place_m = style.home_m +
-                   Eigen::Vector2f(0.16f * std::sin(0.5f * beat), 0.07f * std::sin(0.25f * beat));
-    pose.heading = 0.7f * std::sin(0.125f * beat) + tau * style.phase;
-    pose.sway = 0.14f * std::sin(0.5f * beat);
-    pose.hip_roll = -0.12f * std::sin(0.5f * beat);
-    pose.twist = 0.30f * std::sin(0.25f * beat + 0.6f);
-    pose.lean = 0.06f + 0.04f * std::sin(beat);
-    const float raise = 0.5f + 0.5f * std::sin(0.125f * beat);
-    pose.left_arm = {0.5f * std::sin(0.5f * beat), 0.5f + 1.7f * raise,
-                     0.6f + 0.4f * std::sin(beat)};
-    pose.right_arm = {0.5f * std::sin(0.5f * beat + 2.0f), 0.5f + 1.5f * (1 - raise),
-                      0.8f + 0.4f * std::cos(beat)};
-    const float dip = 0.22f + 0.16f * std::cos(beat);
-    const float kick = std::max(0.0f, std::sin(0.25f * beat));
-    pose.left_leg = {0.9f * dip + 0.35f * kick * kick, 0.16f, 1.8f * dip};
-    pose.right_leg = {0.9f * dip, 0.16f, 1.8f * dip};
-    pose.head_yaw = 0.35f * std::sin(0.25f * beat);
-    pose.head_pitch = 0.12f * std::sin(beat);
+FigurePose dance(const PerformerStyle& style, double share) {
+    const Turns beat = style.beats * share + style.phase;
+    FigurePose pose = walk(style, share);
+    pose.heading += 0.35f * sine(0.125 * beat);
+    pose.sway = 0.14f * sine(0.5 * beat);
+    pose.hip_roll = -0.12f * sine(0.5 * beat);
+    pose.twist = 0.30f * sine(0.25 * beat + 0.1);
+    pose.lean = 0.06f + 0.04f * sine(beat);
+    const float raise = 0.5f + 0.5f * sine(0.125 * beat);
+    pose.left_arm = {0.5f * sine(0.5 * beat), 0.5f + 1.7f * raise, 0.6f + 0.4f * sine(beat)};
+    pose.right_arm = {0.5f * sine(0.5 * beat + 0.32), 0.5f + 1.5f * (1 - raise),
+                      0.8f + 0.4f * cosine(beat)};
+    const float dip = 0.12f + 0.10f * cosine(beat);
+    for (Limb* leg : {&pose.left_leg, &pose.right_leg}) {
+        leg->pitch += dip;
+        leg->bend += 2 * dip;
+        leg->roll = 0.08f;
+    }
+    pose.head_yaw = 0.35f * sine(0.25 * beat);
+    pose.head_pitch = 0.12f * sine(beat);
     return pose;
 }
 
-FigurePose sing(const PerformerStyle& style, float t) {
-    const float beat = tau * (0.6f * style.tempo * t + style.phase);
-    FigurePose pose;
-    pose.place_m = style.home_m;
-    pose.heading = 0.18f * std::sin(0.3f * beat);
-    pose.sway = 0.05f * std::sin(0.5f * beat);
-    pose.hip_roll = -0.05f * std::sin(0.5f * beat);
-    pose.twist = 0.12f * std::sin(0.5f * beat);
-    pose.right_arm = {0.75f, 0.10f, 1.75f};  // holds the microphone
-    pose.left_arm = {0.35f + 0.4f * std::sin(0.5f * beat), 0.45f + 0.35f * std::sin(0.25f * beat),
-                     0.9f + 0.5f * std::sin(0.5f * beat + 1.0f)};
-    const float dip = 0.06f + 0.05f * std::cos(beat);
-    pose.left_leg = {dip, 0.10f, 2 * dip};
-    pose.right_leg = {dip, 0.08f, 2 * dip};
-    pose.head_pitch = 0.08f * std::sin(beat) - 0.05f;
-    pose.head_yaw = 0.15f * std::sin(0.4f * beat);
+FigurePose sing(const PerformerStyle& style, double share) {
+    const Turns beat = style.beats * share + style.phase;
+    FigurePose pose = walk(style, share);
+    pose.sway = 0.05f * sine(0.5 * beat);
+    pose.hip_roll = -0.05f * sine(0.5 * beat);
+    pose.twist = 0.12f * sine(0.5 * beat);
+    pose.right_arm = {0.75f, 0.10f, 1.75f};  // a hand at the mouth, as with a microphone
+    pose.left_arm = {0.35f + 0.4f * sine(0.5 * beat), 0.45f + 0.35f * sine(0.25 * beat),
+                     0.9f + 0.5f * sine(0.5 * beat + 0.16)};
+    pose.head_pitch = 0.08f * sine(beat) - 0.05f;
+    pose.head_yaw = 0.15f * sine(0.375 * beat);
     return pose;
 }
 
@@ -126,13 +129,32 @@ AngleAxisf about_z(float angle) { return {angle, Vector3f::UnitZ()}; }
 
 }  // namespace
 
-void pose_performer(const PerformerStyle& style, double time_s,
+double loop_share(std::chrono::nanoseconds stage_time) {
+    constexpr std::chrono::nanoseconds loop = stage_loop;
+    const std::chrono::nanoseconds into = (stage_time % loop + loop) % loop;
+    return static_cast<double>(into.count()) / static_cast<double>(loop.count());
+}
+
+double PerformerStyle::speed_m_per_s() const {
+    return 2 * std::numbers::pi * static_cast<double>(walk_radius_m) * std::abs(laps) /
+           std::chrono::duration<double>(stage_loop).count();
+}
+
+float PerformerStyle::reach_m() const {
+    // Of the model, over a loop: arms hang, a bent one stands out a little, or both are spread.
+    const float model_reach_m = move == PerformerMove::walk   ? 0.42f
+                                : move == PerformerMove::sing ? 0.65f
+                                                              : 0.95f;
+    return model_reach_m * height_m / model_height_m;
+}
+
+void pose_performer(const PerformerStyle& style, std::chrono::nanoseconds stage_time,
                     std::span<Affine3f> world_from_bone) {
     assert(world_from_bone.size() == bones_of_performer);
-    const auto t = static_cast<float>(time_s);
-    const FigurePose pose = style.move == PerformerMove::walk    ? walk(style, t)
-                            : style.move == PerformerMove::dance ? dance(style, t)
-                                                                 : sing(style, t);
+    const double share = loop_share(stage_time);
+    const FigurePose pose = style.move == PerformerMove::walk    ? walk(style, share)
+                            : style.move == PerformerMove::dance ? dance(style, share)
+                                                                 : sing(style, share);
     const auto bones = world_from_bone;
     bones[pelvis] = about_y(pose.heading) * about_z(pose.hip_roll);
     bones[chest] = bones[pelvis] * joint({0, waist_height_m, 0}) * about_y(pose.twist) *

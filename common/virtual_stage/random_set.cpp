@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -69,60 +70,96 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     }
 }
 
-/// Boards at any slant, free-standing between the middle and the walls.
-void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice) {
+/// The parts of the floor on which something may stand: off the performers' way, and on the rigs'
+/// side only near the performers, so that nothing stands right before a camera. The rigs' side is
+/// what lies within 80 degrees of +z.
+class FreeFloor {
+  public:
+    explicit FreeFloor(const std::vector<PerformerStyle>& performers) {
+        constexpr float gap_m = 0.08f;
+        for (const PerformerStyle& performer : performers) {
+            way_from_m_ = std::min(way_from_m_, performer.walk_radius_m - performer.reach_m());
+            way_to_m_ = std::max(way_to_m_, performer.walk_radius_m + performer.reach_m());
+        }
+        way_from_m_ -= gap_m;
+        way_to_m_ += gap_m;
+    }
+
+    /// A place for what fits into a circle, up to `farthest_m` from the middle of the stage.
+    Vector3f place(Dice& dice, float radius_m, float farthest_m) const {
+        for (;;) {
+            const float azimuth = dice.between(-0.5f * tau, 0.5f * tau);
+            const float from_middle_m = dice.between(0, farthest_m);
+            const bool off_the_way =
+                from_middle_m + radius_m < way_from_m_ || from_middle_m - radius_m > way_to_m_;
+            const bool in_sight = std::abs(azimuth) < rigs_side &&
+                                  from_middle_m + radius_m > std::max(way_to_m_, 0.0f) + 0.7f;
+            if (off_the_way && !in_sight)
+                return {from_middle_m * std::sin(azimuth), 0, from_middle_m * std::cos(azimuth)};
+        }
+    }
+
+  private:
+    static constexpr float rigs_side = 80 * tau / 360;
+    float way_from_m_ = 1e9f, way_to_m_ = 0;
+};
+
+/// Boards at any slant, free-standing between the performers and the walls.
+void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     const int boards = 5 + dice.below(5);
     for (int i = 0; i < boards; ++i) {
         mesh.begin_chunk();
-        const float azimuth = dice.between(0, tau), radius = dice.between(2.4f, 5.5f);
+        const Vector3f size_m(dice.between(0.6f, 2.0f), dice.between(0.5f, 1.6f), 0.05f);
+        const Vector3f at = free.place(dice, 0.5f * size_m.norm(), 5.5f);
         mesh.set_placement(
-            Affine3f(Eigen::Translation3f(radius * std::sin(azimuth), dice.between(0.4f, 2.2f),
-                                          radius * std::cos(azimuth))) *
+            Affine3f(Eigen::Translation3f(at.x(), dice.between(0.4f, 2.2f), at.z())) *
             AngleAxisf(dice.between(-1.2f, 1.2f), any_direction(dice)));
         mesh.set_material(any_material(dice, 0.8f));
-        mesh.box({0, 0, 0}, {dice.between(0.6f, 2.0f), dice.between(0.5f, 1.6f), 0.05f});
+        mesh.box({0, 0, 0}, size_m);
         mesh.end_chunk();
     }
 }
 
-void add_thing(StageMeshBuilder& mesh, Dice& dice) {
-    const float azimuth = dice.between(0, tau), radius = dice.between(0.3f, 3.2f);
-    const Vector3f at(radius * std::sin(azimuth), 0, radius * std::cos(azimuth));
-    mesh.set_placement(Affine3f(Eigen::Translation3f(at)) *
-                       AngleAxisf(dice.between(0, tau), Vector3f::UnitY()));
-    const float size = dice.between(0.15f, 0.5f);
-    switch (dice.below(5)) {
-        case 0:
+void add_thing(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
+    enum Thing { box, ball, column, ring, beam, things };
+    const auto thing = static_cast<Thing>(dice.below(things));
+    const float size = dice.between(0.15f, 0.5f), turn = dice.between(0, tau);
+    const float lean = thing == beam ? dice.between(-0.8f, 0.8f) : 0;
+    const float radius_m = thing == beam   ? std::abs(lean) + 0.2f
+                           : thing == ring ? 1.25f * size
+                                           : size;
+    mesh.set_placement(Affine3f(Eigen::Translation3f(free.place(dice, radius_m, 3.4f))) *
+                       AngleAxisf(turn, Vector3f::UnitY()));
+    switch (thing) {
+        case box:
             mesh.box({0, size, 0}, {1.4f * size, 2 * size, size});
             break;
-        case 1:
+        case ball:
             mesh.ellipsoid({0, size + dice.between(0, 1), 0},
                            {size, size * dice.between(0.6f, 1.4f), size}, 28, 18);
             break;
-        case 2:
+        case column:
             mesh.rod({0, 0, 0}, {0, dice.between(0.5f, 2.5f), 0}, 0.5f * size, 0.3f * size, 20);
             break;
-        case 3:
+        case ring:
             mesh.torus({0, size + 0.3f, 0}, size, 0.25f * size, 32, 14);
             break;
         default:
-            mesh.truss({0, 0, 0}, {dice.between(-0.8f, 0.8f), dice.between(1.0f, 2.6f), 0}, 0.22f,
-                       0.016f, 7);
+            mesh.truss({0, 0, 0}, {lean, dice.between(1.0f, 2.6f), 0}, 0.22f, 0.016f, 7);
             break;
     }
 }
 
-void add_wires(StageMeshBuilder& mesh, Dice& dice) {
+void add_wires(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     mesh.begin_chunk();
     mesh.set_material(matte(static_cast<int>(StageTexture::metal), any_tint(dice), 1.0f));
     const int wires = 4 + dice.below(6);
     for (int i = 0; i < wires; ++i) {
-        const float azimuth = dice.between(0, tau), radius = dice.between(0.5f, 3.5f);
-        const Vector3f foot(radius * std::sin(azimuth), 0, radius * std::cos(azimuth));
-        const Vector3f top = foot + Vector3f(dice.between(-0.7f, 0.7f), dice.between(1.2f, 3.0f),
-                                             dice.between(-0.7f, 0.7f));
-        const float thickness = dice.between(0.006f, 0.02f);
-        mesh.rod(foot, top, thickness, thickness, 6);
+        const Vector3f half_lean(dice.between(-0.35f, 0.35f), 0, dice.between(-0.35f, 0.35f));
+        const float height_m = dice.between(1.2f, 3.0f), thickness_m = dice.between(0.006f, 0.02f);
+        const Vector3f middle = free.place(dice, half_lean.norm() + thickness_m, 3.5f);
+        mesh.rod(middle - half_lean, middle + half_lean + Vector3f(0, height_m, 0), thickness_m,
+                 thickness_m, 6);
     }
     mesh.end_chunk();
 }
@@ -149,17 +186,20 @@ StageLighting any_lighting(Dice& dice) {
     return lighting;
 }
 
+/// One to three performers, evenly spread on one round way, so that they never meet.
 std::vector<PerformerStyle> any_cast(Dice& dice) {
     std::vector<PerformerStyle> performers;
     const int count = 1 + dice.below(3);
+    const float radius_m = dice.between(1.0f, 1.3f);
+    const int laps = (2 + dice.below(2)) * (dice.chance(0.5f) ? 1 : -1);
+    const float start = dice.between(0, 1);
     for (int i = 0; i < count; ++i) {
         PerformerStyle p;
         p.move = static_cast<PerformerMove>(dice.below(3));
-        p.home_m = {dice.between(-0.8f, 0.8f), dice.between(-0.8f, 0.8f)};
-        if (p.move == PerformerMove::walk) p.home_m.setZero();
-        p.walk_radius_m = dice.between(0.9f, 1.4f);
-        p.phase = dice.between(0, 1);
-        p.tempo = dice.between(0.7f, 1.3f);
+        p.walk_radius_m = radius_m;
+        p.laps = laps;
+        p.phase = static_cast<double>(start) + static_cast<double>(i) / count;
+        p.beats = 16 + 8 * dice.below(3);
         p.height_m = dice.between(1.5f, 1.95f);
         p.skin = matte(0, Vector3f(0.86f, 0.68f, 0.56f) * dice.between(0.55f, 1.05f), 1);
         p.hair = matte(static_cast<int>(StageTexture::speckle), any_tint(dice) * 0.6f, 4);
@@ -180,8 +220,10 @@ StageScene make_random_set(std::uint64_t seed) {
     StageScene scene;
     scene.texture_seed = seed;
     scene.lighting = any_lighting(dice);
+    scene.performers = any_cast(dice);
+    const FreeFloor free(scene.performers);
     add_room(scene.mesh, dice);
-    add_slanted_boards(scene.mesh, dice);
+    add_slanted_boards(scene.mesh, dice, free);
     for (const bool glossy : {false, true}) {
         scene.mesh.begin_chunk({.glossy = glossy});
         const int things = glossy ? 1 + dice.below(3) : 6 + dice.below(7);
@@ -192,13 +234,12 @@ StageScene make_random_set(std::uint64_t seed) {
                 material.mirror = dice.chance(0.3f) ? 0.8f : 0.15f;
             }
             scene.mesh.set_material(material);
-            add_thing(scene.mesh, dice);
+            add_thing(scene.mesh, dice, free);
         }
         scene.mesh.end_chunk();
     }
-    add_wires(scene.mesh, dice);
+    add_wires(scene.mesh, dice, free);
     add_sky(scene.mesh, any_tint(dice) * 0.5f);
-    scene.performers = any_cast(dice);
     add_performers(scene);
     return scene;
 }

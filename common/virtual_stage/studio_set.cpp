@@ -339,8 +339,7 @@ void add_risers(StageMeshBuilder& mesh) {
 std::vector<PerformerStyle> cast() {
     PerformerStyle walker;
     walker.move = PerformerMove::walk;
-    walker.walk_radius_m = 1.25f;
-    walker.phase = 0.62f;
+    walker.phase = 0.62;
     walker.skin = of(StageTexture::plain, {0.86f, 0.66f, 0.54f});
     walker.hair = of(StageTexture::speckle, {0.38f, 0.24f, 0.14f}, 4.0f);
     walker.top = of(StageTexture::plaid, {1, 1, 1}, 2.2f);
@@ -349,8 +348,7 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle dancer;
     dancer.move = PerformerMove::dance;
-    dancer.home_m = {-0.50f, -0.30f};
-    dancer.phase = 0.05f;
+    dancer.phase = walker.phase + 1.0 / 3;
     dancer.height_m = 1.70f;
     dancer.long_hair = true;
     dancer.skirt = true;
@@ -362,7 +360,8 @@ std::vector<PerformerStyle> cast() {
 
     PerformerStyle singer;
     singer.move = PerformerMove::sing;
-    singer.home_m = {0.58f, -0.08f};
+    singer.phase = walker.phase + 2.0 / 3;
+    singer.beats = 16;
     singer.height_m = 1.80f;
     singer.skin = of(StageTexture::plain, {0.90f, 0.72f, 0.60f});
     singer.hair = of(StageTexture::speckle, {0.78f, 0.62f, 0.34f}, 4.0f);
@@ -391,7 +390,7 @@ StageScene make_studio_set() {
     add_ceiling(mesh);
     add_lighting_grid(mesh);
     add_railing(mesh);
-    add_microphone_stand(mesh, 0.50f, 0.39f);
+    add_microphone_stand(mesh, 0, 0.06f);
     add_desk(mesh);
     add_plant(mesh, 0.28f * tau, 3.3f);
     add_plant(mesh, 0.72f * tau, 3.2f);

@@ -208,11 +208,10 @@ struct VirtualStage::Impl {
     /// Moves the performers and their shadows to a time, unless they are there.
     void go_to(std::chrono::nanoseconds time) {
         if (posed_time == time) return;
-        const double time_s = std::chrono::duration<double>(time).count();
         std::array<Eigen::Affine3f, bones_of_performer> bones;
         std::size_t bone = 1;
         for (const PerformerStyle& performer : scene.performers) {
-            pose_performer(performer, time_s, bones);
+            pose_performer(performer, time, bones);
             for (const Eigen::Affine3f& world_from_bone : bones) set_bone(bone++, world_from_bone);
         }
         shadow_target.bind();

@@ -42,14 +42,14 @@ struct StageOptions {
 
 /// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
 /// glossy and untextured parts. World: right-handed, metres, y up, floor at y = 0; the performers
-/// move around the origin within a circle of about 1.5 m radius. The same time always gives the
-/// same picture.
+/// walk round the origin, 1 to 1.3 m from it, and are back where they were after 24 s (stage_loop).
+/// The same time always gives the same picture, in every process and at any date.
 class VirtualStage {
   public:
     /// The show: the set the demo films.
     explicit VirtualStage(const ShaderLibrary& library);
-    /// Another set, made from a seed: other shapes, textures, lights and depths; for tests and
-    /// tuning.
+    /// Another set, made from a seed: other shapes, textures, lights, depths and performers.
+    /// Nothing stands right before cameras within 60 degrees of +z.
     VirtualStage(const ShaderLibrary& library, std::uint64_t seed);
     ~VirtualStage();
     VirtualStage(VirtualStage&&) noexcept;

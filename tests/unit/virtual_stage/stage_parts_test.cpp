@@ -1,7 +1,9 @@
 // The parts the stage is made of: projection, meshes, performers, textures.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@ namespace vantage {
 namespace {
 
 using Eigen::Vector3f;
+using namespace std::chrono_literals;
 
 TEST(StageProjection, PutsPixelCentresWhereKSays) {
     StageCamera camera;
@@ -146,35 +149,199 @@ TEST(StageMesh, ChunksHoldTheirTrianglesAndSpheres) {
     }
 }
 
-TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothly) {
-    for (const PerformerStyle& style : make_studio_set().performers) {
-        std::array<Eigen::Affine3f, bones_of_performer> bones, before;
-        double walked = 0;
-        for (int step = 0; step < 200; ++step) {
-            pose_performer(style, 0.04 * step, bones);
-            float lowest = 1e9f;
-            for (const Eigen::Affine3f& bone : bones) {
-                EXPECT_LT(bone.translation().cwiseProduct(Vector3f(1, 0, 1)).norm(), 2.3f);
-                EXPECT_GT(bone.translation().y(), 0.02f);
-                EXPECT_LT(bone.translation().y(), 2.4f);
-                lowest = std::min(lowest, bone.translation().y());
-                // Turned and evenly scaled, never sheared.
-                const Eigen::Matrix3f m = bone.linear() / (style.height_m / 1.75f);
-                EXPECT_LT((m * m.transpose() - Eigen::Matrix3f::Identity()).norm(), 1e-4f);
-            }
-            EXPECT_LT(lowest, 0.65f) << "a knee at least is that low";
-            if (step > 0) {
-                double farthest = 0;
+/// Dates that a stage may be filmed at, in the time since 1970: then, a day in 2026, another in
+/// 2260, and the moment before a loop ends.
+std::vector<std::chrono::nanoseconds> dates() {
+    constexpr std::chrono::seconds day_of_2026{1'795'350'007};
+    return {0s, day_of_2026, std::chrono::seconds{9'151'000'003}, 5'000'000 * stage_loop - 1s, -1s};
+}
+
+using Bones = std::array<Eigen::Affine3f, bones_of_performer>;
+Bones pose_of(const PerformerStyle& style, std::chrono::nanoseconds time) {
+    Bones bones;
+    pose_performer(style, time, bones);
+    return bones;
+}
+
+TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
+    constexpr std::chrono::milliseconds step = 40ms;
+    for (const std::chrono::nanoseconds date : dates())
+        for (const PerformerStyle& style : make_studio_set().performers) {
+            Bones before = pose_of(style, date - step);
+            for (int i = 0; i < 75; ++i) {
+                const Bones bones = pose_of(style, date + i * step);
+                float lowest = 1e9f;
+                for (const Eigen::Affine3f& bone : bones) {
+                    EXPECT_LT(bone.translation().cwiseProduct(Vector3f(1, 0, 1)).norm(), 2.3f);
+                    EXPECT_GT(bone.translation().y(), 0.02f);
+                    EXPECT_LT(bone.translation().y(), 2.4f);
+                    lowest = std::min(lowest, bone.translation().y());
+                    // Turned and evenly scaled, never sheared.
+                    const Eigen::Matrix3f m = bone.linear() / (style.height_m / 1.75f);
+                    EXPECT_LT((m * m.transpose() - Eigen::Matrix3f::Identity()).norm(), 1e-4f);
+                }
+                EXPECT_LT(lowest, 0.65f) << "a knee at least is that low";
+                float farthest = 0;
                 for (std::size_t b = 0; b < bones.size(); ++b)
-                    farthest = std::max<double>(
-                        farthest, (bones[b].translation() - before[b].translation()).norm());
-                EXPECT_LT(farthest, 0.25) << "in 40 ms";
-                walked += farthest;
+                    farthest = std::max(farthest,
+                                        (bones[b].translation() - before[b].translation()).norm());
+                EXPECT_LT(farthest, 0.16f) << "in 40 ms: no limb is faster than 4 m/s";
+                EXPECT_GT(farthest, 0.02f) << "nobody stands";
+                before = bones;
             }
-            before = bones;
         }
-        EXPECT_GT(walked, 0.5) << "it does move";
+}
+
+TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
+    for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u})
+        for (const PerformerStyle& style :
+             (seed == 0 ? make_studio_set() : make_random_set(seed)).performers) {
+            EXPECT_GE(style.speed_m_per_s(), 0.5);
+            EXPECT_LE(style.speed_m_per_s(), 1.5);
+            for (const std::chrono::nanoseconds date : dates())
+                for (const std::chrono::nanoseconds later : {1000ms, 1ms}) {
+                    const auto place = [&](std::chrono::nanoseconds time) {
+                        const Vector3f pelvis = pose_of(style, time)[0].translation();
+                        return Vector3f(pelvis.x(), 0, pelvis.z());
+                    };
+                    const double way_m = (place(date + later) - place(date)).norm();
+                    const double arc_m =
+                        style.speed_m_per_s() * std::chrono::duration<double>(later).count();
+                    const double radius_m = static_cast<double>(style.walk_radius_m);
+                    const double chord_m = 2 * radius_m * std::sin(0.5 * arc_m / radius_m);
+                    EXPECT_NEAR(way_m, chord_m, 0.01 * chord_m) << later.count() << " ns";
+                }
+        }
+}
+
+TEST(Performer, IsTheSameAfterEveryLoop) {
+    const PerformerStyle style = make_studio_set().performers[1];
+    for (const std::chrono::nanoseconds date : dates()) {
+        const Bones once = pose_of(style, date), again = pose_of(style, date + 7 * stage_loop);
+        for (std::size_t b = 0; b < once.size(); ++b)
+            EXPECT_EQ((once[b].matrix() - again[b].matrix()).norm(), 0);
     }
+}
+
+/// Cells of 4 cm over the stage, from above the floor to above everyone's hands.
+class Cells {
+  public:
+    /// The cell of a point; empty outside.
+    static std::optional<std::size_t> at(const Vector3f& p) {
+        constexpr float cell_m = 0.04f;
+        const Eigen::Vector3i c = ((p - Vector3f(-half_side_m, 0.03f, -half_side_m)) / cell_m)
+                                      .array()
+                                      .floor()
+                                      .cast<int>();
+        if ((c.array() < 0).any() || (c.array() >= side).any()) return std::nullopt;
+        return static_cast<std::size_t>((c.x() * side + c.y()) * side + c.z());
+    }
+    int& operator[](std::size_t cell) { return taken_[cell]; }
+
+  private:
+    static constexpr int side = 130;
+    static constexpr float half_side_m = 2.6f;
+    std::vector<int> taken_ = std::vector<int>(std::size_t{side} * side * side);
+};
+
+/// Points all over the surfaces of what stands still, `apart_m` from each other.
+template <class Visit>
+void for_each_point_of_set(const StageMeshBuilder& mesh, float farthest_m, float apart_m,
+                           Visit visit) {
+    for_each_triangle(mesh, [&](const auto& a, const auto& b, const auto& c) {
+        if (a.normal_and_bone[3] != 0) return;
+        const Vector3f o = position(a), u = position(b) - o, v = position(c) - o;
+        const Vector3f low = o.cwiseMin(o + u).cwiseMin(o + v),
+                       high = o.cwiseMax(o + u).cwiseMax(o + v);
+        if (low.x() > farthest_m || low.z() > farthest_m || high.x() < -farthest_m ||
+            high.z() < -farthest_m || high.y() < 0.03f)
+            return;
+        const int steps =
+            1 + static_cast<int>(std::max({u.norm(), v.norm(), (u - v).norm()}) / apart_m);
+        for (int i = 0; i <= steps; ++i)
+            for (int j = 0; i + j <= steps; ++j)
+                visit(Vector3f(o + (u * static_cast<float>(i) + v * static_cast<float>(j)) /
+                                       static_cast<float>(steps)));
+    });
+}
+
+class EverySet : public testing::TestWithParam<std::uint64_t> {
+  protected:
+    StageScene scene_ = GetParam() == 0 ? make_studio_set() : make_random_set(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Sets, EverySet, testing::Range<std::uint64_t>(0, 13));
+
+TEST_P(EverySet, PerformersNeverTouchTheSetNorEachOther) {
+    constexpr int the_set = -1, nobody = 0;
+    Cells cells;
+    for_each_point_of_set(scene_.mesh, 2.6f, 0.03f, [&](const Vector3f& p) {
+        if (const auto cell = Cells::at(p)) cells[*cell] = the_set;
+    });
+    // By bone, the vertices of everyone.
+    std::vector<std::vector<Vector3f>> of_bone(1 + scene_.performers.size() * bones_of_performer);
+    for (const StageVertex& v : scene_.mesh.vertices())
+        of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
+    constexpr int instants = 96;
+    std::array<int, 2> touched = {};  // the set, each other
+    for (int i = 0; i < instants; ++i) {
+        std::vector<std::size_t> taken;
+        for (std::size_t performer = 0; performer < scene_.performers.size(); ++performer) {
+            const Bones bones = pose_of(scene_.performers[performer], i * (stage_loop / instants));
+            for (std::size_t b = 0; b < bones.size(); ++b)
+                for (const Vector3f& v : of_bone[1 + performer * bones_of_performer + b]) {
+                    const auto cell = Cells::at(bones[b] * v);
+                    if (!cell) continue;
+                    int& holder = cells[*cell];
+                    const int who = static_cast<int>(performer) + 1;
+                    if (holder == nobody) taken.push_back(*cell);
+                    if (holder == the_set) ++touched[0];
+                    if (holder != nobody && holder != the_set && holder != who) ++touched[1];
+                    if (holder == nobody) holder = who;
+                }
+        }
+        EXPECT_GT(taken.size(), 500u) << "they are among the cells";
+        for (const std::size_t cell : taken) cells[cell] = nobody;
+    }
+    EXPECT_EQ(touched[0], 0) << "points that were within the set";
+    EXPECT_EQ(touched[1], 0) << "points that were within another performer";
+}
+
+TEST_P(EverySet, PerformersStayWithinTheirReach) {
+    std::vector<std::vector<Vector3f>> of_bone(1 + scene_.performers.size() * bones_of_performer);
+    for (const StageVertex& v : scene_.mesh.vertices())
+        of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
+    for (std::size_t performer = 0; performer < scene_.performers.size(); ++performer) {
+        const PerformerStyle& style = scene_.performers[performer];
+        float farthest = 0;
+        for (int i = 0; i < 96; ++i) {
+            const Bones bones = pose_of(style, i * (stage_loop / 96));
+            for (std::size_t b = 0; b < bones.size(); ++b)
+                for (const Vector3f& v : of_bone[1 + performer * bones_of_performer + b]) {
+                    const Vector3f p = bones[b] * v;
+                    farthest = std::max(farthest,
+                                        std::abs(std::hypot(p.x(), p.z()) - style.walk_radius_m));
+                }
+        }
+        EXPECT_LE(farthest, style.reach_m());
+        EXPECT_GT(farthest, 0.5f * style.reach_m()) << "and need it";
+    }
+}
+
+TEST_P(EverySet, NothingStandsRightBeforeTheRigs) {
+    std::vector<Vector3f> rigs;
+    for (const float azimuth : {-1.05f, -0.7f, -0.35f, 0.0f, 0.35f, 0.7f, 1.05f})
+        for (const float elevation : {0.09f, 0.17f, 0.35f})
+            for (const float distance : {4.0f, 4.5f})
+                rigs.push_back(Vector3f(0, 1, 0) +
+                               distance * Vector3f(std::cos(elevation) * std::sin(azimuth),
+                                                   std::sin(elevation),
+                                                   std::cos(elevation) * std::cos(azimuth)));
+    float nearest = 1e9f;
+    for_each_point_of_set(scene_.mesh, 6, 0.1f, [&](const Vector3f& p) {
+        for (const Vector3f& rig : rigs) nearest = std::min(nearest, (p - rig).norm());
+    });
+    EXPECT_GT(nearest, 0.9f) << "metres from a camera: a low ceiling is that near";
+    EXPECT_LT(nearest, 9.0f);
 }
 
 TEST(StageTextures, RepeatForASeedAndDifferForAnother) {
