@@ -43,6 +43,7 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("baseline_m", rig.baseline_m, {0.001, 10});
     table.read("field_of_view_deg", rig.field_of_view_deg, {1, 150});
     table.read("doffs_px", rig.doffs_px, {-4096, 4096});
+    table.read("set", rig.set, {0, 1000000});
 }
 
 void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {

@@ -46,6 +46,7 @@ struct RigConfig {
         double azimuth_deg = 0, elevation_deg = 10, distance_m = 4.5, baseline_m = 0.12,
                field_of_view_deg = 50;
         double doffs_px = 0;  ///< cx_right - cx_left; files only
+        int set = 0;          ///< of the virtual stage: 0 the show, others generated
     } virtual_rig;
 
     struct Trigger {

@@ -43,6 +43,8 @@ TextureFormatInfo format_info(TextureFormat format) {
             return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, CV_32FC4};
         case TextureFormat::depth24:
             return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4, -1};
+        case TextureFormat::depth32f:
+            return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, -1};
     }
     fail("unknown texture format {}", static_cast<int>(format));
 }

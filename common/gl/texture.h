@@ -29,6 +29,7 @@ enum class TextureFormat {
     rg32f,
     rgba32f,  // float: colour targets where EXT_color_buffer_float is there
     depth24,
+    depth32f,
 };
 
 struct TextureFormatInfo {

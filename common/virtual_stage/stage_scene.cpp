@@ -13,6 +13,10 @@ StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float textur
     return material;
 }
 
+StageScene make_set(std::uint64_t set) {
+    return set == 0 ? make_studio_set() : make_random_set(set);
+}
+
 void add_performers(StageScene& scene) {
     int bone = 1;
     for (const PerformerStyle& performer : scene.performers) {

@@ -33,6 +33,9 @@ StageScene make_studio_set();
 /// Another room for every seed.
 StageScene make_random_set(std::uint64_t seed);
 
+/// Set 0 is the studio, any other one random.
+StageScene make_set(std::uint64_t set);
+
 /// Adds the performers' meshes and gives them their bones.
 void add_performers(StageScene& scene);
 

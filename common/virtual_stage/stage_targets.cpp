@@ -1,30 +1,55 @@
 #include "common/virtual_stage/stage_targets.h"
 
 namespace vantage {
+namespace {
+
+/// Buffers of one format each: drivers that draw with the processor copy their bytes.
+void copy(const Framebuffer& from, const Framebuffer& to) {
+    to.bind();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+    const cv::Size size = to.size();
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,
+                      GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace
 
 StageTargets::StageTargets(cv::Size size, int samples_per_side)
     : size_(size),
       samples_per_side_(samples_per_side),
       samples_(TextureFormat::rgba8, size.width * samples_per_side, size.height * samples_per_side,
                Filter::linear),
-      sample_order_(TextureFormat::depth24, samples_.width_px(), samples_.height_px()),
+      sample_order_(TextureFormat::depth32f, samples_.width_px(), samples_.height_px()),
       reduced_(TextureFormat::rgba8, size.width, size.height),
       depth_bits_(TextureFormat::r32ui, size.width, size.height),
-      depth_order_(TextureFormat::depth24, size.width, size.height),
+      depth_order_(TextureFormat::depth32f, size.width, size.height),
       sampled_target_({&samples_}, &sample_order_),
       reduced_target_({&reduced_}),
       depth_target_({&depth_bits_}, &depth_order_) {}
 
-void StageTargets::read_colour(FullscreenPass& reduce, cv::Mat& image) const {
-    if (samples_per_side_ == 1) {
-        sampled_target_.read(0, image);
-        return;
-    }
+void StageTargets::copy_samples(const StageTargets& other) const {
+    copy(other.sampled_target_, sampled_target_);
+}
+
+void StageTargets::copy_depth(const StageTargets& other) const {
+    copy(other.depth_target_, depth_target_);
+}
+
+void StageTargets::reduce_colour(FullscreenPass& reduce, std::span<const cv::Rect> parts) const {
+    if (samples_per_side_ == 1) return;
     Program& program = reduce.use();
     samples_.bind(0);
     program.set("samples", 0);
-    reduce.draw(reduced_target_);
-    reduced_target_.read(0, image);
+    glEnable(GL_SCISSOR_TEST);
+    for (const cv::Rect& part : parts) {
+        glScissor(part.x, part.y, part.width, part.height);
+        reduce.draw(reduced_target_);
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void StageTargets::read_colour(cv::Mat& image) const {
+    (samples_per_side_ == 1 ? sampled_target_ : reduced_target_).read(0, image);
 }
 
 }  // namespace vantage

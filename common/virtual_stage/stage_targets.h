@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <opencv2/core.hpp>
 
 #include "common/gl/framebuffer.h"
@@ -11,7 +13,8 @@ namespace vantage {
 /// What a picture of one size is drawn into: several samples a pixel for colour, one, at the
 /// pixel's centre, for depth. Samples lie in a square grid in a larger texture: a software
 /// rasteriser draws four of them in the time of its four-fold multisampling, and textures and
-/// highlights gain as well as edges.
+/// highlights gain as well as edges. Their order is kept as floats, which a shader hands on
+/// unchanged.
 class StageTargets {
   public:
     /// `samples_per_side` is 1 or 2. Throws Error if the driver cannot or memory is short.
@@ -20,9 +23,16 @@ class StageTargets {
     cv::Size size() const { return size_; }
     int samples_per_side() const { return samples_per_side_; }
     void bind_colour() const { sampled_target_.bind(); }
-    /// Makes pixels of the samples with `reduce` (stage_reduce.frag) and reads the picture back.
-    void read_colour(FullscreenPass& reduce, cv::Mat& image) const;
     void bind_depth() const { depth_target_.bind(); }
+
+    /// Takes the samples of another one of its kind, or its depth.
+    void copy_samples(const StageTargets& other) const;
+    void copy_depth(const StageTargets& other) const;
+
+    /// Makes pixels of the samples with `reduce` (stage_reduce.frag), in these parts of the picture
+    /// only.
+    void reduce_colour(FullscreenPass& reduce, std::span<const cv::Rect> parts) const;
+    void read_colour(cv::Mat& image) const;
     /// As CV_32SC1 holding the bits of floats.
     void read_depth_bits(cv::Mat& image) const { depth_target_.read(0, image); }
 

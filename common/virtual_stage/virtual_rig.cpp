@@ -151,11 +151,12 @@ ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
     const bool has_lens = !sensor.positions.empty();
     // Through a lens, the points of a pixel are its samples, spread like those of pinhole pictures:
     // averaging them spreads by the deviation of points_per_side even steps already.
-    ColourImage pinhole =
-        stage
-            .render(sensor.camera, stage_time,
-                    {.pictures = StagePictures::colour, .anti_aliased = !has_lens})
-            .colour;
+    ColourImage pinhole = stage
+                              .render(sensor.camera, stage_time,
+                                      {.pictures = StagePictures::colour,
+                                       .anti_aliased = !has_lens,
+                                       .stands_still = true})
+                              .colour;
     if (!has_lens) return pinhole;
     ColourImage points, picture;
     cv::remap(pinhole, points, sensor.positions, cv::noArray(), cv::INTER_LINEAR);
@@ -172,8 +173,8 @@ VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseco
     frame.left = see(left_, stage, stage_time);
     frame.right = see(right_, stage, stage_time);
     if (with_exact_disparity_) {
-        const StageRendering exact =
-            stage.render(rectified_left_, stage_time, {.pictures = StagePictures::depth});
+        const StageRendering exact = stage.render(
+            rectified_left_, stage_time, {.pictures = StagePictures::depth, .stands_still = true});
         frame.exact_disparity = disparity_from_depth(exact.depth_m, rectified_);
     }
     add_sensor_noise(frame.left, noise_, 0, frame_index);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include "common/gl/limits.h"
 #include "common/gl/program.h"
 #include "common/gl/vertex_array.h"
+#include "common/virtual_stage/stage_bounds.h"
 #include "common/virtual_stage/stage_projection.h"
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_targets.h"
@@ -30,7 +32,9 @@ constexpr double near_m = 0.1, far_m = 100;
 constexpr int max_bones = 40;
 constexpr int shadow_side_px = 1024;
 constexpr float shadow_half_size_m = 4.2f;
-constexpr std::size_t kept_targets = 4;
+constexpr std::size_t kept_targets = 4, kept_sets = 4;
+/// What a shadow reaches beyond its edge: look-ups lie beside the surface and between texels.
+constexpr float shadow_margin_m = 0.05f;
 
 enum TextureUnit { unit_textures, unit_shadow };
 
@@ -68,6 +72,36 @@ class StateGuard {
   private:
     GLint framebuffer_ = 0;
     GLint viewport_[4] = {};
+};
+
+bool are_same(const StageCamera& a, const StageCamera& b) {
+    return a.width_px == b.width_px && a.height_px == b.height_px && a.K == b.K &&
+           a.world_from_camera.matrix() == b.world_from_camera.matrix();
+}
+
+/// A camera's picture of the set, without what moves on it, and that with it.
+struct KeptSet {
+    KeptSet(const StageCamera& from, int samples_per_side)
+        : camera(from),
+          still({from.width_px, from.height_px}, samples_per_side),
+          moving({from.width_px, from.height_px}, samples_per_side),
+          differing({from.width_px, from.height_px}) {
+        differing.add(cv::Rect(0, 0, from.width_px, from.height_px));
+    }
+
+    StageCamera camera;
+    StageTargets still, moving;
+    std::vector<cv::Rect> seen;  ///< by triangle that performers may shade: where, or nowhere
+    PictureParts differing;      ///< where the colour of `moving` is not that of `still`
+    bool has_colour = false, has_depth = false;
+};
+
+/// Of the set, where shadows fall.
+struct Triangle {
+    const StageChunk* chunk;
+    std::size_t first_index;
+    std::array<Eigen::Vector3f, 3> corners_m;
+    cv::Rect in_shadow_map;  ///< in texels
 };
 
 /// The shaders for one way of looking a surface up.
@@ -171,13 +205,20 @@ struct VirtualStage::Impl {
                  {{"POINT_SPREAD_PX", fmt::format("{}", point_spread_px)}}),
           shadow_from_world(clip_from_world_parallel(scene.lighting.key_direction, {0, 1, 0},
                                                      shadow_half_size_m)),
-          bone_rows(3 * (1 + scene.performers.size() * bones_of_performer)) {
+          bone_rows(3 * (1 + scene.performers.size() * bones_of_performer)),
+          vertices_of_bone(bone_rows.size() / 3),
+          points_m_of_bone(vertices_of_bone.size()) {
         assert(bone_rows.size() <= std::size_t{3} * max_bones);
         set_bone(0, Eigen::Affine3f::Identity());
+        for (const StageVertex& v : scene.mesh.vertices())
+            if (v.normal_and_bone[3] > 0)
+                vertices_of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].emplace_back(
+                    v.position_m[0], v.position_m[1], v.position_m[2]);
         const StateGuard guard;
         still_shadow_target.bind();
         glClear(GL_DEPTH_BUFFER_BIT);
         draw_shadows(false);
+        find_shadeable();
     }
 
     /// The programs by what is drawn first: near and small before far and large.
@@ -205,6 +246,15 @@ struct VirtualStage::Impl {
                 world_from_bone.matrix().row(row).transpose();
     }
 
+    /// Leaves the set's own shadows only.
+    void take_performers_away() {
+        shadow_target.bind();
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, still_shadow_target.name());
+        glBlitFramebuffer(0, 0, shadow_side_px, shadow_side_px, 0, 0, shadow_side_px,
+                          shadow_side_px, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        posed_time.reset();
+    }
+
     /// Moves the performers and their shadows to a time, unless they are there.
     void go_to(std::chrono::nanoseconds time) {
         if (posed_time == time) return;
@@ -212,13 +262,17 @@ struct VirtualStage::Impl {
         std::size_t bone = 1;
         for (const PerformerStyle& performer : scene.performers) {
             pose_performer(performer, time, bones);
-            for (const Eigen::Affine3f& world_from_bone : bones) set_bone(bone++, world_from_bone);
+            for (const Eigen::Affine3f& world_from_bone : bones) {
+                set_bone(bone, world_from_bone);
+                points_m_of_bone[bone].clear();
+                for (const Eigen::Vector3f& at : vertices_of_bone[bone])
+                    points_m_of_bone[bone].push_back(world_from_bone * at);
+                ++bone;
+            }
         }
-        shadow_target.bind();
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, still_shadow_target.name());
-        glBlitFramebuffer(0, 0, shadow_side_px, shadow_side_px, 0, 0, shadow_side_px,
-                          shadow_side_px, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        take_performers_away();
         draw_shadows(true);
+        find_shaded();
         posed_time = time;
     }
 
@@ -295,13 +349,108 @@ struct VirtualStage::Impl {
         program.set("shadow_map", static_cast<int>(unit_shadow));
     }
 
-    void draw_colour(const StageCamera& camera, StageTargets& target, ColourImage& picture) {
-        const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
-        const std::vector<const StageChunk*> chunks = in_view(camera, clip);
-        prepare_to_draw_solids();
-        target.bind_colour();
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    /// The picture of a camera's set, made anew where there is none; the one that was asked for
+    /// least recently goes for it.
+    KeptSet& kept_set(const StageCamera& camera, int samples_per_side) {
+        const auto at = std::find_if(sets.begin(), sets.end(), [&](const auto& kept) {
+            return kept->still.samples_per_side() == samples_per_side &&
+                   are_same(kept->camera, camera);
+        });
+        if (at != sets.end()) {
+            std::rotate(at, at + 1, sets.end());
+            return *sets.back();
+        }
+        if (sets.size() == kept_sets) sets.erase(sets.begin());
+        sets.push_back(std::make_unique<KeptSet>(camera, samples_per_side));
+        return *sets.back();
+    }
+
+    /// Triangles of the set on which shadows fall, and where they are in the shadow map.
+    void find_shadeable() {
+        const std::vector<std::uint32_t>& index = scene.mesh.indices();
+        for (const StageChunk& chunk : scene.mesh.chunks()) {
+            if (chunk.kind.animated || chunk.kind.shadow == ShadowLookup::none) continue;
+            for (std::size_t i = chunk.first_index; i < chunk.first_index + chunk.index_count;
+                 i += 3) {
+                Triangle triangle{&chunk, i, {}, {}};
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const auto& at = scene.mesh.vertices()[index[i + c]].position_m;
+                    triangle.corners_m[c] = {at[0], at[1], at[2]};
+                }
+                triangle.in_shadow_map = in_shadow_map(triangle.corners_m);
+                shadeable.push_back(triangle);
+            }
+        }
+    }
+
+    /// The texels of the shadow map that points may be shaded by, or shade.
+    cv::Rect in_shadow_map(std::span<const Eigen::Vector3f> points) const {
+        constexpr float margin = shadow_margin_m * shadow_side_px / (2 * shadow_half_size_m);
+        Eigen::Array2f low(1e9f, 1e9f), high(-1e9f, -1e9f);
+        for (const Eigen::Vector3f& point : points) {
+            const Eigen::Vector4f at = shadow_from_world * point.homogeneous();
+            const Eigen::Array2f texel = (at.head<2>().array() + 1) * (0.5f * shadow_side_px);
+            low = low.min(texel);
+            high = high.max(texel);
+        }
+        const Eigen::Array2i from = (low - margin).floor().cast<int>(),
+                             to = (high + margin).ceil().cast<int>();
+        return {cv::Point(from.x(), from.y()), cv::Point(to.x(), to.y())};
+    }
+
+    /// The triangles that performers may shade where they are now, chunk after chunk, for the GPU.
+    void find_shaded() {
+        PictureParts dark({shadow_side_px, shadow_side_px});
+        for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
+            if (!points.empty()) dark.add(in_shadow_map(points));
+        shaded.clear();
+        std::vector<std::uint32_t> order;
+        for (std::size_t t = 0; t < shadeable.size(); ++t) {
+            if (!dark.holds_any_of(shadeable[t].in_shadow_map)) continue;
+            shaded.push_back(t);
+            const auto first = scene.mesh.indices().begin() +
+                               static_cast<std::ptrdiff_t>(shadeable[t].first_index);
+            order.insert(order.end(), first, first + 3);
+        }
+        shaded_indices = Buffer::of(std::span(std::as_const(order)), GL_STREAM_DRAW);
+    }
+
+    /// Draws the surfaces under shadows once more, exactly where they are.
+    void draw_shaded(const StageCamera& camera, const Eigen::Matrix4f& clip) {
+        std::vector<const StageChunk*> chunks;
+        for (const std::size_t t : shaded)
+            if (chunks.empty() || chunks.back() != shadeable[t].chunk)
+                chunks.push_back(shadeable[t].chunk);
+        glDepthFunc(GL_EQUAL);
+        draw_colours(camera, clip, chunks, [&](const StageChunk& chunk) {
+            const auto of_chunk = [&](std::size_t t) { return shadeable[t].chunk == &chunk; };
+            const auto first = std::find_if(shaded.begin(), shaded.end(), of_chunk),
+                       last = std::find_if_not(first, shaded.end(), of_chunk);
+            shaded_indices->bind(GL_ELEMENT_ARRAY_BUFFER);
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * (last - first)), GL_UNSIGNED_INT,
+                           as_offset(3 * sizeof(std::uint32_t) *
+                                     static_cast<std::size_t>(first - shaded.begin())));
+        });
+        // The vertex array remembers which indices it draws.
+        vertex_array.bind();
+        indices.bind(GL_ELEMENT_ARRAY_BUFFER);
+        glDepthFunc(GL_LESS);
+    }
+
+    /// The parts of the picture that show performers, or what they may shade.
+    PictureParts changing_parts(const KeptSet& kept) const {
+        const ScreenBounds bounds(kept.camera);
+        PictureParts parts(kept.moving.size());
+        for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
+            if (!points.empty()) parts.add(bounds.of(points));
+        for (const std::size_t t : shaded) parts.add(kept.seen[t]);
+        return parts;
+    }
+
+    /// Draws what `draws` calls for, with the program of each of `chunks`.
+    template <class Draws>
+    void draw_colours(const StageCamera& camera, const Eigen::Matrix4f& clip,
+                      const std::vector<const StageChunk*>& chunks, Draws draws) {
         glActiveTexture(GL_TEXTURE0 + unit_textures);
         glBindTexture(GL_TEXTURE_2D_ARRAY, textures.name());
         shadow.bind(unit_shadow);
@@ -312,28 +461,117 @@ struct VirtualStage::Impl {
                 if (chunk->kind.glossy != way.glossy || chunk->kind.shadow != way.shadow) continue;
                 if (!in_use) prepare(way.program, camera, clip);
                 in_use = true;
-                draw(*chunk);
+                draws(*chunk);
             }
         }
-        picture.create(camera.height_px, camera.width_px);
-        target.read_colour(reduce, picture);
     }
 
-    void draw_depth(const StageCamera& camera, StageTargets& target, DepthImage& depth_m) {
+    void draw_colour(const StageCamera& camera, const StageTargets& target,
+                     const std::vector<const StageChunk*>& chunks) {
+        prepare_to_draw_solids();
+        target.bind_colour();
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        draw_colours(camera, clip_from_world(camera, near_m, far_m), chunks, draw);
+        const cv::Rect whole({}, target.size());
+        target.reduce_colour(reduce, {&whole, 1});
+    }
+
+    /// Draws what moves, and its shadows, over the set.
+    void draw_colour_over(KeptSet& kept, const std::vector<const StageChunk*>& chunks) {
+        const StageCamera& camera = kept.camera;
+        const StageTargets& target = kept.moving;
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
+        target.copy_samples(kept.still);
+        prepare_to_draw_solids();
+        target.bind_colour();
+
+        draw_shaded(camera, clip);
+        draw_colours(camera, clip, moving(chunks), draw);
+
+        PictureParts changed = changing_parts(kept);
+        std::swap(kept.differing, changed);
+        changed.add(kept.differing);
+        target.reduce_colour(reduce, changed.rectangles());
+    }
+
+    void draw_depth(const StageCamera& camera, const std::vector<const StageChunk*>& chunks) {
+        prepare_to_draw_solids();
+        vertex_array.bind();
+        depth_program.use();
+        depth_program.set("clip_from_world", clip_from_world(camera, near_m, far_m));
+        depth_program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
+        for (const StageChunk* chunk : chunks) draw(*chunk);
+    }
+
+    void draw_whole_depth(const StageCamera& camera, const StageTargets& target,
+                          const std::vector<const StageChunk*>& chunks) {
         prepare_to_draw_solids();
         target.bind_depth();
         constexpr GLuint nothing[4] = {0, 0, 0, 0};
         glClearBufferuiv(GL_COLOR, 0, nothing);
         glClear(GL_DEPTH_BUFFER_BIT);
-        vertex_array.bind();
-        depth_program.use();
-        depth_program.set("clip_from_world", clip);
-        depth_program.set("bones", std::span<const Eigen::Vector4f>(bone_rows));
-        for (const StageChunk* chunk : in_view(camera, clip)) draw(*chunk);
-        depth_m.create(camera.height_px, camera.width_px);
-        cv::Mat bits(depth_m.size(), CV_32SC1, depth_m.data);
-        target.read_depth_bits(bits);
+        draw_depth(camera, chunks);
+    }
+
+    static std::vector<const StageChunk*> still(const std::vector<const StageChunk*>& chunks) {
+        std::vector<const StageChunk*> still_ones;
+        std::copy_if(chunks.begin(), chunks.end(), std::back_inserter(still_ones),
+                     [](const StageChunk* chunk) { return !chunk->kind.animated; });
+        return still_ones;
+    }
+    static std::vector<const StageChunk*> moving(const std::vector<const StageChunk*>& chunks) {
+        std::vector<const StageChunk*> moving_ones;
+        std::copy_if(chunks.begin(), chunks.end(), std::back_inserter(moving_ones),
+                     [](const StageChunk* chunk) { return chunk->kind.animated; });
+        return moving_ones;
+    }
+
+    StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time,
+                          const StageOptions& options, int samples_per_side) {
+        const std::vector<const StageChunk*> chunks =
+            in_view(camera, clip_from_world(camera, near_m, far_m));
+        const bool with_colour = options.pictures != StagePictures::depth,
+                   with_depth = options.pictures != StagePictures::colour;
+        KeptSet* kept = options.stands_still ? &kept_set(camera, samples_per_side) : nullptr;
+        const StageTargets& target =
+            kept ? kept->moving
+                 : targets_for({camera.width_px, camera.height_px}, samples_per_side);
+        if (kept && with_colour && !kept->has_colour) {
+            take_performers_away();
+            draw_colour(camera, kept->still, still(chunks));
+            const ScreenBounds bounds(camera);
+            for (const Triangle& triangle : shadeable)
+                kept->seen.push_back(bounds.of(triangle.corners_m));
+            kept->has_colour = true;
+        }
+        if (kept && with_depth && !kept->has_depth) {
+            draw_whole_depth(camera, kept->still, still(chunks));
+            kept->has_depth = true;
+        }
+        go_to(stage_time);
+        StageRendering rendering;
+        if (with_colour) {
+            if (kept)
+                draw_colour_over(*kept, chunks);
+            else
+                draw_colour(camera, target, chunks);
+            rendering.colour.create(camera.height_px, camera.width_px);
+            target.read_colour(rendering.colour);
+        }
+        if (with_depth) {
+            if (kept) {
+                target.copy_depth(kept->still);
+                target.bind_depth();
+                draw_depth(camera, moving(chunks));
+            } else {
+                draw_whole_depth(camera, target, chunks);
+            }
+            rendering.depth_m.create(camera.height_px, camera.width_px);
+            cv::Mat bits(rendering.depth_m.size(), CV_32SC1, rendering.depth_m.data);
+            target.read_depth_bits(bits);
+        }
+        return rendering;
     }
 
     StageScene scene;
@@ -347,14 +585,18 @@ struct VirtualStage::Impl {
     FullscreenPass reduce;
     Eigen::Matrix4f shadow_from_world;
     std::vector<Eigen::Vector4f> bone_rows;
+    std::vector<std::vector<Eigen::Vector3f>> vertices_of_bone;  ///< in the bone's frame
+    std::vector<std::vector<Eigen::Vector3f>> points_m_of_bone;  ///< where these are now
+    std::vector<Triangle> shadeable;
+    std::vector<std::size_t> shaded;       ///< the shadeable ones that performers may shade now
+    std::optional<Buffer> shaded_indices;  ///< of their corners
     std::optional<std::chrono::nanoseconds> posed_time;
     std::vector<std::unique_ptr<StageTargets>> targets;
+    std::vector<std::unique_ptr<KeptSet>> sets;
 };
 
-VirtualStage::VirtualStage(const ShaderLibrary& library)
-    : impl_(std::make_unique<Impl>(library, make_studio_set())) {}
-VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(library, make_random_set(seed))) {}
+VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t set)
+    : impl_(std::make_unique<Impl>(library, make_set(set))) {}
 VirtualStage::~VirtualStage() = default;
 VirtualStage::VirtualStage(VirtualStage&&) noexcept = default;
 VirtualStage& VirtualStage::operator=(VirtualStage&&) noexcept = default;
@@ -364,16 +606,8 @@ StageRendering VirtualStage::render(const StageCamera& camera, std::chrono::nano
     validate(camera);
     const bool samples_fit =
         2 * std::max(camera.width_px, camera.height_px) <= PiLimits::max_image_side_px;
-    StageTargets& target = impl_->targets_for({camera.width_px, camera.height_px},
-                                              options.anti_aliased && samples_fit ? 2 : 1);
     const StateGuard guard;
-    impl_->go_to(stage_time);
-    StageRendering rendering;
-    if (options.pictures != StagePictures::depth)
-        impl_->draw_colour(camera, target, rendering.colour);
-    if (options.pictures != StagePictures::colour)
-        impl_->draw_depth(camera, target, rendering.depth_m);
-    return rendering;
+    return impl_->render(camera, stage_time, options, options.anti_aliased && samples_fit ? 2 : 1);
 }
 
 }  // namespace vantage

@@ -38,6 +38,10 @@ struct StageOptions {
     /// Colour as lens and sensor see it, from four samples a pixel; up to 2048 pixels a side.
     /// Otherwise a point sample at every pixel's centre.
     bool anti_aliased = true;
+    /// The camera will film again from the same place: its picture of the set, which stands still,
+    /// is kept, for the last four such cameras, and only what moves is drawn. The picture is the
+    /// same.
+    bool stands_still = false;
 };
 
 /// A television set with performers, rendered on the GPU: textured, lit, with thin structures,
@@ -46,11 +50,10 @@ struct StageOptions {
 /// The same time always gives the same picture, in every process and at any date.
 class VirtualStage {
   public:
-    /// The show: the set the demo films.
-    explicit VirtualStage(const ShaderLibrary& library);
-    /// Another set, made from a seed: other shapes, textures, lights, depths and performers.
-    /// Nothing stands right before cameras within 60 degrees of +z.
-    VirtualStage(const ShaderLibrary& library, std::uint64_t seed);
+    /// Set 0 is the show that the demo films. Every other number is a set generated from it: other
+    /// shapes, textures, lights, depths and performers; nothing stands right before cameras within
+    /// 60 degrees of +z.
+    explicit VirtualStage(const ShaderLibrary& library, std::uint64_t set = 0);
     ~VirtualStage();
     VirtualStage(VirtualStage&&) noexcept;
     VirtualStage& operator=(VirtualStage&&) noexcept;

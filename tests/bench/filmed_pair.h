@@ -50,7 +50,7 @@ class StageFilm {
 /// side each, with sensor noise (8-bit grey levels).
 inline FilmedPair filmed_set(const ShaderLibrary& library, std::uint64_t set, cv::Size size,
                              double noise_sigma) {
-    VirtualStage stage = set == 0 ? VirtualStage(library) : VirtualStage(library, set);
+    VirtualStage stage(library, set);
     return StageFilm(stage, {.azimuth_rad = 0.4 * static_cast<double>(set),
                              .width_px = size.width,
                              .height_px = size.height})

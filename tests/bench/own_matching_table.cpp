@@ -97,7 +97,7 @@ class MatchingRig {
 };
 
 std::string row(const ShaderLibrary& library, std::uint64_t set, double apart_deg) {
-    VirtualStage stage = set == 0 ? VirtualStage(library) : VirtualStage(library, set);
+    VirtualStage stage(library, set);
     std::vector<std::unique_ptr<MatchingRig>> rigs;
     for (const double place : {-1.5, -0.5, 0.5, 1.5})
         rigs.push_back(std::make_unique<MatchingRig>(library, place * apart_deg, rigs.size() + 1));

@@ -53,8 +53,7 @@ void run(const Options& options) {
     const EglContext context;
     const ShaderLibrary shaders;
     const Stopwatch start;
-    VirtualStage stage =
-        options.set == 0 ? VirtualStage(shaders) : VirtualStage(shaders, options.set);
+    VirtualStage stage(shaders, options.set);
     fmt::print("the stage made        {}\n", start.read());
     const TaiTime now = TaiClock::now();
     const auto time_of = [&](double seconds) {

@@ -19,7 +19,8 @@ class VirtualSource final : public StereoSource {
         : calibration_(rig_calibration(config, {config.source.width_px, config.source.height_px})),
           noise_{config.source.noise_sigma, config.source.seed},
           rig_(calibration_, noise_, config.match.matcher == exact_matcher),
-          stage_(shaders_),
+          set_(config.virtual_rig.set),
+          stage_(shaders_, static_cast<std::uint64_t>(set_)),
           pacer_(PulseGrid(config.source.rate_hz)),
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
         if (config.virtual_rig.doffs_px != 0)
@@ -55,8 +56,9 @@ class VirtualSource final : public StereoSource {
     }
 
     std::vector<std::string> report() const override {
-        return {fmt::format("virtual stage, two {}x{} cameras at {} Hz, noise of {} grey levels",
-                            size().width, size().height, rate_hz_, noise_.sigma)};
+        return {fmt::format(
+            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels", set_,
+            size().width, size().height, rate_hz_, noise_.sigma)};
     }
 
   private:
@@ -65,6 +67,7 @@ class VirtualSource final : public StereoSource {
     StereoCalibration calibration_;
     SensorNoise noise_;
     VirtualRig rig_;
+    int set_;
     VirtualStage stage_;
     PulsePacer pacer_;
     double rate_hz_;

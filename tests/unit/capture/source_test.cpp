@@ -55,6 +55,18 @@ TEST(VirtualSource, LeavesOutTheExactDisparityThatNobodyAsksFor) {
     EXPECT_TRUE(frame->exact_disparity.empty());
 }
 
+TEST(VirtualSource, FilmsTheSetThatIsAskedFor) {
+    RigConfig config = small_virtual_rig();
+    const auto of_the_show = next_frame(*make_source(config));
+    config.virtual_rig.set = 3;
+    const auto of_set_3 = next_frame(*make_source(config)),
+               again = next_frame(*make_source(config));
+    ASSERT_TRUE(of_the_show && of_set_3 && again);
+    const double pixels = static_cast<double>(of_set_3->left.total());
+    EXPECT_GT(cv::norm(of_the_show->left, of_set_3->left, cv::NORM_L1) / pixels, 30);
+    EXPECT_LT(cv::norm(again->left, of_set_3->left, cv::NORM_L1) / pixels, 30);
+}
+
 TEST(VirtualSource, RefusesCamerasThatItCannotFilmWith) {
     RigConfig config = small_virtual_rig();
     config.virtual_rig.doffs_px = 3;

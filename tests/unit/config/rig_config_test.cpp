@@ -53,6 +53,7 @@ distance_m = 3
 baseline_m = 0.2
 field_of_view_deg = 60
 doffs_px = 12
+set = 7
 [match]
 matcher = "gradient"
 preset = "fast"
@@ -88,6 +89,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.virtual_rig.baseline_m, 0.2);
     EXPECT_EQ(config.virtual_rig.field_of_view_deg, 60.0);
     EXPECT_EQ(config.virtual_rig.doffs_px, 12.0);
+    EXPECT_EQ(config.virtual_rig.set, 7);
     EXPECT_EQ(config.match.matcher, "gradient");
     EXPECT_EQ(config.match.preset, "fast");
     EXPECT_EQ(config.match.disparities, 32);

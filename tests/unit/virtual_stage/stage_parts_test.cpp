@@ -123,7 +123,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
 
 TEST(StageMesh, ChunksHoldTheirTrianglesAndSpheres) {
     for (const std::uint64_t seed : {0u, 1u, 2u}) {
-        const StageScene scene = seed == 0 ? make_studio_set() : make_random_set(seed);
+        const StageScene scene = make_set(seed);
         const auto& mesh = scene.mesh;
         std::uint32_t next = 0;
         for (const StageChunk& chunk : mesh.chunks()) {
@@ -194,8 +194,7 @@ TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
 
 TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
     for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u})
-        for (const PerformerStyle& style :
-             (seed == 0 ? make_studio_set() : make_random_set(seed)).performers) {
+        for (const PerformerStyle& style : make_set(seed).performers) {
             EXPECT_GE(style.speed_m_per_s(), 0.5);
             EXPECT_LE(style.speed_m_per_s(), 1.5);
             for (const std::chrono::nanoseconds date : dates())
@@ -267,7 +266,7 @@ void for_each_point_of_set(const StageMeshBuilder& mesh, float farthest_m, float
 
 class EverySet : public testing::TestWithParam<std::uint64_t> {
   protected:
-    StageScene scene_ = GetParam() == 0 ? make_studio_set() : make_random_set(GetParam());
+    StageScene scene_ = make_set(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Sets, EverySet, testing::Range<std::uint64_t>(0, 13));
 

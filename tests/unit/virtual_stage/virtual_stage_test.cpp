@@ -92,16 +92,15 @@ Agreement agreement(const StageCamera& a, const DepthImage& depth_a, const Stage
 }
 
 TEST_F(VirtualStageTest, TwoViewsAgreeOnEveryPointBothSee) {
-    for (const int seed : {0, 1, 2}) {
-        VirtualStage stage = seed == 0 ? VirtualStage(library_)
-                                       : VirtualStage(library_, static_cast<std::uint64_t>(seed));
+    for (const std::uint64_t set : {0, 1, 2}) {
+        VirtualStage stage(library_, set);
         const StageCamera a = camera_at({1.2, 1.7, 4.3}, {0, 1, 0}, {160, 120}, 150);
         const StageCamera b = camera_at({-0.4, 2.0, 4.5}, {0.1, 0.9, 0}, {161, 119}, 165);
         const Agreement found =
             agreement(a, stage.render(a, 2500ms).depth_m, b, stage.render(b, 2500ms).depth_m);
-        EXPECT_GT(found.seen, 0.3) << "set " << seed;
-        EXPECT_GT(found.agreeing + found.before, 0.99) << "set " << seed;
-        EXPECT_LT(found.before, 0.04) << "set " << seed;
+        EXPECT_GT(found.seen, 0.3) << "set " << set;
+        EXPECT_GT(found.agreeing + found.before, 0.99) << "set " << set;
+        EXPECT_LT(found.before, 0.04) << "set " << set;
     }
 }
 
@@ -142,6 +141,37 @@ TEST_F(VirtualStageTest, TheSameTimeGivesTheSamePixels) {
     cv::Mat moved;
     cv::absdiff(first.depth_m, later.depth_m, moved);
     EXPECT_GT(cv::countNonZero(moved > 0.05f), 100) << "the performers move";
+}
+
+TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
+    for (const std::uint64_t set : {0, 3}) {
+        VirtualStage stage(library_, set);
+        // Six, of which four are kept; the last stands among the performers.
+        const Vector3d eyes[] = {{-2.2, 1.8, 3.8}, {0, 1.8, 4.4}, {2.2, 1.2, 3.8},
+                                 {-3, 3.2, 2},     {0, 1, -4.2},  {0.3, 1.2, 1.9}};
+        int shadowed = 0;
+        for (int i = 0; i < 14; ++i) {
+            StageCamera camera = camera_at(eyes[i % 6], {0, 0.9, 0}, {121, 91}, 110);
+            camera.K(0, 1) = i % 6;
+            const auto time = i * 1730ms;
+            const StageOptions still{.anti_aliased = i % 3 != 0, .stands_still = true};
+            StageOptions free = still;
+            free.stands_still = false;
+            // A second instant of it is drawn over a set that is kept.
+            (void)stage.render(camera, time + 700ms, still);
+            const StageRendering kept = stage.render(camera, time, still),
+                                 drawn = stage.render(camera, time, free);
+            EXPECT_EQ(cv::norm(kept.depth_m, drawn.depth_m, cv::NORM_INF), 0);
+            EXPECT_EQ(cv::norm(kept.colour, drawn.colour, cv::NORM_INF), 0)
+                << "set " << set << ", picture " << i;
+            const StageRendering later = stage.render(camera, time + 700ms, free);
+            for (int y = 0; y < 91; ++y)
+                for (int x = 0; x < 121; ++x)
+                    shadowed += later.depth_m(y, x) == drawn.depth_m(y, x) &&
+                                later.colour(y, x) != drawn.colour(y, x);
+        }
+        EXPECT_GT(shadowed, 5000) << "shadows move over what stands still";
+    }
 }
 
 TEST_F(VirtualStageTest, EverySeedIsAnotherSet) {
