@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-constexpr int square_px = 16;
+constexpr int square_px = 8;
 
 int squares_over(int length_px) { return (length_px + square_px - 1) / square_px; }
 

@@ -4,12 +4,16 @@ namespace vantage {
 namespace {
 
 /// Buffers of one format each: drivers that draw with the processor copy their bytes.
-void copy(const Framebuffer& from, const Framebuffer& to) {
+void copy(const Framebuffer& from, const Framebuffer& to, std::span<const cv::Rect> parts,
+          int scale) {
     to.bind();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
-    const cv::Size size = to.size();
-    glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,
-                      GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    for (const cv::Rect& part : parts) {
+        const int left = scale * part.x, top = scale * part.y, right = scale * part.br().x,
+                  bottom = scale * part.br().y;
+        glBlitFramebuffer(left, top, right, bottom, left, top, right, bottom,
+                          GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
 }
 
 }  // namespace
@@ -27,12 +31,13 @@ StageTargets::StageTargets(cv::Size size, int samples_per_side)
       reduced_target_({&reduced_}),
       depth_target_({&depth_bits_}, &depth_order_) {}
 
-void StageTargets::copy_samples(const StageTargets& other) const {
-    copy(other.sampled_target_, sampled_target_);
+void StageTargets::copy_samples(const StageTargets& other, std::span<const cv::Rect> parts) const {
+    copy(other.sampled_target_, sampled_target_, parts, samples_per_side_);
 }
 
 void StageTargets::copy_depth(const StageTargets& other) const {
-    copy(other.depth_target_, depth_target_);
+    const cv::Rect whole({}, size_);
+    copy(other.depth_target_, depth_target_, {&whole, 1}, 1);
 }
 
 void StageTargets::reduce_colour(FullscreenPass& reduce, std::span<const cv::Rect> parts) const {

@@ -25,8 +25,9 @@ class StageTargets {
     void bind_colour() const { sampled_target_.bind(); }
     void bind_depth() const { depth_target_.bind(); }
 
-    /// Takes the samples of another one of its kind, or its depth.
-    void copy_samples(const StageTargets& other) const;
+    /// Takes the samples of another one of its kind in these parts of the picture, or all its
+    /// depth.
+    void copy_samples(const StageTargets& other, std::span<const cv::Rect> parts) const;
     void copy_depth(const StageTargets& other) const;
 
     /// Makes pixels of the samples with `reduce` (stage_reduce.frag), in these parts of the picture

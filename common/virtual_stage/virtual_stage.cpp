@@ -482,7 +482,7 @@ struct VirtualStage::Impl {
         const StageCamera& camera = kept.camera;
         const StageTargets& target = kept.moving;
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
-        target.copy_samples(kept.still);
+        target.copy_samples(kept.still, kept.differing.rectangles());
         prepare_to_draw_solids();
         target.bind_colour();
 
