@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,8 @@ ColourImage rectify(const ShaderLibrary& shaders, const StereoCalibration& calib
     return pass.rectify(texture).download();
 }
 
+std::vector<double> numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 void run(const Options& options) {
     check_outputs(options);
     const StereoCalibration calibration = load_calibration(options.calibration);
@@ -54,6 +57,7 @@ void run(const Options& options) {
     write_colour_image(options.out_right, right);
 
     const RectifiedStereo& geometry = calibration.rectified;
+    const Pose place = calibration.world_from_rectified_left();
     print_result(
         {
             {"calibration", calibration.id},
@@ -65,6 +69,9 @@ void run(const Options& options) {
             {"cy_px", geometry.cy_px},
             {"baseline_m", geometry.baseline_m},
             {"doffs_px", geometry.doffs_px()},
+            {"position_m", numbers(place.translation())},
+            {"looks_along", numbers(place.linear().col(2))},
+            {"place_is_assumed", calibration.place_is_assumed},
             {"renderer", gl.renderer},
             {"out_left", options.out_left},
             {"out_right", options.out_right},

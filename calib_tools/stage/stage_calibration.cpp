@@ -12,6 +12,7 @@
 #include "calib_tools/stage/board_scale.h"
 #include "calib_tools/stage/repeated_sightings.h"
 #include "calib_tools/stage/stage_graph.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -248,11 +249,12 @@ void advise(StageCalibration& stage) {
         if (best->shared >= few_shared && rig.translation_sigma_m < weak_sigma_m) continue;
         const std::string& other = stage.rigs[best->a == i ? best->b : best->a].name;
         stage.advice.push_back(fmt::format(
-            "rig {} is weakly tied (uncertain by {:.1f} mm and {:.3f} degrees; {} instants shared "
+            "rig {} is weakly tied (uncertain by {:.1f} mm and {:.3f} degrees; {} shared "
             "with {}, the most with any): take {} more pictures of the board where {} and {} both "
             "see it large and tilted",
             rig.name, 1000 * rig.translation_sigma_m,
-            rig.rotation_sigma_rad * 180 / std::numbers::pi, best->shared, other,
+            rig.rotation_sigma_rad * 180 / std::numbers::pi,
+            counted(static_cast<std::size_t>(best->shared), "instant"), other,
             std::max(3, 2 * few_shared - best->shared), rig.name, other));
     }
 }
@@ -344,7 +346,10 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given, const Board
             stage.ties.push_back({a, b, static_cast<int>(shared.size())});
         }
 
-    Pose world_from_start = Pose::Identity();
+    // Without a floor the first rig stands level, so that y is up for whoever flies about.
+    StereoCalibration level = rigs.front().calibration;
+    assume_place(level);
+    Pose world_from_start = level.world_from_left * bundle.rigs.front().world_from_rig.inverse();
     if (floor) {
         const int on_floor = find_floor(start, stage, *floor, used_boards);
         const int body = stage.placements[static_cast<std::size_t>(on_floor)].body;
@@ -360,6 +365,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given, const Board
         rig.name = rigs[i].name;
         rig.calibration = rigs[i].calibration;
         rig.calibration.world_from_left = world_from_start * bundle.rigs[i].world_from_rig;
+        rig.calibration.place_is_assumed = false;
         if (solved_family(rigs[i], true)) take_refined(bundle, uncertainty, i, rigs[i].alpha, rig);
         rig.translation_sigma_m = uncertainty.rigs[i].translation_m.norm();
         rig.rotation_sigma_rad = uncertainty.rigs[i].rotation_rad.norm();

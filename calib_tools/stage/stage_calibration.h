@@ -86,9 +86,9 @@ struct Floor {
 /// certain, so that the uncertainties stated include theirs; those of other rigs are held. What
 /// boards that lie still show again and again counts once (without_repeats). With
 /// `floor` the flat board of that instant lies on the floor: the world's origin is its middle, y
-/// up, x along its rows, z along its columns. Without, the world is the frame of the first rig's
-/// left camera. Throws Error naming rigs that no board ties to the others, boards that look alike
-/// when turned, boards that cannot be told apart, and a floor board nobody saw.
+/// up, x along its rows, z along its columns. Without, the first rig is taken to stand level
+/// (assume_place). Throws Error naming rigs that no board ties to the others, boards that look
+/// alike when turned, boards that cannot be told apart, and a floor board nobody saw.
 StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardSet& boards,
                                  const std::optional<Floor>& floor);
 

@@ -37,10 +37,10 @@ HtmlPage stage_page(const StageCalibration& stage) {
     constexpr double warn_mm = 1, bad_mm = 4, warn_deg = 0.02, bad_deg = 0.1;
     HtmlPage page("Calibration of a stage");
     page.paragraph(date_now());
-    page.paragraph(fmt::format(
-        "Reprojection {:.3f} px RMS; {} of {} instants used; world: {}.", stage.rms_px,
-        stage.instants_used, stage.instants_given,
-        stage.has_floor ? "the board on the floor, y up" : "left camera of the first rig"));
+    page.paragraph(fmt::format("Reprojection {:.3f} px RMS; {} of {} instants used; world: {}.",
+                               stage.rms_px, stage.instants_used, stage.instants_given,
+                               stage.has_floor ? "the board on the floor, y up"
+                                               : "the first rig is taken to stand level at 1.6 m"));
     page.figure(drawing(stage),
                 "The stage from above. Lines: instants that two rigs saw together (dashed: too "
                 "few). Discs: uncertainty, a hundred times enlarged.");

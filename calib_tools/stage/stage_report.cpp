@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/base/counted.h"
+
 namespace vantage {
 namespace {
 
@@ -62,7 +64,8 @@ nlohmann::json to_json(const StageCalibration& stage) {
             {"rms_px", stage.rms_px},
             {"instants_given", stage.instants_given},
             {"instants_used", stage.instants_used},
-            {"world", stage.has_floor ? "board on the floor" : "left camera of the first rig"},
+            {"world", stage.has_floor ? "board on the floor"
+                                      : "the first rig is taken to stand level at 1.6 m"},
             {"rigs", rigs},
             {"ties", ties},
             {"bodies", bodies},
@@ -84,14 +87,16 @@ std::string describe(const StageCalibration& stage) {
     std::string text =
         fmt::format("reprojection {:.3f} px RMS, {} of {} instants used; world: {}\n", stage.rms_px,
                     stage.instants_used, stage.instants_given,
-                    stage.has_floor ? "board on the floor, y up" : "left camera of the first rig");
+                    stage.has_floor ? "board on the floor, y up"
+                                    : "the first rig is taken to stand level at 1.6 m");
     for (const StageCalibration::Rig& rig : stage.rigs) {
         const Eigen::Vector3d at = rig.calibration.world_from_left.translation();
         text += fmt::format(
-            "{}: at ({:.4f}, {:.4f}, {:.4f}) m, +- {:.2f} mm, +- {:.4f} degrees, {:.3f} px RMS, {} "
-            "instants\n",
+            "{}: at ({:.4f}, {:.4f}, {:.4f}) m, +- {:.2f} mm, +- {:.4f} degrees, {:.3f} px RMS, "
+            "{}\n",
             rig.name, at.x(), at.y(), at.z(), 1000 * rig.translation_sigma_m,
-            rig.rotation_sigma_rad * degrees, rig.rms_px, rig.instants);
+            rig.rotation_sigma_rad * degrees, rig.rms_px,
+            counted(static_cast<std::size_t>(rig.instants), "instant"));
         if (rig.refined)
             text += fmt::format("   lenses refined by {:.3f} %, baseline by {:.2f} mm\n",
                                 100 * rig.focal_change, 1000 * rig.baseline_change_m);

@@ -12,10 +12,42 @@
 namespace vantage {
 namespace {
 
-constexpr YamlKind file_kind{"vantage stereo calibration", "a calibration of Vantage", 1};
+constexpr YamlKind file_kind{"vantage stereo calibration", "a calibration of Vantage", 2};
 constexpr const char* file_units =
     "lengths in metres; pictures in pixels, pixel centres at integers, origin top-left; cameras x "
     "right, y down, z forward; rotations as matrices; distortion in OpenCV's order";
+
+void add_numbers(NumberChecksum& hash, const StereoCalibration& c) {
+    hash.add(c.left);
+    hash.add(c.right);
+    hash.add(c.right_from_left);
+    const RectifiedStereo& r = c.rectified;
+    for (const double value : {static_cast<double>(r.width_px), static_cast<double>(r.height_px),
+                               r.f_px, r.cx_left_px, r.cx_right_px, r.cy_px, r.baseline_m})
+        hash.add(value);
+    hash.add_rows(c.rectified_from_left);
+    hash.add_rows(c.rectified_from_right);
+    hash.add(c.world_from_left);
+}
+
+/// Over everything that a file says in numbers. Files of version 1 had the calibration's own
+/// checksum, which leaves out how sure its numbers are.
+std::string file_checksum(const StereoCalibration& c, const CalibrationRecord& record) {
+    NumberChecksum hash;
+    add_numbers(hash, c);
+    hash.add(c.place_is_assumed ? 1 : 0);
+    for (const double value :
+         {record.rms_px, record.row_rms_px, static_cast<double>(record.views_used), record.alpha})
+        hash.add(value);
+    hash.add(record.sigma ? 1 : 0);
+    if (record.sigma) {
+        hash.add(record.sigma->left);
+        hash.add(record.sigma->right);
+        hash.add_rows(record.sigma->rotation_rad);
+        hash.add_rows(record.sigma->translation_m);
+    }
+    return hash.hex();
+}
 
 // Writing ------------------------------------------------------------------------------------
 
@@ -49,7 +81,7 @@ std::string to_yaml(const StereoCalibration& c, const CalibrationRecord& record)
     file << "rms_px" << record.rms_px << "row_rms_px" << record.row_rms_px << "views_used"
          << record.views_used;
     file << "alpha" << record.alpha;
-    file << "checksum" << checksum_text(c.id);
+    file << "checksum" << checksum_text(file_checksum(c, record));
     write_camera(file, "left", c.left);
     write_camera(file, "right", c.right);
     file << "right_from_left"
@@ -70,6 +102,7 @@ std::string to_yaml(const StereoCalibration& c, const CalibrationRecord& record)
          << "rotation" << to_yaml_matrix(Eigen::Matrix3d(c.world_from_left.linear()))
          << "translation_m" << to_yaml_matrix(Eigen::Vector3d(c.world_from_left.translation()))
          << "}";
+    file << "place_is_assumed" << (c.place_is_assumed ? 1 : 0);
     if (record.sigma) write_sigma(file, *record.sigma);
     return file.releaseAndGetString();
 }
@@ -101,8 +134,6 @@ StereoCalibration read_calibration(const YamlSection& top) {
     c.rectified_from_right = r.matrix3("rectified_from_right");
     c.world_from_left = top.pose("world_from_left");
     c.validate();
-    c.id = calibration_checksum(c);
-    require_checksum(top.text("checksum"), c.id);
     return c;
 }
 
@@ -128,31 +159,43 @@ CalibrationRecord read_record(const YamlSection& top, const StereoCalibration& c
     return record;
 }
 
+struct Contents {
+    StereoCalibration calibration;
+    CalibrationRecord record;
+};
+
+Contents read_contents(const YamlSection& top) {
+    Contents contents{read_calibration(top), {}};
+    StereoCalibration& c = contents.calibration;
+    contents.record = read_record(top, c);
+    c.id = calibration_checksum(c);
+    if (top.integer("version") > 1) {
+        c.place_is_assumed = top.integer("place_is_assumed") != 0;
+        require_checksum(top.text("checksum"), file_checksum(c, contents.record));
+        return contents;
+    }
+    require_checksum(top.text("checksum"), c.id);
+    // Version 1 had the identity for a place that nobody knew; so had the first rig of a stage.
+    if (contents.record.tool != "vantage-calib stage" &&
+        c.world_from_left.matrix() == Pose::Identity().matrix())
+        assume_place(c);
+    return contents;
+}
+
 }  // namespace
 
-std::string calibration_checksum(const StereoCalibration& c) {
+std::string calibration_checksum(const StereoCalibration& calibration) {
     NumberChecksum hash;
-    hash.add(c.left);
-    hash.add(c.right);
-    hash.add(c.right_from_left);
-    const RectifiedStereo& r = c.rectified;
-    for (const double value : {static_cast<double>(r.width_px), static_cast<double>(r.height_px),
-                               r.f_px, r.cx_left_px, r.cx_right_px, r.cy_px, r.baseline_m})
-        hash.add(value);
-    hash.add_rows(c.rectified_from_left);
-    hash.add_rows(c.rectified_from_right);
-    hash.add(c.world_from_left);
+    add_numbers(hash, calibration);
     return hash.hex();
 }
 
 StereoCalibration load_calibration(const std::filesystem::path& path) {
-    return read_yaml(path, file_kind, read_calibration);
+    return read_yaml(path, file_kind, read_contents).calibration;
 }
 
 CalibrationRecord load_calibration_record(const std::filesystem::path& path) {
-    return read_yaml(path, file_kind, [](const YamlSection& top) {
-        return read_record(top, read_calibration(top));
-    });
+    return read_yaml(path, file_kind, read_contents).record;
 }
 
 void save_calibration(const std::filesystem::path& path, StereoCalibration calibration,

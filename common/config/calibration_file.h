@@ -41,8 +41,9 @@ struct CalibrationRecord {
 /// The record of a calibration file; throws as load_calibration does.
 CalibrationRecord load_calibration_record(const std::filesystem::path& path);
 
-/// The name of a calibration: 16 hexadecimal digits of the checksum (FNV-1a, 64 bits) over its
-/// numbers in their order of the file. Calibrations with equal numbers have equal names.
+/// The name of a calibration: 16 hexadecimal digits of the checksum (FNV-1a, 64 bits) over the
+/// numbers of its geometry in their order of the file. Calibrations with equal numbers have equal
+/// names. (A file's own checksum is over its residuals and uncertainties too.)
 std::string calibration_checksum(const StereoCalibration& calibration);
 
 /// Writes atomically; the id is made from the content. A file that stood there before and is good

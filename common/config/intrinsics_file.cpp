@@ -7,11 +7,19 @@
 namespace vantage {
 namespace {
 
-constexpr YamlKind file_kind{"vantage camera intrinsics", "the lens of a camera", 1};
+constexpr YamlKind file_kind{"vantage camera intrinsics", "the lens of a camera", 2};
 constexpr const char* file_units =
     "pixels, pixel centres at integers, origin top-left; distortion in OpenCV's order";
 
-std::string checksum_of(const CameraModel& camera) {
+std::string checksum_of(const CameraModel& camera, const CalibrationSigma::Camera& sigma) {
+    NumberChecksum checksum;
+    checksum.add(camera);
+    checksum.add(sigma);
+    return checksum.hex();
+}
+
+/// Files of version 1 left the uncertainties out.
+std::string first_checksum_of(const CameraModel& camera) {
     NumberChecksum checksum;
     checksum.add(camera);
     return checksum.hex();
@@ -23,8 +31,11 @@ CameraModel read_camera(const YamlSection& top) {
     camera.height_px = top.integer("image_height");
     read_lens(top, "camera_matrix", "distortion_coefficients", camera);
     camera.validate();
-    (void)read_lens_sigma(top.section("sigma"), camera.distortion.size());
-    require_checksum(top.text("checksum"), checksum_of(camera));
+    const CalibrationSigma::Camera sigma =
+        read_lens_sigma(top.section("sigma"), camera.distortion.size());
+    require_checksum(top.text("checksum"), top.integer("version") == 1
+                                               ? first_checksum_of(camera)
+                                               : checksum_of(camera, sigma));
     return camera;
 }
 
@@ -41,7 +52,7 @@ void save_intrinsics(const std::filesystem::path& path, const CameraModel& camer
     file << "kind" << file_kind.kind << "version" << file_kind.version << "units" << file_units;
     file << "date" << record.date << "tool" << record.tool;
     file << "avg_reprojection_error" << record.rms_px << "views_used" << record.views_used;
-    file << "checksum" << checksum_text(checksum_of(camera));
+    file << "checksum" << checksum_text(checksum_of(camera, record.sigma));
     file << "image_width" << camera.width_px << "image_height" << camera.height_px;
     file << "lens" << lens_name(camera.lens);
     file << "camera_matrix" << to_yaml_matrix(camera.K());

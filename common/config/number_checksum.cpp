@@ -30,6 +30,12 @@ void NumberChecksum::add(const Pose& pose) {
     add_rows(pose.translation());
 }
 
+void NumberChecksum::add(const CalibrationSigma::Camera& sigma) {
+    for (const double value : {sigma.fx_px, sigma.fy_px, sigma.cx_px, sigma.cy_px}) add(value);
+    add(static_cast<double>(sigma.distortion.size()));
+    for (const double value : sigma.distortion) add(value);
+}
+
 std::string NumberChecksum::hex() const { return fmt::format("{:016x}", hash_); }
 
 std::string checksum_text(const std::string& hex) { return "fnv1a64:" + hex; }

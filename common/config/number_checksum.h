@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "common/config/calibration_file.h"
 #include "common/geometry/camera_model.h"
 #include "common/geometry/pose.h"
 
@@ -19,6 +20,7 @@ class NumberChecksum {
     void add(std::string_view text);
     void add(const CameraModel& camera);
     void add(const Pose& pose);
+    void add(const CalibrationSigma::Camera& sigma);
     template <class Derived>
     void add_rows(const Eigen::MatrixBase<Derived>& m) {
         for (Eigen::Index r = 0; r < m.rows(); ++r)

@@ -22,8 +22,9 @@ struct RigConfig {
         std::uint64_t seed = 1;  ///< of sensor noise
         double noise_sigma = 0;  ///< sensor noise, 8-bit grey levels
         // files
-        std::string left = "", right = "";  ///< single pictures, or patterns with one %d / %04d;
-                                            ///< right empty: side by side
+        std::string left = "", right = "";  ///< single pictures, numbered ones (%d, %04d), shell
+                                            ///< patterns, folders, or videos; right empty: side
+                                            ///< by side
         int first = 0;                      ///< first number of a pattern
         bool loop = true;
         // v4l2

@@ -90,8 +90,8 @@ std::string read_yaml_text(const std::filesystem::path& path) {
 void require_kind(const YamlSection& top, const YamlKind& kind) {
     if (top.text("kind") != kind.kind) fail("this is not {}", kind.in_words);
     const int version = top.integer("version");
-    if (version != kind.version)
-        fail("it is of version {}, and this program reads version {}", version, kind.version);
+    if (version < 1 || version > kind.version)
+        fail("it is of version {}, and this program reads versions 1 to {}", version, kind.version);
 }
 
 void write_yaml_keeping_last(const std::filesystem::path& path, const std::string& yaml,

@@ -39,14 +39,14 @@ struct YamlSection {
 struct YamlKind {
     const char* kind;
     const char* in_words;  ///< "a calibration of Vantage"
-    int version;
+    int version;           ///< that is written; older ones from 1 on are read
 };
 
 inline constexpr std::size_t max_yaml_bytes = 1 << 20;
 
 /// The text of a YAML file, without what OpenCV's parser would never end on. Throws Error.
 std::string read_yaml_text(const std::filesystem::path& path);
-/// Throws Error if the file is of another kind or version.
+/// Throws Error if the file is of another kind, or of a version that is not read.
 void require_kind(const YamlSection& top, const YamlKind& kind);
 
 /// What `read` makes of the file's top. Throws Error, naming the file, for whatever is wrong.

@@ -85,6 +85,15 @@ void compute_rectification(StereoCalibration& c, double alpha) {
             c.rectified.baseline_m);
 }
 
+void assume_place(StereoCalibration& c) {
+    const Eigen::Vector3d middle_m(0, assumed_height_m, 0);
+    Pose world_from_rectified = look_at(middle_m, middle_m - Eigen::Vector3d::UnitZ());
+    world_from_rectified.translation().x() -= 0.5 * c.rectified.baseline_m;
+    c.world_from_left = world_from_rectified;
+    c.world_from_left.linear() *= c.rectified_from_left;
+    c.place_is_assumed = true;
+}
+
 StereoCalibration rectified_calibration(const RectifiedStereo& geometry) {
     StereoCalibration c;
     c.left.width_px = c.right.width_px = geometry.width_px;

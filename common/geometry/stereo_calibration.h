@@ -24,9 +24,10 @@ struct StereoCalibration {
     Eigen::Matrix3d rectified_from_right = Eigen::Matrix3d::Identity();
     RectifiedStereo rectified;
 
-    /// Of the LEFT camera before rectification, in the stage's world frame (identity until `stage`
-    /// calibrated).
+    /// Of the LEFT camera before rectification, in the stage's world frame.
     Pose world_from_left = Pose::Identity();
+    /// No stage calibration says where the rig stands: it was taken to stand level.
+    bool place_is_assumed = false;
     /// Of the rectified left view, which the published pictures show.
     Pose world_from_rectified_left() const;
 
@@ -38,6 +39,15 @@ struct StereoCalibration {
 /// infinity; alpha 0 = only valid pixels, 1 = all source pixels. Fills the rectified fields of
 /// `calibration`.
 void compute_rectification(StereoCalibration& calibration, double alpha);
+
+/// How high a rig of which nobody says where it stands is taken to be: a person's eyes.
+inline constexpr double assumed_height_m = 1.6;
+
+/// Gives the rig the place of one that no stage calibration has placed: level, the middle between
+/// its rectified cameras assumed_height_m above the origin of a world whose y is up, looking along
+/// -z, as a rig at azimuth 0 of the virtual stage does. Sets place_is_assumed. The rectification
+/// stands.
+void assume_place(StereoCalibration& calibration);
 
 /// An already rectified pair: no distortion, no rotation.
 StereoCalibration rectified_calibration(const RectifiedStereo& geometry);

@@ -182,6 +182,7 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
                 geometry.add_world_from_camera(frame.world_from_camera.matrix()(row, column));
+        geometry.set_place_is_assumed(frame.place_is_assumed);
         header.set_max_disparity_px(frame.max_disparity_px);
     }
     header.mutable_times()->set_capture_ms(frame.times.capture_ms);
@@ -241,6 +242,7 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     parse(header_part, "frame header", header);
     RigFrame frame;
     frame.world_from_camera = check_header(header);
+    frame.place_is_assumed = header.geometry().place_is_assumed();
     const auto width = static_cast<int>(header.geometry().width_px());
     const auto height = static_cast<int>(header.geometry().height_px());
     const auto disparity_width = static_cast<int>(header.disparity_width_px());

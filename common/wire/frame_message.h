@@ -79,8 +79,9 @@ struct RigFrame {
     std::string calibration_id;
     RectifiedStereo geometry;                   ///< of the colour picture
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left
-    ColourImage colour;     ///< rectified left picture, may be empty; or the raw left one
-    ColourImage raw_right;  ///< of a raw pair: the right one, of the same size
+    bool place_is_assumed = false;  ///< as StereoCalibration's: nobody said where the rig stands
+    ColourImage colour;             ///< rectified left picture, may be empty; or the raw left one
+    ColourImage raw_right;          ///< of a raw pair: the right one, of the same size
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)
     float max_disparity_px = 0;

@@ -111,6 +111,7 @@ RigFrame GpuStage::process(StereoFrame frame) {
     result.calibration_id = calibration_.id;
     result.geometry = calibration_.rectified;
     result.world_from_camera = calibration_.world_from_rectified_left();
+    result.place_is_assumed = calibration_.place_is_assumed;
     result.max_disparity_px = static_cast<float>(disparities_);
     return result;
 }

@@ -186,11 +186,62 @@ TEST_F(CalibrationFileTest, RefusesAChangedNumber) {
     EXPECT_TRUE(fault().starts_with("the checksum does not fit the numbers")) << fault();
 }
 
+TEST_F(CalibrationFileTest, RefusesAChangedUncertaintyOrResidualAndAnUncertaintyThatIsGone) {
+    const StereoCalibration c = odd_calibration();
+    record_.sigma = CalibrationSigma{
+        {0.25, 0.5, 0.125, 0.75, std::vector<double>(c.left.distortion.size(), 0.01)},
+        {1, 2, 3, 4, std::vector<double>(c.right.distortion.size(), 0.02)}};
+    record_.alpha = 0.5;
+    for (const auto& [from, to] :
+         {std::pair("fx_px: 2.5", "fx_px: 2.6"), std::pair("row_rms_px: 1.4", "row_rms_px: 1.3"),
+          std::pair("alpha: 5.", "alpha: 6."), std::pair("\nsigma:", "\nsigmas:")}) {
+        save();
+        replace(from, to);
+        EXPECT_TRUE(fault().starts_with("the checksum does not fit the numbers"))
+            << from << fault();
+    }
+}
+
+TEST_F(CalibrationFileTest, SaysWhetherItsPlaceIsAssumed) {
+    save();
+    EXPECT_FALSE(load_calibration(file_).place_is_assumed);
+    StereoCalibration c = odd_calibration();
+    assume_place(c);
+    save(c);
+    const StereoCalibration loaded = load_calibration(file_);
+    EXPECT_TRUE(loaded.place_is_assumed);
+    EXPECT_EQ(loaded.world_from_left.matrix(), c.world_from_left.matrix());
+}
+
+/// What version 1 wrote: the geometry's checksum, and the identity for a place that nobody knew.
+TEST_F(CalibrationFileTest, OfTheFirstVersionIsReadAndStandsLevelWhereItHadNoPlace) {
+    StereoCalibration c = odd_calibration();
+    c.world_from_left = Pose::Identity();
+    for (const char* tool : {"vantage-calib stereo", "vantage-calib stage"}) {
+        record_.tool = tool;
+        save(c);
+        std::string old = text();
+        const auto set = [&old](const std::string& key, const std::string& value) {
+            const std::size_t at = old.find("\n" + key + ":") + 1;
+            old.replace(at, old.find('\n', at) - at, value);
+        };
+        set("version", "version: 1");
+        set("checksum", "checksum: \"fnv1a64:" + calibration_checksum(c) + "\"");
+        set("place_is_assumed", "");
+        std::ofstream(file_) << old;
+        const StereoCalibration loaded = load_calibration(file_);
+        const bool is_placed = std::string(tool) == "vantage-calib stage";
+        EXPECT_EQ(loaded.place_is_assumed, !is_placed);
+        EXPECT_EQ(loaded.id, calibration_checksum(c));
+        EXPECT_EQ(loaded.world_from_left.matrix() == Pose::Identity().matrix(), is_placed);
+    }
+}
+
 TEST_F(CalibrationFileTest, RefusesAnotherVersionOrKind) {
     save();
-    replace("version: 1", "version: 2");
-    EXPECT_EQ(fault(), "it is of version 2, and this program reads version 1");
-    replace("version: 2", "version: 1");
+    replace("version: 2", "version: 3");
+    EXPECT_EQ(fault(), "it is of version 3, and this program reads versions 1 to 2");
+    replace("version: 3", "version: 2");
     replace("vantage stereo calibration", "shopping list");
     EXPECT_EQ(fault(), "this is not a calibration of Vantage");
 }

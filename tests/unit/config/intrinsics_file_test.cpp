@@ -65,6 +65,12 @@ TEST_F(IntrinsicsFileTest, RefusesAChangedNumber) {
                                         testing::HasSubstr("last good file")));
 }
 
+TEST_F(IntrinsicsFileTest, RefusesAChangedUncertainty) {
+    save();
+    replace("cy_px: 2.", "cy_px: 3.");
+    EXPECT_THAT(fault(), testing::HasSubstr("the checksum does not fit"));
+}
+
 TEST_F(IntrinsicsFileTest, NamesWhatIsMissingOrCannotBe) {
     save();
     replace("cy_px: 2.", "cy_px: -2.");

@@ -158,6 +158,18 @@ TEST_P(Rectification, SaysWhichWayTheRectifiedViewLooks) {
               1e-12);
 }
 
+TEST_P(Rectification, OfARigThatNobodyPlacedStandsLevelAtAPersonsHeight) {
+    assume_place(calibration_);
+    EXPECT_TRUE(calibration_.place_is_assumed);
+    const Pose place = calibration_.world_from_rectified_left();
+    const double half_m = 0.5 * calibration_.rectified.baseline_m;
+    EXPECT_LT((place * Vector3d(half_m, 0, 0) - Vector3d(0, 1.6, 0)).norm(), 1e-12);
+    EXPECT_LT((place.linear() * Vector3d::UnitX() - Vector3d::UnitX()).norm(), 1e-12);
+    EXPECT_LT((place.linear() * Vector3d::UnitY() + Vector3d::UnitY()).norm(), 1e-12);
+    EXPECT_LT((place.linear() * Vector3d::UnitZ() + Vector3d::UnitZ()).norm(), 1e-12);
+    EXPECT_NO_THROW(calibration_.validate());
+}
+
 INSTANTIATE_TEST_SUITE_P(Lenses, Rectification,
                          testing::Values(LensModel::pinhole, LensModel::fisheye));
 

@@ -45,6 +45,7 @@ void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
     EXPECT_EQ(got.geometry.cy_px, sent.geometry.cy_px);
     EXPECT_EQ(got.geometry.baseline_m, sent.geometry.baseline_m);
     EXPECT_EQ(got.world_from_camera.matrix(), sent.world_from_camera.matrix());
+    EXPECT_EQ(got.place_is_assumed, sent.place_is_assumed);
     EXPECT_EQ(got.max_disparity_px, sent.max_disparity_px);
     EXPECT_EQ(got.times.capture_ms, sent.times.capture_ms);
     EXPECT_EQ(got.times.rectify_ms, sent.times.rectify_ms);
