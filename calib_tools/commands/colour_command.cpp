@@ -9,13 +9,13 @@
 #include "calib_tools/colour/chart.h"
 #include "calib_tools/colour/overlap.h"
 #include "calib_tools/commands/snapshots.h"
-#include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/colour/colour_file.h"
 #include "common/image/image_file.h"
+#include "common/image/picture_list.h"
 
 namespace vantage {
 namespace {

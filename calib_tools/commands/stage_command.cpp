@@ -8,7 +8,6 @@
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/commands/rig_folders.h"
 #include "calib_tools/live/board_film.h"
-#include "calib_tools/pictures/picture_list.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/stage/stage_calibration.h"
 #include "calib_tools/stage/stage_page.h"
@@ -17,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
+#include "common/image/picture_list.h"
 
 namespace vantage {
 namespace {

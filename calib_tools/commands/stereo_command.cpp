@@ -7,7 +7,7 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/live/board_film.h"
-#include "calib_tools/pictures/picture_list.h"
+#include "common/image/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"

@@ -5,11 +5,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calib_tools/pictures/picture_list.h"
 #include "common/base/error.h"
 #include "common/config/calibration_file.h"
 #include "common/geometry/rectification_map.h"
 #include "common/image/image_file.h"
+#include "common/image/picture_list.h"
 #include "common/rectification/rectify_reference.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "calib_tools/pictures/picture_list.h"
+#include "common/image/picture_list.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,11 @@
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "common/image/picture_list.h"
 #include "rig_firmware/capture/numbered_files.h"
 #include "rig_firmware/capture/stereo_material.h"
 
@@ -41,25 +45,12 @@ class SinglePair final : public StereoMaterial {
     std::string description_;
 };
 
-class NumberedPairs final : public StereoMaterial {
+using PairFiles = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;
+
+/// Pairs of files one after the other; a right name that is empty: side by side.
+class PairSeries final : public StereoMaterial {
   public:
-    explicit NumberedPairs(const RigConfig::Source& source)
-        : left_(source.left), first_(source.first), loop_(source.loop) {
-        count_ = left_.count_from(first_);
-        if (!source.right.empty()) {
-            if (!NumberedFiles::is_pattern(source.right))
-                fail(
-                    "'left' names numbered pictures and 'right' a single one, {}: give both a "
-                    "number, or none",
-                    source.right);
-            right_.emplace(source.right);
-            const int right_count = right_->count_from(first_);
-            if (right_count != count_)
-                fail(
-                    "there are {} left pictures from {} on and {} right ones: every left one needs "
-                    "its right one",
-                    count_, left_.path(first_).string(), right_count);
-        }
+    PairSeries(PairFiles files, bool loop) : files_(std::move(files)), loop_(loop) {
         size_ = read(0).left.size();
     }
 
@@ -68,39 +59,80 @@ class NumberedPairs final : public StereoMaterial {
     std::optional<StereoPair> pair_of(std::uint64_t pulse_index) override {
         if (!first_pulse_) first_pulse_ = loop_ ? 0 : pulse_index;
         const std::uint64_t position = pulse_index - *first_pulse_;
-        const auto count = static_cast<std::uint64_t>(count_);
-        if (!loop_ && position >= count) return std::nullopt;
-        return read(static_cast<int>(position % count));
+        if (!loop_ && position >= files_.size()) return std::nullopt;
+        return read(position % files_.size());
     }
 
     std::string describe() const override {
-        return fmt::format("{} pairs from {} on{}{}", count_, left_.path(first_).string(),
-                           right_ ? "" : ", side by side", loop_ ? ", looping" : "");
+        const auto& [left, right] = files_.front();
+        return fmt::format("{} from {} on{}{}", counted(files_.size(), "pair"), left.string(),
+                           right.empty() ? ", side by side" : "", loop_ ? ", looping" : "");
     }
 
   private:
-    StereoPair read(int position) const {
-        const int number = first_ + position;
-        const std::filesystem::path left = left_.path(number);
-        StereoPair pair = read_pair(left, right_ ? right_->path(number) : std::filesystem::path());
+    StereoPair read(std::uint64_t position) const {
+        const auto& [left, right] = files_[position];
+        StereoPair pair = read_pair(left, right);
         if (!size_.empty() && pair.left.size() != size_)
             fail("{} shows {}x{} pictures and those before it {}x{}: all must have one size",
                  left.string(), pair.left.cols, pair.left.rows, size_.width, size_.height);
         return pair;
     }
 
-    NumberedFiles left_;
-    std::optional<NumberedFiles> right_;
-    int first_, count_ = 0;
+    PairFiles files_;
     bool loop_;
     cv::Size size_;
     std::optional<std::uint64_t> first_pulse_;
 };
 
+PairFiles numbered_pairs(const RigConfig::Source& source) {
+    const NumberedFiles left(source.left);
+    const int count = left.count_from(source.first);
+    std::optional<NumberedFiles> right;
+    if (!source.right.empty()) {
+        if (!NumberedFiles::is_pattern(source.right))
+            fail(
+                "'left' names numbered pictures and 'right' a single one, {}: give both a number, "
+                "or none",
+                source.right);
+        right.emplace(source.right);
+        const int right_count = right->count_from(source.first);
+        if (right_count != count)
+            fail(
+                "there are {} left pictures from {} on and {} right ones: every left one needs its "
+                "right one",
+                count, left.path(source.first).string(), right_count);
+    }
+    PairFiles files;
+    for (int number = source.first; number < source.first + count; ++number)
+        files.emplace_back(left.path(number),
+                           right ? right->path(number) : std::filesystem::path());
+    return files;
+}
+
+PairFiles listed_pairs(const RigConfig::Source& source) {
+    const std::vector<std::filesystem::path> left = expand_pictures(source.left);
+    if (source.right.empty()) {
+        PairFiles files;
+        for (const std::filesystem::path& file : left) files.emplace_back(file, "");
+        return files;
+    }
+    PicturePairs pairs = pair_pictures(left, expand_pictures(source.right));
+    if (!pairs.alone.empty())
+        fail(
+            "{} has no partner of the same number on the other side: every left picture needs its "
+            "right one",
+            pairs.alone.front().string());
+    return std::move(pairs.pairs);
+}
+
 }  // namespace
 
 std::unique_ptr<StereoMaterial> open_pictures(const RigConfig::Source& source) {
-    if (NumberedFiles::is_pattern(source.left)) return std::make_unique<NumberedPairs>(source);
+    if (is_list(source.left) || is_list(source.right))
+        return std::make_unique<PairSeries>(listed_pairs(source), source.loop);
+    if (NumberedFiles::is_pattern(source.left))
+        return std::make_unique<PairSeries>(numbered_pairs(source), source.loop);
     if (NumberedFiles::is_pattern(source.right))
         fail(
             "'right' names numbered pictures and 'left' a single one, {}: give both a number, or "

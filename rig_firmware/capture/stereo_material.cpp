@@ -16,16 +16,25 @@ StereoPair split_side_by_side(const ColourImage& picture, const std::string& wha
     return {picture.colRange(0, half), picture.colRange(half, picture.cols)};
 }
 
+bool is_list(const std::string& name) {
+    if (std::filesystem::is_directory(name)) return true;
+    return name.find_first_of("*?") != std::string::npos && !std::filesystem::exists(name);
+}
+
 std::unique_ptr<StereoMaterial> open_material(const RigConfig::Source& source) {
     if (source.left.empty())
         fail("the source 'files' needs pictures: name them with 'left' and 'right' in [source]");
-    const std::filesystem::path left = source.left;
-    const bool is_one_file =
-        source.right.empty() && left.filename().string().find('%') == std::string::npos;
-    if (is_one_file && !std::filesystem::exists(left)) fail("there is no file {}", source.left);
-    if (is_one_file && std::filesystem::is_regular_file(left) && !cv::haveImageReader(source.left))
-        return open_video(source);
-    return open_pictures(source);
+    if (is_list(source.left)) return open_pictures(source);
+    const bool is_one_file = source.left.find('%') == std::string::npos;
+    if (is_one_file && !std::filesystem::exists(source.left))
+        fail("there is no file {}", source.left);
+    if (!is_one_file || cv::haveImageReader(source.left)) return open_pictures(source);
+    if (!source.right.empty() && !std::filesystem::is_regular_file(source.right))
+        fail(
+            "'left' is the video {} and 'right', {}, is no file: give two videos, or one with both "
+            "sides",
+            source.left, source.right);
+    return open_video(source);
 }
 
 }  // namespace vantage

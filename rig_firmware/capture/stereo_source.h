@@ -49,6 +49,9 @@ class StereoSource {
     /// Of each picture of every frame, before rectification.
     virtual cv::Size size() const = 0;
 
+    /// Pictures a second as recorded material itself says; 0: it does not, or this is no recording.
+    virtual double material_rate_hz() const { return 0; }
+
     /// Waits for the next instant; empty when the time is up, or at the end of the material. Throws
     /// Error when the source is broken beyond recovery.
     virtual std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) = 0;

@@ -71,14 +71,15 @@ void run(const Options& options) {
         log_warning(
             "the frames name no pulses of the stage: equal numbers of two rigs are not equal "
             "instants");
-    print_result({{"rig", config.name},
-                  {"folder", options.folder},
-                  {"pairs", indices.size()},
-                  {"width", source->size().width},
-                  {"height", source->size().height},
-                  {"synchronized", synchronized},
-                  {"indices", indices}},
-                 options.json);
+    nlohmann::ordered_json result{{"rig", config.name},
+                                  {"folder", options.folder},
+                                  {"pairs", indices.size()},
+                                  {"width", source->size().width},
+                                  {"height", source->size().height},
+                                  {"synchronized", synchronized},
+                                  {"indices", indices}};
+    if (source->material_rate_hz() > 0) result["material_rate_hz"] = source->material_rate_hz();
+    print_result(result, options.json);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ class FilesSource final : public StereoSource {
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {}
 
     cv::Size size() const override { return material_->size(); }
+    double material_rate_hz() const override { return material_->rate_hz(); }
 
     std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
         if (ended_) return std::nullopt;

@@ -7,7 +7,7 @@
 
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/board/corner_refiner.h"
-#include "calib_tools/pictures/picture_list.h"
+#include "common/image/picture_list.h"
 #include "calib_tools/pictures/seen_picture.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calib_tools/pictures/picture_list.h"
+#include "common/image/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "common/base/error.h"
 #include "tests/support/data_folder.h"

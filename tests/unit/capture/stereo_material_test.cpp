@@ -143,6 +143,58 @@ TEST_F(StereoMaterialTest, PlaysAVideoPictureByPicture) {
         EXPECT_NEAR(grey(looping->pair_of(i)->left), 40 + 50 * static_cast<int>(i % 3), 4);
 }
 
+TEST_F(StereoMaterialTest, PlaysTwoVideosSideBySideAndEndsARoundWithTheShorterOne) {
+    const auto film = [&](const std::string& name, int pictures, int base, cv::Size size) {
+        cv::VideoWriter writer(at(name), cv::CAP_OPENCV_MJPEG,
+                               cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25, size);
+        for (int i = 0; i < pictures; ++i)
+            writer.write(cv::Mat3b(size, cv::Vec3b::all(static_cast<uchar>(base + 50 * i))));
+    };
+    film("l.avi", 3, 40, {64, 32});
+    film("r.avi", 4, 20, {64, 32});
+    film("small.avi", 3, 20, {32, 32});
+    const auto material = open_material({.left = at("l.avi"), .right = at("r.avi")});
+    EXPECT_EQ(material->size(), cv::Size(64, 32));
+    EXPECT_DOUBLE_EQ(material->rate_hz(), 25);
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        const auto pair = material->pair_of(i);
+        ASSERT_TRUE(pair) << i;
+        EXPECT_NEAR(grey(pair->left), 40 + 50 * static_cast<int>(i % 3), 4);
+        EXPECT_NEAR(grey(pair->right), 20 + 50 * static_cast<int>(i % 3), 4);
+    }
+    const auto once = open_material({.left = at("r.avi"), .right = at("l.avi"), .loop = false});
+    for (std::uint64_t i = 0; i < 3; ++i) EXPECT_TRUE(once->pair_of(i));
+    EXPECT_FALSE(once->pair_of(3));
+    EXPECT_NE(fault({.left = at("l.avi"), .right = at("small.avi")}).find("must have one size"),
+              std::string::npos);
+    EXPECT_NE(fault({.left = at("l.avi"), .right = at("none.avi")}).find("is no file"),
+              std::string::npos);
+}
+
+TEST_F(StereoMaterialTest, PlaysWhatShellPatternsAndFoldersName) {
+    std::filesystem::create_directory(at("left"));
+    std::filesystem::create_directory(at("right"));
+    for (const int number : {2, 9, 10}) {
+        write("left/l_" + std::to_string(number) + ".png", number);
+        write("right/r_" + std::to_string(number) + ".png", 100 + number);
+    }
+    for (const char* pattern : {"", "/*.png", "/?_*"}) {
+        const auto material = open_material({.left = at(std::string("left") + pattern),
+                                             .right = at(std::string("right") + pattern)});
+        const int numbers[] = {2, 9, 10};
+        for (std::uint64_t pulse = 0; pulse < 5; ++pulse) {
+            const auto pair = material->pair_of(pulse);
+            EXPECT_EQ(grey(pair->left), numbers[pulse % 3]) << pattern;
+            EXPECT_EQ(grey(pair->right), 100 + numbers[pulse % 3]) << pattern;
+        }
+    }
+    write("left/l_11.png", 1);
+    EXPECT_NE(fault({.left = at("left"), .right = at("right")}).find("l_11.png has no partner"),
+              std::string::npos);
+    EXPECT_NE(fault({.left = at("none*.png"), .right = at("right")}).find("no file matches"),
+              std::string::npos);
+}
+
 TEST_F(StereoMaterialTest, PlaysARealPairBitByBit) {
     VANTAGE_REQUIRE_DATA(data);
     const auto left = data / "middlebury2003/teddy/im2.png";
