@@ -48,8 +48,8 @@ CommandEntry import_command_entry() {
             *import, "msr3dvideo", "Microsoft Research 3-D video: ballet, breakdancers", options);
         auto* instant = microsoft
                             ->add_option("--instant", options->instant,
-                                         "Number in the files' names; the first there is if left "
-                                         "out")
+                                         "Number in the files' names; the first with a depth map "
+                                         "if left out")
                             ->check(CLI::NonNegativeNumber);
         microsoft
             ->add_option("--depth-range", options->depth_range,

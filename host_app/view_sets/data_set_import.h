@@ -17,8 +17,8 @@ struct ImportedViews {
 /// along the axis of one camera for all; both are undone, the former by turning the world's y axis
 /// round. Lengths stay in the data's own unit, written as metres. `depth_range` is (MinZ, MaxZ);
 /// those of "ballet" and "breakdancers" are known by the name of the parameter file. `instant` is
-/// TTT; the first one that there is if not given. Throws Error naming the file for whatever is
-/// missing or malformed.
+/// TTT; the first one with a depth map if not given. Throws Error naming the file for whatever is
+/// missing or malformed, and if no camera of the instant has a depth map.
 ImportedViews import_msr3dvideo(const std::filesystem::path& folder,
                                 const std::filesystem::path& view_set, std::optional<int> instant,
                                 std::optional<std::pair<double, double>> depth_range);

@@ -76,10 +76,29 @@ fs::path picture_of(const fs::path& folder, int camera, int instant) {
                        fmt::format("color-cam{}-f{:03}", camera, instant));
 }
 
+fs::path depth_map_of(const fs::path& folder, int camera, int instant) {
+    return folder / fmt::format("cam{0}/depth-cam{0}-f{1:03}.png", camera, instant);
+}
+
+bool has_pictures(const fs::path& folder, const std::vector<MsrCamera>& cameras, int instant) {
+    return std::any_of(cameras.begin(), cameras.end(), [&](const MsrCamera& camera) {
+        return !picture_of(folder, camera.number, instant).empty();
+    });
+}
+
+/// Of a camera whose picture is there too.
+bool has_depth(const fs::path& folder, const std::vector<MsrCamera>& cameras, int instant) {
+    return std::any_of(cameras.begin(), cameras.end(), [&](const MsrCamera& camera) {
+        return !picture_of(folder, camera.number, instant).empty() &&
+               fs::exists(depth_map_of(folder, camera.number, instant));
+    });
+}
+
+/// The first instant from which views can be rendered, or, if there is none, that has pictures.
 std::optional<int> first_instant(const fs::path& folder, const std::vector<MsrCamera>& cameras) {
-    for (int instant = 0; instant < max_instants; ++instant)
-        for (const MsrCamera& camera : cameras)
-            if (!picture_of(folder, camera.number, instant).empty()) return instant;
+    for (const auto& is_there : {has_depth, has_pictures})
+        for (int instant = 0; instant < max_instants; ++instant)
+            if (is_there(folder, cameras, instant)) return instant;
     return {};
 }
 
@@ -133,10 +152,13 @@ ImportedViews import_msr3dvideo(const fs::path& folder, const fs::path& view_set
     if (!(range.first > 0) || !(range.second > range.first))
         fail("a depth range from {} to {} is none; give the nearer depth, above 0, first",
              range.first, range.second);
-    if (std::none_of(cameras.begin(), cameras.end(), [&](const MsrCamera& camera) {
-            return !picture_of(folder, camera.number, *instant).empty();
-        }))
+    if (!has_pictures(folder, cameras, *instant))
         fail("{} has no picture of instant {}", folder.string(), *instant);
+    if (!has_depth(folder, cameras, *instant))
+        fail(
+            "{} has no depth map camN/depth-camN-f{:03}.png beside its pictures, and nothing can "
+            "be rendered from views without depth: fetch the depth maps of the sequence too",
+            folder.string(), *instant);
 
     ViewSetWriter writer(view_set);
     for (const MsrCamera& camera : cameras) {
@@ -144,8 +166,7 @@ ImportedViews import_msr3dvideo(const fs::path& folder, const fs::path& view_set
         if (picture.empty()) continue;
         const auto view = upright(camera, read_colour_image(picture).rows);
         writer.begin_view(view, picture);
-        const fs::path depth =
-            picture.parent_path() / fmt::format("depth-cam{}-f{:03}.png", camera.number, *instant);
+        const fs::path depth = depth_map_of(folder, camera.number, *instant);
         if (fs::exists(depth)) writer.add_depth(depth_of(read_code_image(depth), view, range));
     }
     writer.finish();

@@ -10,6 +10,7 @@
 #include "common/image/pfm.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -84,6 +85,17 @@ TEST_F(MsrImportTest, RefusesWhatIsMissingInOneSentence) {
     std::ofstream(folder_.path() / "calibParams-x.txt") << "3\n50 0 19 0 51";
     EXPECT_THROW(import_msr3dvideo(folder_.path(), out(), {}, std::pair(1.0, 4.0)), Error);
     EXPECT_THROW(import_msr3dvideo(folder_.path() / "cam3", out(), {}, {}), Error);
+}
+
+TEST_F(MsrImportTest, RefusesAnInstantWithoutDepthAndTakesTheFirstThatHasSome) {
+    fs::copy(folder_.path() / "cam3/color-cam3-f007.png",
+             folder_.path() / "cam3/color-cam3-f002.png");
+    EXPECT_EQ(import_msr3dvideo(folder_.path(), out(), {}, {}).with_geometry, 1);
+    const std::string sentence = thrown_sentence(
+        [&] { import_msr3dvideo(folder_.path(), folder_.path() / "other", 2, {}); });
+    EXPECT_NE(sentence.find("has no depth map camN/depth-camN-f002.png"), std::string::npos)
+        << sentence;
+    EXPECT_FALSE(fs::exists(folder_.path() / "other"));
 }
 
 TEST_F(MsrImportTest, LeavesAViewSetThatIsThereAlone) {
