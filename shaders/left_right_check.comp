@@ -52,6 +52,8 @@ uint resolved(uvec2 winner, int d) {
 #endif
         position += before > after ? offset : -offset;
         rise = before + after - 2 * best;
+    } else if (before != 0xfff || after != 0xfff) {
+        rise = min(before, after) - best;  // at an end of the search one side alone tells
     }
     int confidence = int(min(float(255 * rise) / float(max(best + rise, 1)), 255.0));
     return uint(max(position, 1)) | (uint(confidence) << 16);

@@ -49,6 +49,9 @@ CheckedDisparity left_right_checked(const Winners& winners, Valley valley) {
                 const int offset = offset_of(std::abs(before - after), steep, valley);
                 position += before > after ? offset : -offset;
                 rise = before + after - 2 * best;
+            } else if (before != no_cost || after != no_cost) {
+                // At an end of the search one side alone tells.
+                rise = std::min(before, after) - best;
             }
             result.disparity(y, x) = static_cast<unsigned short>(std::max(position, 1));
             result.confidence(y, x) =

@@ -1,6 +1,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/bench/random_scene.h"
 #include "tests/bench/stereo_measures.h"
@@ -41,6 +42,30 @@ TEST(Confidence, OrdersPixelsSoThatTheSureOnesErrFarLessThanChanceWouldHaveIt) {
             by_chance += bad_share(pixels);
         }
         EXPECT_LT(area, 0.4 * by_chance) << name;
+    }
+}
+
+TEST(Confidence, IsThereAtTheEndOfTheSearchToo) {
+    const EglContext context;
+    const ShaderLibrary library;
+    // The last disparity of 16, and of the 8 of half the grid.
+    for (const auto& [name, shift] : {std::pair("perm_sgm", 15), std::pair("coarse", 14)}) {
+        cv::Mat4b wide(97, 161 + shift);
+        cv::theRNG().state = 7;
+        cv::randu(wide, cv::Scalar(0, 0, 0, 255), cv::Scalar(255, 255, 255, 256));
+        cv::GaussianBlur(wide, wide, {}, 1.5);
+        wide = (wide - cv::Scalar(96, 96, 96, 0)) * 4;
+        // What lies at x in the left picture lies at x - shift in the right one.
+        const ColourImage left = wide.colRange(0, 161).clone();
+        const ColourImage right = wide.colRange(shift, 161 + shift).clone();
+        const auto matcher = make_matcher(
+            name, library,
+            {.width_px = left.cols, .height_px = left.rows, .disparities = 16, .confidence = true});
+        const cv::Mat1f found = matched(*matcher, {left, right, {}});
+        const cv::Mat1b confidence = matcher->confidence()->download();
+        const cv::Rect middle(60, 20, 80, 60);
+        EXPECT_NEAR(cv::mean(found(middle))[0], shift, 0.1) << name;
+        EXPECT_GT(cv::mean(confidence(middle))[0], 60) << name;
     }
 }
 
