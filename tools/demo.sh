@@ -1,21 +1,29 @@
 #!/usr/bin/env bash
 # Plays the demo stage: four rigs, each a process of its own, and the host, over authenticated sockets on loopback.
 #   tools/demo.sh [--headless] [--seconds N] [--json] [--files LEFT RIGHT]
+#                 [--rig CALIB.yaml LEFT RIGHT [--disparities N] [--rate HZ]]
 # Keys, configurations and logs go to out/demo/, results to out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-headless=false seconds=12 json=() left= right=
+headless=false seconds=12 json=() left= right= calibration= disparities= asked_hz=
 while [ $# -gt 0 ]; do
   case "$1" in
     --headless) headless=true; shift ;;
     --seconds) seconds=$2; shift 2 ;;
     --json) json=(--json); shift ;;
     --files) left=$2 right=$3; shift 3 ;;
+    --rig) calibration=$2 left=$3 right=$4; shift 4 ;;
+    --disparities) disparities=$2; shift 2 ;;
+    --rate) asked_hz=$2; shift 2 ;;
     *) echo "demo.sh: '$1' is not an option" >&2; exit 2 ;;
   esac
 done
 case "$seconds" in '' | *[!0-9]* | 0) echo "demo.sh: --seconds takes a whole number above 0, not '$seconds'" >&2; exit 2 ;; esac
+if [ -z "$calibration" ] && [ -n "$disparities$asked_hz" ]; then
+  echo "demo.sh: --disparities and --rate go with --rig" >&2
+  exit 2
+fi
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || headless=true
 
 bin=$PWD/build/release/bin
@@ -33,8 +41,9 @@ trap 'exit 130' INT TERM
 
 # The processor draws everything where there is no GPU: then the stage runs at a rate that it holds.
 if "$bin/vantage-rig" probe --json 2>/dev/null | grep -q '"is_software": *false'; then
-  rate_hz=30 fps=30 size=1280x720 latency_budget_ms=200
+  rate_hz=30 fps=30 size=1280x720 latency_budget_ms=200 preset=balanced
 else
+  preset=fast
   rate_hz=2 fps=4 size=480x270 latency_budget_ms=1500
   # Four rigs share the processor: one drawing thread each does the same work with less waiting.
   export LP_NUM_THREADS=1
@@ -54,10 +63,11 @@ free_port() { # the first of a range that nobody listens on
   exit 1
 }
 
-rig_config() { # name port, and on stdin the [source] and [virtual_rig] parts
+rig_config() { # name port [line of its first part], and on stdin the [source] and [virtual_rig] parts
   cat >"$demo/$1.toml" <<END
 version = 1
 name = "$1"
+${3:-}
 
 [stream]
 bind = "tcp://127.0.0.1:$2"
@@ -75,6 +85,62 @@ endpoint = "tcp://127.0.0.1:$2"
 public_key = "$("$bin/vantage-rig" keys show "$demo/$1.key")"
 END
 }
+
+value() { # the number that the JSON on stdin has under a key
+  sed -n "s/.*\"$1\": *\([-+0-9.eE]*\).*/\1/p" | head -n 1
+}
+
+files_source() { # rate: the [source] of what was filmed
+  printf '[source]\nkind = "files"\nrate_hz = %s\nleft = "%s"\n' "$1" "$left"
+  [ "$right" = - ] || printf 'right = "%s"\n' "$right"
+}
+
+# The first pair of a real rig says how large, how fast and how far away what it filmed is.
+look_at_rig() {
+  rm -rf "$demo/first"
+  { printf 'version = 1\nname = "pair"\n'; files_source 30; } >"$demo/look.toml"
+  local seen rectified matched first material_hz
+  seen=$("$bin/vantage-rig" capture --config "$demo/look.toml" --every 1 --count 1 -o "$demo/first" --json \
+    2>"$demo/look.log") || { cat "$demo/look.log" >&2; exit 1; }
+  rm "$demo/look.toml"
+  first=$(ls "$demo/first"/left_*.png)
+  rectified=$("$bin/vantage-calib" rectify --calibration "$calibration" "$first" "${first/left_/right_}" \
+    --out-left "$demo/first/left.png" --out-right "$demo/first/right.png" --json)
+  if [ -z "$disparities" ]; then
+    disparities=$(awk -v width="$(value width <<<"$rectified")" \
+      'BEGIN { n = 32 * int((width / 4 + 31) / 32); print (n < 64 ? 64 : n > 256 ? 256 : n) }')
+  fi
+  matched=$("$bin/vantage-rig" match "$demo/first/left.png" "$demo/first/right.png" --disparities "$disparities" \
+    --preset "$preset" --repeats 1 -o "$demo/first/disparity.pfm" --json)
+  material_hz=$(value material_rate_hz <<<"$seen")
+  # Half of the time is the matcher's; a processor that draws everything shares it with the host.
+  rate_hz=${asked_hz:-$(awk -v gpu_ms="$(value gpu_ms <<<"$matched")" -v own="${material_hz:-30}" -v slow="$preset" \
+    'BEGIN { most = (slow == "fast" ? 250 : 500) / gpu_ms
+             printf "%.4g", (most >= own ? own : most < 0.2 ? 0.2 : most) }')}
+  latency_budget_ms=$(awk -v hz="$rate_hz" 'BEGIN { printf "%d", (hz < 15 ? 3000 / hz : 200) }')
+  # The flight begins where the left camera stands, about the middle of what it sees.
+  awk -v d="$(value median_disparity_px <<<"$matched")" -v doffs="$(value doffs_px <<<"$rectified")" \
+    -v f="$(value f_px <<<"$rectified")" -v width="$(value width <<<"$rectified")" \
+    -v baseline="$(value baseline_m <<<"$rectified")" -v rectified="$rectified" '
+    function vector(key, v,  text) {
+      match(rectified, "\"" key "\": *\\[[^]]*"); text = substr(rectified, RSTART, RLENGTH)
+      sub(/.*\[/, "", text); split(text, v, ",") }
+    function keyframe(time, a, e, near) {
+      printf "\n[[keyframe]]\ntime_s = %d\nazimuth_deg = %.3f\nelevation_deg = %.3f\n", time, azimuth + a, elevation + e
+      printf "distance_m = %.4f\n", near * depth
+      if (time == 0)
+        printf "pivot_m = [%.4f, %.4f, %.4f]\nfield_of_view_deg = %.2f\n", p[1] + depth * l[1], p[2] + depth * l[2],
+          p[3] + depth * l[3], 2 * atan2(width / 2, f) * degrees }
+    BEGIN {
+      degrees = 45 / atan2(1, 1); depth = f * baseline / (d + doffs)
+      vector("position_m", p); vector("looks_along", l)
+      azimuth = atan2(-l[1], -l[3]) * degrees; elevation = atan2(-l[2], sqrt(l[1] ^ 2 + l[3] ^ 2)) * degrees
+      print "version = 1\nloop = false"
+      keyframe(0, 0, 0, 1); keyframe(3, 4, 1, 0.925); keyframe(6, 0, 2, 0.85); keyframe(9, -4, 1, 0.925)
+      keyframe(12, 0, 0, 1) }' >"$demo/pair_move.toml"
+  echo "demo: searched for $disparities disparities; played at $rate_hz Hz${material_hz:+ of its own $material_hz}" >&2
+}
+[ -z "$calibration" ] || look_at_rig
 
 width=${size%x*} height=${size#*x}
 cat >"$demo/stage.toml" <<END
@@ -111,6 +177,16 @@ azimuth_deg = $azimuth
 disparities = 32
 END
   done
+elif [ -n "$calibration" ]; then
+  move=$demo/pair_move.toml
+  port=$(free_port $((port + 1)))
+  rig_config pair "$port" "calibration = \"$calibration\"" <<END
+$(files_source "$rate_hz")
+
+[match]
+preset = "$preset"
+disparities = $disparities
+END
 else
   move=hw_config/moves/pair.toml
   port=$(free_port $((port + 1)))
@@ -155,6 +231,9 @@ if $headless; then
   "${host[@]}" "${live[@]}" --headless --past-mb 64 --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
+elif [ -n "$calibration" ]; then
+  # The host begins where the rig stands.
+  "${host[@]}" "${live[@]}"
 else
   "${host[@]}" "${live[@]}" --path "$move"
 fi
