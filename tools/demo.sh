@@ -111,7 +111,7 @@ look_at_rig() {
       'BEGIN { n = 32 * int((width / 4 + 31) / 32); print (n < 64 ? 64 : n > 256 ? 256 : n) }')
   fi
   matched=$("$bin/vantage-rig" match "$demo/first/left.png" "$demo/first/right.png" --disparities "$disparities" \
-    --preset "$preset" --repeats 1 -o "$demo/first/disparity.pfm" --json)
+    --preset "$preset" --repeats 3 -o "$demo/first/disparity.pfm" --json)
   material_hz=$(value material_rate_hz <<<"$seen")
   # Half of the time is the matcher's; a processor that draws everything shares it with the host.
   rate_hz=${asked_hz:-$(awk -v gpu_ms="$(value gpu_ms <<<"$matched")" -v own="${material_hz:-30}" -v slow="$preset" \
@@ -136,7 +136,11 @@ look_at_rig() {
       vector("position_m", p); vector("looks_along", l)
       azimuth = atan2(-l[1], -l[3]) * degrees; elevation = atan2(-l[2], sqrt(l[1] ^ 2 + l[3] ^ 2)) * degrees
       print "version = 1\nloop = false"
-      keyframe(0, 0, 0, 1); keyframe(3, 4, 1, 0.925); keyframe(6, 0, 2, 0.85); keyframe(9, -4, 1, 0.925)
+      # A single rig shows its scene from one side only: the flight stays within some baselines of it.
+      aside = atan2(3 * baseline, depth) * degrees; if (aside > 4) aside = 4
+      near = 3 * baseline / depth; if (near > 0.15) near = 0.15
+      keyframe(0, 0, 0, 1); keyframe(3, aside, aside / 4, 1 - near / 2); keyframe(6, 0, aside / 2, 1 - near)
+      keyframe(9, -aside, aside / 4, 1 - near / 2)
       keyframe(12, 0, 0, 1) }' >"$demo/pair_move.toml"
   echo "demo: searched for $disparities disparities; played at $rate_hz Hz${material_hz:+ of its own $material_hz}" >&2
 }
