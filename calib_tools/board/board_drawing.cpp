@@ -1,5 +1,6 @@
 #include "calib_tools/board/board_drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -14,8 +15,9 @@ namespace vantage {
 namespace {
 
 constexpr double points_per_m = 72 / 0.0254;
-constexpr double max_page_points = 14400;
 constexpr double caption_m = 0.014;
+/// Above the lower edge; printers leave some millimetres blank.
+constexpr double caption_text_m = 0.006, ruler_line_m = 0.011, ruler_mark_m = 0.0015;
 constexpr double ruler_m = 0.1;
 constexpr double around_frame_m = 0.01;
 
@@ -30,41 +32,53 @@ struct FreePdf {
 float points(double m) { return static_cast<float>(m * points_per_m); }
 
 /// A page with a board; `face` is what its caption begins with, for one that is cut out and glued
-/// to a body.
-void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face) {
-    const double frame_m = face.empty() ? 0 : around_frame_m, margin = board_margin_m(pattern);
-    const double board_width_m = (pattern.columns + 1) * pattern.square_m + 2 * margin;
-    const double board_height_m = (pattern.rows + 1) * pattern.square_m + 2 * margin;
-    const double width_m = board_width_m + 2 * frame_m;
-    const double height_m = board_height_m + 2 * frame_m + caption_m;
-    if (std::max(width_m, height_m) * points_per_m > max_page_points)
-        fail("a board of {:.2f} x {:.2f} m is larger than a PDF page may be (5.08 m a side)",
-             width_m, height_m);
+/// to a body. On a given sheet the board lies in the middle.
+void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face,
+              const std::optional<Paper>& paper) {
+    const bool is_cut_out = !face.empty();
+    const PageSize needed = page_of(pattern, is_cut_out);
+    PageSize sheet = needed;
+    if (paper) {
+        require_fit(pattern, is_cut_out, *paper);
+        const bool is_wide = needed.width_m > needed.height_m;
+        sheet = is_wide ? PageSize{paper->long_m, paper->short_m}
+                        : PageSize{paper->short_m, paper->long_m};
+    }
+    if (std::max(sheet.width_m, sheet.height_m) > max_page_m)
+        fail("a board of {:.2f} x {:.2f} m is larger than a PDF page may be ({:g} m a side)",
+             sheet.width_m, sheet.height_m, max_page_m);
+    const double frame_m = is_cut_out ? around_frame_m : 0, margin = board_margin_m(pattern);
+    const double board_width_m = needed.width_m - 2 * frame_m;
+    const double board_height_m = needed.height_m - 2 * frame_m - caption_m;
+    // PDF counts from the lower left.
+    const double left = 0.5 * (sheet.width_m - needed.width_m) + frame_m;
+    const double top = sheet.height_m - 0.5 * (sheet.height_m - needed.height_m) - frame_m;
     const HPDF_Page page = HPDF_AddPage(pdf);
-    HPDF_Page_SetWidth(page, points(width_m));
-    HPDF_Page_SetHeight(page, points(height_m));
+    HPDF_Page_SetWidth(page, points(sheet.width_m));
+    HPDF_Page_SetHeight(page, points(sheet.height_m));
     for (const BoardPatch& patch : board_patches(pattern)) {
         HPDF_Page_SetGrayFill(page, patch.black ? 0.0f : 1.0f);
-        // PDF counts from the bottom.
-        HPDF_Page_Rectangle(page, points(frame_m + margin + patch.place_m.x),
-                            points(height_m - frame_m - margin - patch.place_m.br().y),
+        HPDF_Page_Rectangle(page, points(left + margin + patch.place_m.x),
+                            points(top - margin - patch.place_m.br().y),
                             points(patch.place_m.width), points(patch.place_m.height));
         HPDF_Page_Fill(page);
     }
     HPDF_Page_SetGrayFill(page, 0);
     HPDF_Page_SetLineWidth(page, 0.5f);
-    if (!face.empty()) {
-        HPDF_Page_Rectangle(page, points(frame_m), points(height_m - frame_m - board_height_m),
-                            points(board_width_m), points(board_height_m));
+    if (is_cut_out) {
+        HPDF_Page_Rectangle(page, points(left), points(top - board_height_m), points(board_width_m),
+                            points(board_height_m));
         HPDF_Page_Stroke(page);
     }
-    const double left = std::min(margin, 0.01);
-    if (width_m > ruler_m + 2 * left) {
-        HPDF_Page_MoveTo(page, points(left), points(0.010));
-        HPDF_Page_LineTo(page, points(left + ruler_m), points(0.010));
-        for (const double end : {left, left + ruler_m}) {
-            HPDF_Page_MoveTo(page, points(end), points(0.0085));
-            HPDF_Page_LineTo(page, points(end), points(0.0115));
+    const double text_left = left - frame_m + std::min(margin, 0.01);
+    const double bottom = 0.5 * (sheet.height_m - needed.height_m);
+    if (needed.width_m > ruler_m + 2 * std::min(margin, 0.01)) {
+        const double line = bottom + ruler_line_m;
+        HPDF_Page_MoveTo(page, points(text_left), points(line));
+        HPDF_Page_LineTo(page, points(text_left + ruler_m), points(line));
+        for (const double end : {text_left, text_left + ruler_m}) {
+            HPDF_Page_MoveTo(page, points(end), points(line - ruler_mark_m));
+            HPDF_Page_LineTo(page, points(end), points(line + ruler_mark_m));
         }
         HPDF_Page_Stroke(page);
     }
@@ -77,7 +91,7 @@ void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face
             : "");
     HPDF_Page_BeginText(page);
     HPDF_Page_SetFontAndSize(page, HPDF_GetFont(pdf, "Helvetica", nullptr), 7);
-    HPDF_Page_TextOut(page, points(left), points(0.004), caption.c_str());
+    HPDF_Page_TextOut(page, points(text_left), points(bottom + caption_text_m), caption.c_str());
     HPDF_Page_EndText(page);
 }
 
@@ -85,12 +99,19 @@ void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face
 
 double board_margin_m(const BoardPattern& pattern) { return pattern.square_m; }
 
+PageSize page_of(const BoardPattern& pattern, bool is_cut_out) {
+    const double around_m = 2 * (board_margin_m(pattern) + (is_cut_out ? around_frame_m : 0));
+    return {(pattern.columns + 1) * pattern.square_m + around_m,
+            (pattern.rows + 1) * pattern.square_m + around_m + caption_m};
+}
+
 std::vector<BoardPatch> board_patches(const BoardPattern& pattern) {
     std::vector<BoardPatch> patches;
     const double s = pattern.square_m;
     for (int r = 0; r <= pattern.rows; ++r)
         for (int c = 0; c <= pattern.columns; ++c)
-            if ((r + c) % 2 == 0) patches.push_back({{c * s, r * s, s, s}, true});
+            if ((r + c) % 2 == (pattern.starts_white() ? 1 : 0))
+                patches.push_back({{c * s, r * s, s, s}, true});
     if (pattern.kind != BoardKind::charuco) return patches;
     const MarkerDictionary dictionary(pattern.dictionary);
     const double margin = 0.5 * (s - pattern.marker_m);
@@ -121,7 +142,8 @@ GreyImage draw_board(const BoardPattern& pattern, int square_px) {
     return picture;
 }
 
-std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces) {
+std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces,
+                                    const std::optional<Paper>& paper) {
     const std::unique_ptr<void, FreePdf> owner(HPDF_New(pdf_failed, nullptr));
     const auto pdf = static_cast<HPDF_Doc>(owner.get());
     if (!pdf) fail("the PDF could not be made: no memory");
@@ -129,7 +151,8 @@ std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces) {
         add_page(pdf, faces[i],
                  faces.size() > 1
                      ? fmt::format("Face {} of {}: cut along the frame. ", i + 1, faces.size())
-                     : "");
+                     : "",
+                 paper);
     HPDF_SaveToStream(pdf);
     HPDF_UINT32 size = HPDF_GetStreamSize(pdf);
     std::vector<std::byte> bytes(size);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "calib_tools/board/board_pattern.h"
+#include "calib_tools/board/paper.h"
 #include "common/image/image.h"
 
 namespace vantage {
@@ -26,8 +28,9 @@ double board_margin_m(const BoardPattern& pattern);
 GreyImage draw_board(const BoardPattern& pattern, int square_px);
 
 /// A page that holds the board at its true size, with a ruler to check the print by; of a body of
-/// several boards a page each, with a frame to cut along. Throws Error if a board is larger than a
-/// PDF page may be (5 m).
-std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces);
+/// several boards a page each, with a frame to cut along. The page is as large as it needs, or the
+/// given sheet. Throws Error if a board does not fit the sheet, or a PDF page (max_page_m).
+std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces,
+                                    const std::optional<Paper>& paper = {});
 
 }  // namespace vantage

@@ -30,6 +30,7 @@ std::vector<BoardPattern> load_body(const std::filesystem::path& path) {
             top.read("marker_m", pattern.marker_m, {1e-5, 10});
             top.read("dictionary", pattern.dictionary);
             for (const char* key : {"marker_m", "dictionary"}) top.require(key);
+            top.read("legacy", pattern.legacy);
             top.read("first_marker", pattern.first_marker, {0, most_markers});
             top.read("first_markers", first_markers, {0, most_markers});
             if (top.has("first_markers") && top.has("first_marker"))
@@ -78,6 +79,7 @@ void save_body(const std::filesystem::path& path, const std::vector<BoardPattern
     if (pattern.kind == BoardKind::charuco) {
         text += fmt::format("marker_m = {}\ndictionary = \"{}\"\n", pattern.marker_m,
                             pattern.dictionary);
+        if (pattern.legacy) text += "# Laid out as OpenCV did before 4.6.\nlegacy = true\n";
         std::string firsts;
         for (const BoardPattern& face : faces)
             firsts += (firsts.empty() ? "" : ", ") + std::to_string(face.first_marker);

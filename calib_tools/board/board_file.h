@@ -8,8 +8,8 @@
 namespace vantage {
 
 /// A board's description (TOML, version 1): kind, columns, rows, square_m, and for ChArUco
-/// marker_m, dictionary and first_marker. Both throw Error; unknown keys are refused, and a body of
-/// several boards too.
+/// marker_m, dictionary, first_marker and, where it is true, legacy. Both throw Error; unknown keys
+/// are refused, and a body of several boards too.
 BoardPattern load_board(const std::filesystem::path& path);
 void save_board(const std::filesystem::path& path, const BoardPattern& pattern);
 

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "calib_tools/board/charuco_finder.h"
 #include "calib_tools/board/chessboard_finder.h"
@@ -10,12 +15,11 @@
 
 namespace vantage {
 
-BoardSighting find_board(const GreyImage& picture, const BoardSet& set) {
-    if (set.is_one_board()) {
-        const BoardPattern& pattern = set.boards.front();
-        return pattern.kind == BoardKind::charuco ? find_charuco(picture, pattern)
-                                                  : find_chessboard(picture, pattern);
-    }
+namespace {
+
+/// All ChArUco boards of the set; `exposure` as find_charuco takes it.
+BoardSighting find_charuco_boards(const GreyImage& picture, const GreyImage& exposure,
+                                  const BoardSet& set) {
     std::map<std::string, std::vector<FoundMarker>> markers;
     BoardSighting all;
     std::vector<double> squares, blurs, contrasts;
@@ -23,7 +27,9 @@ BoardSighting find_board(const GreyImage& picture, const BoardSet& set) {
         const BoardPattern& pattern = set.boards[i];
         if (!markers.contains(pattern.dictionary))
             markers[pattern.dictionary] = MarkerDictionary(pattern.dictionary).find(picture);
-        const BoardSighting one = find_charuco(picture, pattern, markers[pattern.dictionary]);
+        const BoardSighting one =
+            find_charuco(picture, exposure, pattern, markers[pattern.dictionary]);
+        if (set.is_one_board()) return one;
         if (!one.found()) continue;
         const int board = static_cast<int>(i), first = set.first_corner(board);
         for (BoardCorner corner : one.corners) {
@@ -35,22 +41,41 @@ BoardSighting find_board(const GreyImage& picture, const BoardSet& set) {
         blurs.push_back(one.blur_px);
         contrasts.push_back(one.contrast);
         all.burnt_out_share = std::max(all.burnt_out_share, one.burnt_out_share);
+        all.legacy = all.legacy || one.legacy;
     }
-    if (all.found()) {
-        all.square_px = median(squares);
-        all.blur_px = median(blurs);
-        all.contrast = median(contrasts);
-        return all;
-    }
-    all.mirrored = std::any_of(markers.begin(), markers.end(), [&](const auto& found) {
-        return shows_mirrored_markers(picture, found.first);
-    });
-    all.reason = all.mirrored ? mirrored_reason
-                              : fmt::format(
-                                    "shows none of the {} boards with enough of its "
-                                    "markers to be placed",
-                                    set.boards.size());
+    all.square_px = median(squares);
+    all.blur_px = median(blurs);
+    all.contrast = median(contrasts);
+    if (!all.found())
+        all.reason =
+            fmt::format("shows none of the {} boards with enough of its markers to be placed",
+                        set.boards.size());
     return all;
+}
+
+}  // namespace
+
+BoardSighting find_board(const GreyImage& picture, const BoardSet& set) {
+    if (set.boards.front().kind == BoardKind::chessboard)
+        return find_chessboard(picture, set.boards.front());
+    BoardSighting sighting = find_charuco_boards(picture, picture, set);
+    if (sighting.found()) return sighting;
+    GreyImage swapped;
+    cv::bitwise_not(picture, swapped);
+    BoardSighting inverted = find_charuco_boards(swapped, picture, set);
+    if (inverted.found()) {
+        inverted.inverted = true;
+        return inverted;
+    }
+    std::set<std::string> dictionaries;
+    for (const BoardPattern& pattern : set.boards) dictionaries.insert(pattern.dictionary);
+    sighting.mirrored =
+        std::any_of(dictionaries.begin(), dictionaries.end(), [&](const std::string& dictionary) {
+            return shows_mirrored_markers(picture, dictionary) ||
+                   shows_mirrored_markers(swapped, dictionary);
+        });
+    if (sighting.mirrored) sighting.reason = mirrored_reason;
+    return sighting;
 }
 
 }  // namespace vantage

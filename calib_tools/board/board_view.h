@@ -27,6 +27,9 @@ struct BoardSighting {
     double contrast = 0;         ///< median half step from black to white, grey levels
     double burnt_out_share = 0;  ///< of the board's area: as bright as can be
     bool mirrored = false;       ///< markers can be read in the mirrored picture only
+    bool inverted = false;       ///< printed with black and white swapped
+    bool layout_is_sure = true;  ///< its markers tell the next
+    bool legacy = false;         ///< laid out as BoardPattern::legacy says, described so or not
 
     bool found() const { return !corners.empty(); }
 };

@@ -11,6 +11,7 @@
 #include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/board/marker_dictionary.h"
 #include "calib_tools/board/median.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -55,6 +56,61 @@ double burnt_out_share_of(const GreyImage& picture, const BoardPattern& pattern,
                                      apply(h, right, bottom), apply(h, left, bottom)});
 }
 
+Eigen::Vector2d marker_middle(const BoardPattern& pattern, int id) {
+    const cv::Point square = marker_square(pattern, id);
+    return {square.x, square.y};
+}
+
+/// How far the corners of each marker and its three nearest lie from where a plane would have them
+/// by the pattern's layout, RMS over sides of a marker; the mean of all markers, of which none
+/// counts more than a side.
+double layout_misfit(const BoardPattern& pattern, const std::map<int, FoundMarker>& markers) {
+    double misfits = 0;
+    for (const auto& [id, marker] : markers) {
+        const Eigen::Vector2d middle = marker_middle(pattern, id);
+        std::vector<std::pair<double, int>> nearest;
+        for (const auto& [other, unused] : markers)
+            nearest.emplace_back((marker_middle(pattern, other) - middle).norm(), other);
+        std::sort(nearest.begin(), nearest.end());
+        std::vector<cv::Point2d> on_board, in_picture;
+        for (std::size_t i = 0; i < std::min<std::size_t>(4, nearest.size()); ++i) {
+            marker_corners_m(pattern, nearest[i].second, on_board);
+            for (const cv::Point2f& p : markers.at(nearest[i].second).corners)
+                in_picture.emplace_back(p.x, p.y);
+        }
+        const cv::Mat homography = cv::findHomography(on_board, in_picture);
+        if (homography.empty()) {
+            misfits += 1;
+            continue;
+        }
+        double sum = 0;
+        for (std::size_t i = 0; i < on_board.size(); ++i) {
+            const Eigen::Vector2d there = apply(homography, on_board[i].x, on_board[i].y);
+            sum += (there - Eigen::Vector2d(in_picture[i].x, in_picture[i].y)).squaredNorm();
+        }
+        const double side_px = cv::norm(marker.corners[1] - marker.corners[0]);
+        misfits += std::min(1.0, std::sqrt(sum / static_cast<double>(on_board.size())) / side_px);
+    }
+    return misfits / static_cast<double>(markers.size());
+}
+
+struct Layout {
+    bool is_legacy = false, is_sure = true;
+};
+
+/// The layout that the markers tell, or else the described one: where rows hold an odd count of
+/// squares, a part of the board may look the same in both.
+Layout layout_of(const BoardPattern& described, const std::map<int, FoundMarker>& markers) {
+    if (!described.has_legacy_layout()) return {described.legacy};
+    // The wrong layout misses by half a marker, the right one by the bend of lens and board.
+    constexpr double surely_wrong = 0.1;
+    BoardPattern other = described;
+    other.legacy = !described.legacy;
+    const double misfit = layout_misfit(described, markers), others = layout_misfit(other, markers);
+    if (misfit > surely_wrong && others < 0.5 * misfit) return {other.legacy};
+    return {described.legacy, others > surely_wrong && misfit < 0.5 * others};
+}
+
 }  // namespace
 
 int marker_count(const BoardPattern& pattern) {
@@ -65,7 +121,8 @@ cv::Point marker_square(const BoardPattern& pattern, int id) {
     int count = 0;
     for (int row = 0; row <= pattern.rows; ++row)
         for (int column = 0; column <= pattern.columns; ++column)
-            if ((row + column) % 2 == 1 && count++ == id) return {column, row};
+            if ((row + column) % 2 == (pattern.starts_white() ? 0 : 1) && count++ == id)
+                return {column, row};
     return {-1, -1};
 }
 
@@ -78,25 +135,16 @@ void require_enough_markers(const BoardPattern& pattern) {
              marker_count(pattern), pattern.dictionary, there);
 }
 
-BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern) {
-    const MarkerDictionary dictionary(pattern.dictionary);
-    BoardSighting sighting = find_charuco(picture, pattern, dictionary.find(picture));
-    if (!sighting.found() && shows_mirrored_markers(picture, pattern.dictionary)) {
-        sighting.mirrored = true;
-        sighting.reason = mirrored_reason;
-    }
-    return sighting;
-}
-
 bool shows_mirrored_markers(const GreyImage& picture, const std::string& dictionary) {
     GreyImage flipped;
     cv::flip(picture, flipped, 1);
     return MarkerDictionary(dictionary).find(flipped).size() >= 4;
 }
 
-BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern,
-                           const std::vector<FoundMarker>& found) {
+BoardSighting find_charuco(const GreyImage& picture, const GreyImage& exposure,
+                           const BoardPattern& described, const std::vector<FoundMarker>& found) {
     BoardSighting sighting;
+    BoardPattern pattern = described;
     std::map<int, FoundMarker> markers;
     for (const FoundMarker& marker : found) {
         const int id = marker.id - pattern.first_marker;
@@ -108,6 +156,10 @@ BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern
                         markers.size(), marker_count(pattern), pattern.size_name());
         return sighting;
     }
+    const Layout layout = layout_of(pattern, markers);
+    pattern.legacy = layout.is_legacy;
+    sighting.legacy = pattern.starts_white();
+    sighting.layout_is_sure = layout.is_sure;
     std::vector<double> blurs, contrasts, spacings;
     for (int id = 0; id < pattern.corner_count(); ++id) {
         // The nearest markers place the corner: lens and bent board hardly count so near.
@@ -149,12 +201,12 @@ BoardSighting find_charuco(const GreyImage& picture, const BoardPattern& pattern
         spacings.push_back(0.5 * (row.norm() + column.norm()));
     }
     if (static_cast<int>(sighting.corners.size()) < fewest_corners) {
-        sighting.reason = fmt::format("shows {} measurable corners of the board, fewer than {}",
-                                      sighting.corners.size(), fewest_corners);
+        sighting.reason = fmt::format("shows {} of the board that can be measured, fewer than {}",
+                                      counted(sighting.corners.size(), "corner"), fewest_corners);
         sighting.corners.clear();
         return sighting;
     }
-    sighting.burnt_out_share = burnt_out_share_of(picture, pattern, markers);
+    sighting.burnt_out_share = burnt_out_share_of(exposure, pattern, markers);
     sighting.square_px = median(spacings);
     sighting.blur_px = median(blurs);
     sighting.contrast = median(contrasts);

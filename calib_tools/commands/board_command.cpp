@@ -1,6 +1,8 @@
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "calib_tools/board/board_drawing.h"
 #include "calib_tools/board/board_file.h"
 #include "calib_tools/board/charuco_finder.h"
+#include "calib_tools/board/paper.h"
 #include "common/base/atomic_file.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
@@ -17,30 +20,64 @@ namespace vantage {
 namespace {
 
 struct Options {
-    std::string kind = "charuco", size, output, dictionary = "5X5_250";
+    std::string kind = "charuco", size, output, dictionary = "5X5_250", paper;
     double square_m = 0, marker_m = 0, dots_per_inch = 300;
     int first_marker = 0, faces = 1;
     bool json = false;
 };
 
-void run(const Options& options) {
-    BoardPattern pattern = chessboard_pattern(options.size, options.square_m);
+/// Markers that nobody gave a size are this share of a square, to the micrometre.
+double usual_marker_m(double square_m) { return std::round(0.7e6 * square_m) / 1e6; }
+
+/// The boards to draw: one, or one a face.
+std::vector<BoardPattern> wanted_faces(const Options& options, const std::optional<Paper>& paper) {
+    const bool is_cut_out = options.faces > 1;
+    if (options.square_m == 0 && !paper)
+        fail("how large? give --square-m METRES, or --paper for the largest that fits a sheet");
+    double square_m = options.square_m;
+    if (square_m == 0)
+        square_m = largest_square_m(chessboard_pattern(options.size, 1), is_cut_out, *paper);
+    BoardPattern pattern = chessboard_pattern(options.size, square_m);
     if (options.kind == "charuco") {
         pattern.kind = BoardKind::charuco;
-        pattern.marker_m = options.marker_m > 0 ? options.marker_m : 0.7 * pattern.square_m;
+        pattern.marker_m =
+            options.marker_m > 0 ? options.marker_m : usual_marker_m(pattern.square_m);
         pattern.dictionary = options.dictionary;
         pattern.first_marker = options.first_marker;
         pattern.validate();
         require_enough_markers(pattern);
     }
     std::vector<BoardPattern> faces{pattern};
-    if (options.faces > 1 && pattern.kind == BoardKind::chessboard)
+    if (is_cut_out && pattern.kind == BoardKind::chessboard)
         fail("the faces of a body are told apart by their markers: take --kind charuco");
     while (static_cast<int>(faces.size()) < options.faces) {
         pattern.first_marker += marker_count(pattern);
         require_enough_markers(pattern);
         faces.push_back(pattern);
     }
+    return faces;
+}
+
+/// Throws Error if a description stands there that says another thing: what somebody measured on
+/// the print would be lost.
+void require_not_measured(const std::string& description, const std::vector<BoardPattern>& faces) {
+    if (!std::filesystem::exists(description)) return;
+    const std::vector<BoardPattern> there = load_body(description);
+    if (there == faces) return;
+    if (there.front().square_m != faces.front().square_m)
+        fail(
+            "{} says square_m = {}, perhaps as measured, and this board has {}: nothing is "
+            "written; give another name with -o, or remove the file",
+            description, there.front().square_m, faces.front().square_m);
+    fail("{} describes another board: nothing is written; give another name with -o, or remove it",
+         description);
+}
+
+void run(const Options& options) {
+    std::optional<Paper> paper;
+    if (!options.paper.empty()) paper = paper_named(options.paper);
+    const std::vector<BoardPattern> faces = wanted_faces(options, paper);
+    const BoardPattern& pattern = faces.front();
     const int square_px =
         static_cast<int>(std::lround(pattern.square_m / 0.0254 * options.dots_per_inch));
     const double widest = (std::max(pattern.columns, pattern.rows) + 3) * square_px;
@@ -50,7 +87,9 @@ void run(const Options& options) {
             "the limits: change --dpi",
             options.dots_per_inch, square_px, widest, max_image_side_px);
     const std::string pdf = options.output + ".pdf", description = options.output + ".toml";
-    const std::vector<std::byte> pages = board_as_pdf(faces);
+    require_not_measured(description, faces);
+    const std::vector<std::byte> pages = board_as_pdf(faces, paper);
+    const std::string page = page_in_words(page_of(pattern, faces.size() > 1));
     std::vector<std::string> pngs;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         pngs.push_back(options.output +
@@ -58,24 +97,30 @@ void run(const Options& options) {
         write_grey_image(pngs.back(), draw_board(faces[i], square_px));
     }
     write_file_atomically(pdf, pages);
-    save_body(description, faces);
+    if (!std::filesystem::exists(description)) save_body(description, faces);
     if (options.json) {
-        nlohmann::json json = {{"png", pngs.front()},        {"pdf", pdf},
-                               {"description", description}, {"columns", pattern.columns},
-                               {"rows", pattern.rows},       {"square_m", pattern.square_m}};
+        nlohmann::json json = {{"png", pngs.front()},
+                               {"pdf", pdf},
+                               {"description", description},
+                               {"columns", pattern.columns},
+                               {"rows", pattern.rows},
+                               {"square_m", pattern.square_m},
+                               {"page", page}};
         if (faces.size() > 1) json["pngs"] = pngs;
         std::cout << json.dump(2) << '\n';
     } else if (faces.size() > 1) {
         std::cout << fmt::format(
-            "{} (a page a face), {} to {} and {} written; print at 100 %, cut along the frames, "
+            "{} (a page a face, each {}), {} to {} and {} written; print at 100 %, cut along the "
+            "frames, "
             "glue one to each face of a stiff body, measure a row of squares and correct square_m "
             "in {}\n",
-            pdf, pngs.front(), pngs.back(), description, description);
+            pdf, page, pngs.front(), pngs.back(), description, description);
     } else {
         std::cout << fmt::format(
-            "{}, {} and {} written; print at 100 %, glue it to something flat, measure a row of "
+            "{} ({}), {} and {} written; print at 100 %, glue it to something flat, measure a row "
+            "of "
             "squares and correct square_m in {}\n",
-            pdf, pngs.front(), description, description);
+            pdf, page, pngs.front(), description, description);
     }
 }
 
@@ -90,8 +135,14 @@ CommandEntry board_command_entry() {
             ->check(CLI::IsMember({"chessboard", "charuco"}))
             ->capture_default_str();
         command->add_option("--board", options->size, "inner corners, such as 9x6")->required();
-        command->add_option("--square-m", options->square_m, "side of a square in metres")
-            ->required();
+        command
+            ->add_option("--square-m", options->square_m,
+                         "side of a square in metres; with --paper the largest that fits if left "
+                         "out")
+            ->check(CLI::PositiveNumber);
+        command->add_option("--paper", options->paper,
+                            "sheet to draw on: a4, a3, a2, letter, or WIDTHxHEIGHT in mm; a board "
+                            "that does not fit is refused");
         command->add_option("--marker-m", options->marker_m,
                             "side of a marker in metres (default: 0.7 squares)");
         command->add_option("--dictionary", options->dictionary, "ArUco dictionary")

@@ -63,6 +63,21 @@ void refuse(SeenPicture& picture, std::string reason) {
     picture.sighting.reason = std::move(reason);
 }
 
+/// Pictures of which the markers do not tell the board's layout have that which others tell.
+void settle_layout(std::vector<SeenPicture>& pictures, const BoardSet& boards) {
+    if (!boards.is_one_board()) return;
+    const bool described = boards.boards.front().starts_white();
+    int others = 0, as_described = 0;
+    for (const SeenPicture& p : pictures)
+        if (p.sighting.found() && p.sighting.layout_is_sure)
+            ++(p.sighting.legacy == described ? as_described : others);
+    if (others <= as_described) return;
+    BoardSet settled = boards;
+    settled.boards.front().legacy = !described;
+    for (SeenPicture& p : pictures)
+        if (p.sighting.found() && !p.sighting.layout_is_sure) look_at(p, settled);
+}
+
 }  // namespace
 
 SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
@@ -74,6 +89,15 @@ SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& 
     judge(grey, picture);
     picture.sighting = find_board(grey, boards);
     return picture;
+}
+
+PrintedBoard printed_board_of(const std::vector<SeenPicture>& pictures) {
+    PrintedBoard printed;
+    for (const SeenPicture& p : pictures) {
+        printed.inverted = printed.inverted || (p.sighting.found() && p.sighting.inverted);
+        printed.legacy = printed.legacy || (p.sighting.found() && p.sighting.legacy);
+    }
+    return printed;
 }
 
 UsualPicture usual_of(const std::vector<SeenPicture>& pictures) {
@@ -138,6 +162,10 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
         static_cast<double>(files.size()));
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
+    settle_layout(pictures, boards);
+    const PrintedBoard printed = printed_board_of(pictures);
+    if (printed.inverted) log_info("the board is printed inverted, white for black");
+    if (printed.legacy) log_info("the board has the layout of OpenCV before 4.6 (legacy)");
     const UsualPicture usual = usual_of(pictures);
     for (SeenPicture& picture : pictures) judge_blur_and_glare(picture, usual);
     return pictures;

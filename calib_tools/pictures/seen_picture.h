@@ -28,6 +28,12 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
 SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
                             const BoardSet& boards);
 
+/// How the board that the pictures show was printed, as BoardSighting says it.
+struct PrintedBoard {
+    bool inverted = false, legacy = false;
+};
+PrintedBoard printed_board_of(const std::vector<SeenPicture>& pictures);
+
 /// What is usual in a series of pictures in which the board was found.
 struct UsualPicture {
     double blur_px = 0, sharpness = 0, saturated = 0, burnt_out_share = 0;

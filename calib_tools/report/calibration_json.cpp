@@ -71,6 +71,8 @@ json common_json(const Calibration& c, const std::vector<std::string>& cameras) 
             {"views_used", c.views_used},
             {"corners_left_out", c.corners_left_out},
             {"rejected", rejected_json(c.rejected)},
+            {"inverted", c.printed.inverted},
+            {"legacy", c.printed.legacy},
             {"lens_family", std::string(c.bundle.cameras.front().family->name)},
             {"lens_trials", trials_json(c.trials)},
             {"views", views_json(c.bundle, c.names, cameras)},

@@ -4,6 +4,8 @@
 
 #include <fmt/chrono.h>
 
+#include "common/base/counted.h"
+
 namespace vantage {
 namespace {
 
@@ -30,7 +32,7 @@ std::string closing_lines(const Calibration& c) {
             text += fmt::format(" ({:.3f} px on withheld views)", trial.held_out_rms_px);
     text += "\n";
     if (c.corners_left_out > 0)
-        text += fmt::format("{} corners beyond six sigma left out\n", c.corners_left_out);
+        text += counted(c.corners_left_out, "corner") + " beyond six sigma left out\n";
     for (const Refusal& refusal : c.rejected)
         text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
     for (const std::string& sentence : c.doubts) text += "doubtful: " + sentence + "\n";

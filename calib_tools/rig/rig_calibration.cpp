@@ -219,6 +219,7 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
                                    const RigOptions& options) {
     CameraCalibration result;
     result.views_given = pictures.size();
+    result.printed = printed_board_of(pictures);
     require_one_size(pictures);
     refuse_wrong_board(pictures, pattern);
     refuse_repeated(pictures);
@@ -256,6 +257,7 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
     require_one_size(right);
     std::vector<SeenPicture> both = left;
     both.insert(both.end(), right.begin(), right.end());
+    result.printed = printed_board_of(both);
     refuse_wrong_board(both, pattern);
     refuse_repeated(left);
     refuse_repeated(right);

@@ -32,6 +32,7 @@ struct CameraCalibration {
     std::vector<std::string> doubts;  ///< reasons not to trust it, a sentence each
     std::vector<std::string> advice;  ///< which pictures would help, a sentence each
     std::size_t views_given = 0, views_used = 0, corners_left_out = 0;
+    PrintedBoard printed;
 };
 
 struct RigCalibration {
@@ -43,6 +44,7 @@ struct RigCalibration {
     std::vector<Refusal> rejected;
     std::vector<std::string> doubts, advice;
     std::size_t views_given = 0, views_used = 0, corners_left_out = 0;
+    PrintedBoard printed;
     double row_rms_px = 0, row_max_px = 0;
     double baseline_m = 0, baseline_sigma_m = 0;
 };

@@ -8,6 +8,7 @@
 #include "calib_tools/board/board_file.h"
 #include "calib_tools/board/board_finder.h"
 #include "calib_tools/board/charuco_finder.h"
+#include "calib_tools/board/paper.h"
 #include "common/base/error.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -81,6 +82,89 @@ TEST(Board, seen_in_a_mirror_is_named) {
     EXPECT_FALSE(sighting.found());
     EXPECT_TRUE(sighting.mirrored);
     EXPECT_THAT(sighting.reason, HasSubstr("mirrored"));
+}
+
+/// Every corner of the board, drawn with 40 px a square, within a twentieth of a pixel.
+void expect_where_drawn(const BoardSighting& sighting, const BoardPattern& pattern) {
+    ASSERT_EQ(sighting.corners.size(), static_cast<std::size_t>(pattern.corner_count()))
+        << sighting.reason;
+    for (const BoardCorner& corner : sighting.corners) {
+        const int column = corner.id % pattern.columns, row = corner.id / pattern.columns;
+        const Eigen::Vector2d drawn(79.5 + 40 * column, 79.5 + 40 * row);
+        EXPECT_LT((corner.pixel - drawn).norm(), 0.05) << corner.id;
+    }
+}
+
+GreyImage drawn_softly(const BoardPattern& pattern) {
+    GreyImage picture = draw_board(pattern, 40);
+    cv::GaussianBlur(picture, picture, {}, 0.8);
+    return picture;
+}
+
+TEST(Board, printed_inverted_is_recognised_and_its_black_is_no_glare) {
+    const BoardPattern pattern = charuco(8, 5);
+    const BoardSighting straight = find_board(drawn_softly(pattern), pattern);
+    EXPECT_FALSE(straight.inverted);
+    GreyImage inverted;
+    cv::bitwise_not(drawn_softly(pattern), inverted);
+    const BoardSighting sighting = find_board(inverted * 0.8, pattern);
+    expect_where_drawn(sighting, pattern);
+    EXPECT_TRUE(sighting.inverted);
+    EXPECT_EQ(sighting.burnt_out_share, 0);
+    BoardSet boards(pattern);
+    BoardPattern other = pattern;
+    other.first_marker = 60;
+    boards.add("other", {other});
+    EXPECT_TRUE(find_board(inverted, boards).inverted);
+    cv::flip(inverted, inverted, 1);
+    EXPECT_TRUE(find_board(inverted, pattern).mirrored);
+}
+
+TEST(Board, of_the_legacy_layout_is_recognised_whatever_its_description_says) {
+    for (const auto& [columns, rows] : {std::pair(8, 5), std::pair(7, 5), std::pair(6, 7)}) {
+        BoardPattern pattern = charuco(columns, rows), legacy = pattern;
+        legacy.legacy = true;
+        for (const bool printed_legacy : {false, true})
+            for (const bool described_legacy : {false, true}) {
+                const GreyImage picture = drawn_softly(printed_legacy ? legacy : pattern);
+                const BoardSighting sighting =
+                    find_board(picture, described_legacy ? legacy : pattern);
+                expect_where_drawn(sighting, pattern);
+                EXPECT_EQ(sighting.legacy, printed_legacy);
+                EXPECT_TRUE(sighting.layout_is_sure);
+            }
+        // With an odd count of rows of squares there is one layout only.
+        BoardPattern odd = charuco(columns, rows + 1);
+        odd.legacy = true;
+        EXPECT_FALSE(find_board(drawn_softly(charuco(columns, rows + 1)), odd).legacy);
+    }
+}
+
+TEST(Board, of_the_legacy_layout_has_its_first_marker_in_the_upper_left_square) {
+    BoardPattern pattern = charuco(4, 5);
+    EXPECT_EQ(marker_square(pattern, 0), cv::Point(1, 0));
+    EXPECT_EQ(marker_square(pattern, 2), cv::Point(0, 1));
+    pattern.legacy = true;
+    EXPECT_EQ(marker_square(pattern, 0), cv::Point(0, 0));
+    EXPECT_EQ(marker_square(pattern, 3), cv::Point(1, 1));
+    const TemporaryFolder folder;
+    save_board(folder.path() / "b.toml", pattern);
+    EXPECT_TRUE(load_board(folder.path() / "b.toml").legacy);
+}
+
+TEST(Paper, holds_boards_in_either_direction_and_says_how_large_their_squares_may_be) {
+    const Paper a3 = paper_named("A3");
+    const double square_m = largest_square_m(charuco(9, 6), false, a3);
+    EXPECT_DOUBLE_EQ(square_m, 0.031);                                    // (297 - 14) / 9 mm
+    EXPECT_DOUBLE_EQ(largest_square_m(charuco(6, 9), false, a3), 0.033);  // 297 / 9 mm
+    EXPECT_DOUBLE_EQ(largest_square_m(charuco(9, 6), false, paper_named("600x400")), 0.042);
+    EXPECT_THAT(thrown_sentence([&] { require_fit(charuco(9, 6), false, a3); }),
+                HasSubstr("a 9x6 board of 40 mm squares needs 480 x 374 mm with its margin and "
+                          "caption, and a3 is 420 x 297 mm: take squares of 31 mm or less"));
+    EXPECT_THAT(thrown_sentence([] { paper_named("a5"); }),
+                HasSubstr("'a5' is no paper: there are letter, a4, a3, a2, and WIDTHxHEIGHT"));
+    for (const char* wrong : {"0x100", "100", "x", "1e9x2", "100x-1"})
+        EXPECT_THROW(paper_named(wrong), Error) << wrong;
 }
 
 TEST(Board, set_comes_back_from_its_description_and_is_no_flat_board) {

@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "calib_tools/board/board_drawing.h"
 #include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/board/corner_refiner.h"
-#include "common/image/picture_list.h"
 #include "calib_tools/pictures/seen_picture.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "common/image/picture_list.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -160,6 +161,31 @@ TEST(SeenPictures, give_reasons_for_damage_blur_and_other_sizes) {
     EXPECT_THAT(seen[5].sighting.reason, HasSubstr("other pictures are 300x210"));
     EXPECT_THAT(seen[6].sighting.reason, HasSubstr("not a picture"));
     EXPECT_THAT(seen[7].sighting.reason, HasSubstr("cut off"));
+}
+
+TEST(Pictures, that_do_not_tell_the_layout_of_their_board_have_that_of_the_others) {
+    const TemporaryFolder folder;
+    BoardPattern pattern = chessboard_pattern("6x7", 0.04);
+    pattern.kind = BoardKind::charuco;
+    pattern.marker_m = 0.028;
+    pattern.dictionary = "5X5_250";
+    BoardPattern legacy = pattern;
+    legacy.legacy = true;
+    GreyImage picture = draw_board(legacy, 40);
+    cv::GaussianBlur(picture, picture, {}, 0.8);
+    write_grey_image(folder.path() / "whole1.png", picture);
+    // Without its right columns the board could be one of the other layout, a square aside.
+    picture.colRange(200, picture.cols).setTo(130);
+    write_grey_image(folder.path() / "part2.png", picture);
+    ASSERT_FALSE(find_board(picture, pattern).layout_is_sure);
+    const std::vector<SeenPicture> seen =
+        look_at_pictures({folder.path() / "whole1.png", folder.path() / "part2.png"}, pattern);
+    ASSERT_TRUE(seen[1].sighting.found()) << seen[1].sighting.reason;
+    EXPECT_TRUE(seen[1].sighting.legacy);
+    for (const BoardCorner& corner : seen[1].sighting.corners) {
+        const Eigen::Vector2d drawn(79.5 + 40 * (corner.id % 6), 79.5 + 40 * (corner.id / 6));
+        EXPECT_LT((corner.pixel - drawn).norm(), 0.05);
+    }
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/image/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "common/base/error.h"
+#include "common/image/picture_list.h"
 #include "tests/support/data_folder.h"
 #include "tests/unit/calib/synthetic_views.h"
 

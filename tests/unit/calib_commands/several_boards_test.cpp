@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -37,6 +38,48 @@ TEST(BoardCommand, draws_a_cube_as_a_page_and_a_picture_a_face_and_describes_it)
     const BoardSighting seen = find_board(picture, boards);
     ASSERT_EQ(seen.corners.size(), 9u) << seen.reason;
     EXPECT_EQ(seen.corners.front().board, 2);
+}
+
+TEST(BoardCommand, draws_on_a_sheet_and_refuses_what_does_not_fit_it) {
+    const TemporaryFolder folder;
+    const std::string board = folder.path() / "board";
+    const ProgramResult refused =
+        run_to_end(VANTAGE_CALIB,
+                   {"board", "--board", "9x6", "--square-m", "0.04", "--paper", "a3", "-o", board});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("take squares of 31 mm or less"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    const ProgramResult drawn =
+        run_to_end(VANTAGE_CALIB, {"board", "--board", "9x6", "--paper", "a3", "-o", board});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_THAT(drawn.out, HasSubstr("which fits a3"));
+    EXPECT_DOUBLE_EQ(load_board(board + ".toml").square_m, 0.031);
+    EXPECT_DOUBLE_EQ(load_board(board + ".toml").marker_m, 0.0217);
+}
+
+TEST(BoardCommand, keeps_what_somebody_measured_on_the_print) {
+    const TemporaryFolder folder;
+    const std::string board = folder.path() / "board", file = board + ".toml";
+    const std::vector<std::string> command{"board", "--board", "9x6", "--square-m",
+                                           "0.04",  "-o",      board};
+    const auto text = [&] {
+        std::ifstream in(file);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    ASSERT_EQ(run_to_end(VANTAGE_CALIB, command).status, 0);
+    EXPECT_THAT(text(), HasSubstr("marker_m = 0.028\n"));
+    // The same board again changes nothing.
+    ASSERT_EQ(run_to_end(VANTAGE_CALIB, command).status, 0);
+    std::string measured = text();
+    measured.replace(measured.find("square_m = 0.04"), 15, "square_m = 0.0397");
+    std::ofstream(file) << measured;
+    std::filesystem::remove(board + ".pdf");
+    const ProgramResult again = run_to_end(VANTAGE_CALIB, command);
+    EXPECT_EQ(again.status, 1);
+    EXPECT_THAT(again.err, HasSubstr("says square_m = 0.0397, perhaps as measured, and this board "
+                                     "has 0.04: nothing is written"));
+    EXPECT_EQ(text(), measured);
+    EXPECT_FALSE(std::filesystem::exists(board + ".pdf"));
 }
 
 TEST(BoardCommand, refuses_more_faces_than_there_are_markers_and_writes_nothing) {
