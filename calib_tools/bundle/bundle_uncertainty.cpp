@@ -5,6 +5,7 @@
 
 #include "calib_tools/bundle/bundle.h"
 #include "calib_tools/bundle/bundle_problem.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -120,8 +121,8 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     result.faces.resize(bundle.faces.size());
     const double freedom = static_cast<double>(corner_rows) - static_cast<double>(size);
     if (!(freedom > 0))
-        fail("the pictures show {} corners, too few for the {} unknowns: take more pictures",
-             bundle.corner_count(), size);
+        fail("the pictures show {}, too few for the {} unknowns: take more pictures",
+             counted(bundle.corner_count(), "corner"), size);
     const double variance = squares / freedom;
     result.residual_sigma_px = std::sqrt(variance);
     if (shared == 0) return result;

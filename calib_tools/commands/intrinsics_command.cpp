@@ -7,7 +7,6 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/live/board_film.h"
-#include "common/image/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
@@ -16,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/intrinsics_file.h"
+#include "common/image/picture_list.h"
 
 namespace vantage {
 namespace {
@@ -38,8 +38,12 @@ struct SeenSeries {
 
 SeenSeries look(const Options& options, const BoardPattern& pattern) {
     if (!options.live.given()) {
-        if (options.pictures.empty()) fail("which pictures? give --images, or --live and --rig");
-        return {look_at_pictures(expand_pictures(options.pictures), pattern), {}};
+        std::vector<std::string> pictures = options.pictures;
+        if (pictures.empty() && !options.live.rig.empty())
+            pictures = {options.live.kept_pictures(options.side)};
+        if (pictures.empty())
+            fail("which pictures? give --images, --rig NAME=FOLDER, or --live and --rig");
+        return {look_at_pictures(expand_pictures(pictures), pattern), {}};
     }
     const RigFolder rig = options.live.folder();
     LiveRigs rigs = options.live.connect({rig});
@@ -88,7 +92,7 @@ CommandEntry intrinsics_command_entry() {
         options->lens.add_to(*command);
         command->add_option("--images", options->pictures, "pictures: 'PATTERN', folder or files");
         options->live.add_to(*command);
-        command->add_option("--side", options->side, "live: which of its cameras")
+        command->add_option("--side", options->side, "which of the cameras of --rig")
             ->check(CLI::IsMember({"left", "right"}))
             ->capture_default_str();
         command->add_option("-o,--output", options->output,

@@ -30,12 +30,17 @@ void LiveRigOption::add_to(CLI::App& command) {
     add_film_to(command);
     command.add_option(
         "--rig", rig,
-        "live: NAME=FOLDER, the rig of the stage and the folder that keeps its pictures");
+        "NAME=FOLDER: the rig of the stage and the folder that keeps its pictures; without --live "
+        "they are taken from the folder");
 }
 
 RigFolder LiveRigOption::folder() const {
     if (rig.empty()) fail("which rig of the stage? give --rig NAME=FOLDER");
     return parse_rig_folders({rig}).front();
+}
+
+std::string LiveRigOption::kept_pictures(const std::string& side) const {
+    return (folder().folder / (side + "*.png")).string();
 }
 
 LiveRigs LiveOption::connect(const std::vector<RigFolder>& rigs) const {

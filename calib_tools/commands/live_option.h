@@ -34,6 +34,9 @@ struct LiveRigOption : LiveOption {
     void add_to(CLI::App& command);
     /// Throws Error if no rig was named, and as parse_rig_folders does.
     RigFolder folder() const;
+    /// The pictures that a film left in the folder, left or right, as a pattern for
+    /// expand_pictures.
+    std::string kept_pictures(const std::string& side) const;
 };
 
 }  // namespace vantage

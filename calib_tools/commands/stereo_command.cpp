@@ -7,7 +7,6 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/live/board_film.h"
-#include "common/image/picture_list.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
@@ -16,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
+#include "common/image/picture_list.h"
 
 namespace vantage {
 namespace {
@@ -39,10 +39,14 @@ struct SeenPairs {
 };
 
 SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) {
-    if (options.left.empty() || options.right.empty())
-        fail("which pictures? give --left and --right, or --live and --rig");
-    const PicturePairs pictures =
-        pair_pictures(expand_pictures(options.left), expand_pictures(options.right));
+    std::vector<std::string> lefts = options.left, rights = options.right;
+    if (lefts.empty() && rights.empty() && !options.live.rig.empty()) {
+        lefts = {options.live.kept_pictures("left")};
+        rights = {options.live.kept_pictures("right")};
+    }
+    if (lefts.empty() || rights.empty())
+        fail("which pictures? give --left and --right, --rig NAME=FOLDER, or --live and --rig");
+    const PicturePairs pictures = pair_pictures(expand_pictures(lefts), expand_pictures(rights));
     std::vector<std::filesystem::path> files;
     for (const auto& [left, right] : pictures.pairs) files.push_back(left);
     for (const auto& [left, right] : pictures.pairs) files.push_back(right);
@@ -79,6 +83,7 @@ void run(const Options& options) {
         result.rejected.push_back(
             {file.filename().string(), "has no partner of the same number on the other side"});
     }
+    assume_place(result.calibration);
     save_calibration(options.output, result.calibration,
                      {.date = date_now(),
                       .tool = "vantage-calib stereo",

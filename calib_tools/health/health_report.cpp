@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "calib_tools/plots/drawings.h"
+#include "common/base/counted.h"
 
 namespace vantage {
 namespace {
@@ -106,7 +107,7 @@ HtmlPage health_page(const StageHealth& health, const std::vector<RigSnapshot>& 
                                 rigs[i].name, rigs[i].calibration_date));
     }
     if (!past.empty()) {
-        page.heading(fmt::format("History of {} checks", past.size() + 1));
+        page.heading("History of " + counted(past.size() + 1, "check"));
         for (const HealthMeasure& m : health.measures) {
             if (m.verdict == Verdict::unknown) continue;
             std::vector<double> values = values_of(past, m);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "calib_tools/board/chessboard_finder.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/time.h"
@@ -75,10 +76,9 @@ std::string kept_sentence(const BoardFilm& film, const std::vector<FilmedCamera>
         if (named.insert(camera.folder).second)
             folders += (folders.empty() ? "" : ", ") + camera.folder.string();
     return fmt::format(
-        "{} {} kept in {}: the same command with --go-on films more, and without --live it "
-        "calibrates from {}",
-        film.pulses.size(), film.pulses.size() == 1 ? "instant is" : "instants are", folders,
-        film.pulses.size() == 1 ? "it" : "them");
+        "{} kept in {}: the same command with --go-on films more, and without --live and what goes "
+        "with it (--views, --patience-s) it calibrates from {}",
+        counted(film.pulses.size(), "instant"), folders, film.pulses.size() == 1 ? "it" : "them");
 }
 
 /// Mean way of the corners that both pictures show; empty if they share too few.
@@ -214,7 +214,7 @@ std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
                  missing.empty() ? "nothing is missing" : "still missing: " + joined(missing));
         if (missing.empty()) return "the film is complete";
     }
-    return fmt::format("the film has the {} instants that were asked for (--views)", most);
+    return fmt::format("the film has what was asked for (--views): {}", counted(most, "instant"));
 }
 
 }  // namespace

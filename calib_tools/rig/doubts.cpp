@@ -5,6 +5,7 @@
 #include <set>
 
 #include "calib_tools/rig/camera_solver.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -100,8 +101,8 @@ std::vector<std::string> doubts_of(const Bundle& bundle, const BundleUncertainty
     for (const BundleView& view : bundle.views) boards.insert(view.board);
     if (boards.size() < few_views)
         doubts.push_back(
-            fmt::format("it rests on {} views, too few to notice one that misleads: 10 are good",
-                        boards.size()));
+            fmt::format("it rests on {}, too few to notice one that misleads: 10 are good",
+                        counted(boards.size(), "view")));
     return doubts;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/counted.h"
 #include "common/base/error.h"
 
 namespace vantage {
@@ -65,10 +66,9 @@ std::vector<std::string> missing_pictures(const Bundle& bundle, int camera,
     std::size_t views = 0;
     for (const BundleView& view : bundle.views) views += view.camera == camera ? 1 : 0;
     if (views < wanted_views)
-        advice.push_back(
-            fmt::format("only {} pictures of the {} camera could be used: take {} "
-                        "more",
-                        views, camera_name, wanted_views - views));
+        advice.push_back(fmt::format("only {} of the {} camera could be used: take {} more",
+                                     counted(static_cast<std::size_t>(views), "picture"),
+                                     camera_name, wanted_views - views));
     std::string empty_fields;
     for (int fy = 0; fy < 3; ++fy)
         for (int fx = 0; fx < 3; ++fx) {

@@ -172,6 +172,12 @@ TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_wh
         kept += entry.path().filename().string().starts_with("left_") ? 1 : 0;
     ASSERT_GE(kept, 2);
 
+    // What the sentence says holds: without --live the kept pictures are looked at.
+    const ProgramResult without =
+        run_to_end(VANTAGE_CALIB, with_board({"stereo", "--rig", "A=" + file("A/kept"), "-o",
+                                              file("A/calibration.yaml"), "--lens", "brown4"}));
+    EXPECT_THAT(without.err, HasSubstr(fmt::format("{0} of {0} pictures searched", 2 * kept)));
+
     std::vector<std::string> going_on = asking_for("9");
     going_on.emplace_back("--go-on");
     const ProgramResult result = calibrate(going_on);
