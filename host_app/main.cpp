@@ -1,12 +1,17 @@
+#include <string_view>
 #include <vector>
 
 #include "common/base/command.h"
 
 namespace vantage {
+std::string_view commit();
 std::vector<CommandEntry> host_commands();
-}
+}  // namespace vantage
 
 int main(int argc, char** argv) {
-    return vantage::run_program("vantage", "Vantage on the host: receive, fuse, fly, put out",
+    return vantage::run_program({.name = "vantage",
+                                 .description = "Vantage on the host: receive, fuse, fly, put out",
+                                 .commit = vantage::commit(),
+                                 .libraries = VANTAGE_LIBRARIES},
                                 vantage::host_commands(), argc, argv);
 }

@@ -6,30 +6,67 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/command_documents.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/misfit_words.h"
+#include "common/base/stop_signal.h"
 
 namespace vantage {
+namespace {
 
-int run_program(std::string_view name, std::string_view description,
-                const std::vector<CommandEntry>& commands, int argc, char** argv) {
-    CLI::App program{std::string(description), std::string(name)};
+constexpr int words_do_not_fit = 2;
+/// 128 and the number of SIGINT, as shells say it.
+constexpr int interrupted = 130;
+
+std::string version_text(const ProgramFacts& facts) {
+    std::string text = fmt::format("{} {}", facts.name, VANTAGE_VERSION);
+    if (!facts.commit.empty()) text += fmt::format(" (commit {})", facts.commit);
+    text += fmt::format("\n{}", facts.description);
+    if (!facts.libraries.empty()) text += fmt::format("\nwith {}", facts.libraries);
+    return text;
+}
+
+/// The words after the program's name; `help a b` becomes `a b --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (!words.empty() && words[0] == "help") {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    return words;
+}
+
+}  // namespace
+
+int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
+                char** argv) {
+    CLI::App program{std::string(facts.description), std::string(facts.name)};
     program.require_subcommand(1);
-    program.set_version_flag("--version", VANTAGE_VERSION);
+    program.set_version_flag("--version", version_text(facts));
     for (const CommandEntry& command : commands) command.add(program);
+    const std::vector<std::string> words = words_of(argc, argv);
+    if (words == std::vector<std::string>{"--man-page"}) {
+        std::cout << man_page(program, VANTAGE_VERSION);
+        return 0;
+    }
+    if (words == std::vector<std::string>{"--bash-completion"}) {
+        std::cout << bash_completion(program);
+        return 0;
+    }
     try {
-        program.parse(argc, argv);
+        program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
         std::cout.flush();
         if (!std::cout) fail("standard output could not be written");
-        return 0;
+        return StopSignal::was_interrupted() ? interrupted : 0;
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        log_error("{}; {} --help lists what fits", error.what(), name);
-        return 2;
+        log_error("{}", misfit_sentence(program, words, error.what()));
+        return words_do_not_fit;
     } catch (const std::exception& error) {
         log_error("{}", error.what());
-        return 1;
+        return StopSignal::was_interrupted() ? interrupted : 1;
     }
 }
 

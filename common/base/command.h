@@ -17,9 +17,18 @@ struct CommandEntry {
     std::function<void(CLI::App& program)> add;
 };
 
+/// What a program says of itself.
+struct ProgramFacts {
+    std::string_view name, description;
+    std::string_view commit{};     ///< of the sources; empty: unknown
+    std::string_view libraries{};  ///< "ZeroMQ 4.3.4, OpenCV 4.6.0"; empty: none that matter
+};
+
 /// Parses and runs. Results go to stdout, the log to stderr. Returns the exit status: 0, or 1 with
-/// one clear sentence on stderr, or 2 for words on the command line that do not fit.
-int run_program(std::string_view name, std::string_view description,
-                const std::vector<CommandEntry>& commands, int argc, char** argv);
+/// one clear sentence on stderr, or 2 for words on the command line that do not fit, or 130 after
+/// Ctrl-C. `help COMMAND` is COMMAND --help. Two options that nobody types, --man-page and
+/// --bash-completion, print what the packages bring beside the program.
+int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
+                char** argv);
 
 }  // namespace vantage

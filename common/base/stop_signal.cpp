@@ -1,6 +1,7 @@
 #include "common/base/stop_signal.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -13,6 +14,8 @@
 
 namespace vantage {
 namespace {
+
+std::atomic<bool> has_been_interrupted = false;
 
 sigset_t stop_signals() {
     sigset_t signals;
@@ -34,6 +37,7 @@ StopSignal::StopSignal() {
     fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
     if (fd_ < 0) fail("this system gives no signal descriptor: {}", std::strerror(errno));
     set_blocked(true);
+    has_been_interrupted = false;
 }
 
 StopSignal::~StopSignal() {
@@ -50,9 +54,12 @@ bool StopSignal::wait_for(std::chrono::nanoseconds time) {
     signalfd_siginfo taken;
     if (::read(fd_, &taken, sizeof taken) != static_cast<ssize_t>(sizeof taken)) return false;
     requested_ = true;
+    if (taken.ssi_signo == SIGINT) has_been_interrupted = true;
     // From here on the signals do what they do by themselves, should the orderly end hang.
     set_blocked(false);
     return true;
 }
+
+bool StopSignal::was_interrupted() { return has_been_interrupted; }
 
 }  // namespace vantage

@@ -19,6 +19,10 @@ class StopSignal {
     /// Sleeps; returns at once, and true, when the program is asked to stop.
     bool wait_for(std::chrono::nanoseconds time);
 
+    /// Ctrl-C (SIGINT) has been taken, by the latest of these objects: a fact about the process, by
+    /// which its exit status goes.
+    static bool was_interrupted();
+
   private:
     int fd_;
     bool requested_ = false;

@@ -5,7 +5,7 @@
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/config/nearest_name.h"
+#include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {

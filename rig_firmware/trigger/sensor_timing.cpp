@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/pulse_grid.h"
-#include "common/config/nearest_name.h"
+#include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {

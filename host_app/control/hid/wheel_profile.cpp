@@ -8,7 +8,7 @@
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/config/nearest_name.h"
+#include "common/base/nearest_name.h"
 #include "common/config/toml_reader.h"
 #include "host_app/control/hid/embedded_wheels.h"
 

@@ -13,7 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/config/nearest_name.h"
+#include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {

@@ -161,7 +161,7 @@ TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_wh
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     interrupted.send_signal(SIGINT);
     const ProgramResult ended = interrupted.wait();
-    EXPECT_EQ(ended.status, 1);
+    EXPECT_EQ(ended.status, 130);
     EXPECT_THAT(ended.err, HasSubstr("the film was ended; "));
     EXPECT_THAT(ended.err,
                 HasSubstr("kept in " + file("A/kept") +

@@ -162,7 +162,7 @@ TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigCome
     const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
     wait_for(*host, "waiting for 2 rigs");
     host->send_signal(SIGINT);
-    EXPECT_EQ(host->wait().status, 1);
+    EXPECT_EQ(host->wait().status, 130);
     for (const char* rig : {"left disconnected", "right disconnected"})
         EXPECT_NE(host->err().find(rig), std::string::npos) << host->err();
     EXPECT_EQ(host->out(), "");
@@ -217,7 +217,7 @@ TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
     const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});
     wait_for(*host, first_progress);
     host->send_signal(SIGINT);
-    EXPECT_EQ(host->wait().status, 0) << host->err();
+    EXPECT_EQ(host->wait().status, 130) << host->err();
     EXPECT_GE(nlohmann::json::parse(host->out())["pictures"], 1);
     EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
 }

@@ -103,7 +103,7 @@ TEST_F(RunCommandTest, EndsInOrderWhenAskedTo) {
         std::this_thread::sleep_for(300ms);
         rig.send_signal(signal);
         const ProgramResult result = rig.wait();
-        ASSERT_EQ(result.status, 0) << result.err;
+        ASSERT_EQ(result.status, signal == SIGINT ? 130 : 0) << result.err;
         expect_books_to_balance(nlohmann::json::parse(result.out));
     }
 }
