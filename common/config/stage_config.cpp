@@ -1,9 +1,11 @@
 #include "common/config/stage_config.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
+#include "common/base/atomic_file.h"
 #include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 
@@ -11,6 +13,16 @@ namespace vantage {
 namespace {
 
 constexpr int stage_config_version = 1;
+
+/// The first word of a file, such as `vantage-rig keys show` writes.
+std::string read_public_key(const TomlTable& table, const std::filesystem::path& path) {
+    constexpr std::size_t max_bytes = 4096;
+    const std::vector<std::byte> bytes = read_file(path, max_bytes);
+    std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    std::string key;
+    if (!(text >> key)) table.refuse("public_key_file", fmt::format("is empty: {}", path.string()));
+    return key;
+}
 
 void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
     StageConfig::Rig rig;
@@ -23,6 +35,13 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
     table.read("endpoint", rig.endpoint);
     if (table.has("endpoint")) check_endpoint(table, "endpoint", rig.endpoint);
     table.read("public_key", rig.public_key);
+    std::filesystem::path public_key_file;
+    table.read("public_key_file", public_key_file);
+    if (!public_key_file.empty()) {
+        if (!rig.public_key.empty())
+            table.refuse("public_key_file", "and 'public_key' exclude each other: keep one");
+        rig.public_key = read_public_key(table, public_key_file);
+    }
     table.read("colour", rig.colour);
     rigs.push_back(std::move(rig));
 }

@@ -10,8 +10,10 @@ namespace vantage {
 struct StageConfig {
     struct Rig {
         std::string name;
-        std::string endpoint;    ///< tcp://host:port of the rig's publisher
-        std::string public_key;  ///< the rig's CURVE public key, Z85; needed beyond loopback
+        std::string endpoint;  ///< tcp://host:port of the rig's publisher
+        /// The rig's CURVE public key, Z85, from public_key or public_key_file; needed beyond
+        /// loopback.
+        std::string public_key;
         std::filesystem::path colour{};  ///< its colour correction; empty: none
     };
     std::vector<Rig> rigs;

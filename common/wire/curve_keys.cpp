@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include <fcntl.h>
+#include <grp.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <toml++/toml.h>
 #include <unistd.h>
@@ -29,17 +31,50 @@ std::string read_text(const std::filesystem::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// The user and the group that a rig's daemon runs as, where its package is installed.
+constexpr const char* service_name = "vantage";
+
+KeyFileReader this_reader() {
+    KeyFileReader reader{.users = {0, ::geteuid()}, .groups = {::getegid()}};
+    // An administrator looks at the service's own files, too.
+    if (const passwd* service = ::getpwnam(service_name)) reader.users.insert(service->pw_uid);
+    if (const group* service = ::getgrnam(service_name)) reader.groups.insert(service->gr_gid);
+    return reader;
+}
+
 void refuse_if_others_can_read(const std::filesystem::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0)
         fail("cannot read key file {}: {}", path.string(), std::strerror(errno));
-    constexpr mode_t others = S_IRWXG | S_IRWXO;
-    if ((facts.st_mode & others) != 0)
-        fail("key file {} can be read by others (mode {:o}); chmod 600 {}", path.string(),
-             facts.st_mode & (S_IRWXU | others), path.string());
+    const std::string fault =
+        key_file_fault({facts.st_uid, facts.st_gid, facts.st_mode}, this_reader());
+    if (!fault.empty()) fail("key file {} {} {}", path.string(), fault, path.string());
+    if (::access(path.c_str(), R_OK) != 0)
+        fail(
+            "key file {} cannot be read by this user; for the service: chown root:{} {}, then "
+            "chmod 640 {}",
+            path.string(), service_name, path.string(), path.string());
 }
 
 }  // namespace
+
+std::string key_file_fault(const KeyFileFacts& file, const KeyFileReader& reader) {
+    constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
+    if (!reader.users.contains(file.owner))
+        return fmt::format(
+            "belongs to user {}, who is neither root nor the one who reads it; chown root",
+            file.owner);
+    if ((file.mode & S_IRWXO) != 0)
+        return fmt::format("is open to everybody (mode {:o}); chmod o=", file.mode & permissions);
+    if ((file.mode & (S_IWGRP | S_IXGRP)) != 0)
+        return fmt::format("can be changed by its group (mode {:o}); chmod g=r",
+                           file.mode & permissions);
+    if ((file.mode & S_IRGRP) != 0 && !reader.groups.contains(file.group))
+        return fmt::format(
+            "can be read by group {}, which is not the service's (mode {:o}); chmod 600",
+            file.group, file.mode & permissions);
+    return "";
+}
 
 CurveKeys generate_curve_keys() {
     Z85Buffer public_key{};

@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+
+#include <sys/types.h>
 
 namespace vantage {
 
@@ -19,6 +22,22 @@ CurveKeys generate_curve_keys();
 /// Writes a key file (TOML: version, public, secret) that only its owner can read. Throws Error
 /// rather than overwrite what stands there.
 void write_key_file(const std::filesystem::path& path, const CurveKeys& keys);
+
+/// Whose a key file is, and who may do what with it.
+struct KeyFileFacts {
+    uid_t owner = 0;
+    gid_t group = 0;
+    mode_t mode = 0;
+};
+/// Who a key file may belong to, and which groups may read it.
+struct KeyFileReader {
+    std::set<uid_t> users;
+    std::set<gid_t> groups;
+};
+/// What of a key file's owner and permissions gives the secret away, with the command that mends it
+/// but for the file's name; empty if nothing does. It belongs to root or who reads it; besides its
+/// owner at most the service's group reads it.
+std::string key_file_fault(const KeyFileFacts& file, const KeyFileReader& reader);
 
 /// Throws Error naming file and mend for what is missing, readable by others, damaged, or a pair
 /// whose halves do not belong together.

@@ -51,6 +51,23 @@ synthesiser = "mesh"
     EXPECT_EQ(config.view.synthesiser, "mesh");
 }
 
+TEST_F(StageConfigTest, TakesARigsPublicKeyFromAFile) {
+    const std::string key = "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7";
+    const std::string rig =
+        "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\npublic_key_file = 'a.pub'\n";
+    std::ofstream(folder_.path() / "a.pub") << key << "\n";
+    EXPECT_EQ(load(rig).rigs[0].public_key, key);
+    EXPECT_EQ(
+        fault(rig + "public_key = '" + key + "'\n"),
+        "config.toml:5: 'public_key_file' in [[rigs]] and 'public_key' exclude each other: keep "
+        "one");
+    std::ofstream(folder_.path() / "a.pub") << "\n";
+    EXPECT_EQ(fault(rig), "config.toml:5: 'public_key_file' in [[rigs]] is empty: " +
+                              (folder_.path() / "a.pub").string());
+    std::filesystem::remove(folder_.path() / "a.pub");
+    EXPECT_NE(fault(rig).find("a.pub"), std::string::npos);
+}
+
 TEST_F(StageConfigTest, WantsRigsWithNamesOfTheirOwn) {
     const std::string rig = "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n";
     EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'rigs' is missing");

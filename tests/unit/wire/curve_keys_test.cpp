@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "tests/support/data_folder.h"
@@ -67,7 +68,7 @@ TEST_F(CurveKeysTest, BadKeyFilesAreRefusedWithTheMend) {
     const CurveKeys keys = generate_curve_keys();
     const std::string good = key_file_text(keys.public_key, keys.secret_key);
     EXPECT_EQ(refusal_of_key_file(write("good", good)), "");
-    EXPECT_THAT(refusal_of_key_file(write("open", good, 0644)), HasSubstr("chmod 600"));
+    EXPECT_THAT(refusal_of_key_file(write("open", good, 0644)), HasSubstr("chmod o= "));
     EXPECT_THAT(refusal_of_key_file(folder_.path() / "missing"), HasSubstr("missing"));
     EXPECT_THAT(refusal_of_key_file(write("damaged", "version = \n")), HasSubstr("line 1"));
     EXPECT_THAT(refusal_of_key_file(write("empty", "")), HasSubstr("version"));
@@ -82,6 +83,45 @@ TEST_F(CurveKeysTest, BadKeyFilesAreRefusedWithTheMend) {
                 HasSubstr("do not belong together"));
     EXPECT_THAT(refusal_of_key_file(write("large", std::string(70000, '#'))), HasSubstr("limit"));
     EXPECT_THAT(refusal_of_key_file(folder_.path()), HasSubstr("folder"));
+}
+
+TEST_F(CurveKeysTest, ItsGroupMayReadAKeyFileAndNobodyElse) {
+    const CurveKeys keys = generate_curve_keys();
+    const std::string good = key_file_text(keys.public_key, keys.secret_key);
+    EXPECT_EQ(refusal_of_key_file(write("owner", good, 0600)), "");
+    EXPECT_EQ(refusal_of_key_file(write("owner_only_reads", good, 0400)), "");
+    EXPECT_EQ(refusal_of_key_file(write("group", good, 0640)), "");
+    EXPECT_THAT(refusal_of_key_file(write("group_writes", good, 0660)), HasSubstr("chmod g=r "));
+    EXPECT_THAT(refusal_of_key_file(write("all", good, 0644)), HasSubstr("mode 644"));
+    EXPECT_THAT(refusal_of_key_file(write("others_only", good, 0604)), HasSubstr("chmod o= "));
+}
+
+TEST_F(CurveKeysTest, AKeyFileOfAStrangerIsRefused) {
+    if (::geteuid() != 0) GTEST_SKIP() << "SKIPPED: only root gives files away";
+    const CurveKeys keys = generate_curve_keys();
+    const std::filesystem::path path =
+        write("rig.key", key_file_text(keys.public_key, keys.secret_key), 0640);
+    ASSERT_EQ(::chown(path.c_str(), 54321, 0), 0);
+    EXPECT_THAT(refusal_of_key_file(path), HasSubstr("belongs to user 54321"));
+    ASSERT_EQ(::chown(path.c_str(), 0, 54321), 0);
+    EXPECT_THAT(refusal_of_key_file(path), HasSubstr("can be read by group 54321"));
+    ::chmod(path.c_str(), 0600);
+    EXPECT_EQ(refusal_of_key_file(path), "");
+}
+
+TEST(KeyFileFault, AsksForRootOrTheReaderAndTheServicesGroup) {
+    constexpr uid_t service = 990, somebody = 1000;
+    constexpr gid_t its_group = 991, users = 100;
+    const KeyFileReader reader{.users = {0, service}, .groups = {its_group}};
+    for (const uid_t owner : {uid_t{0}, service})
+        for (const mode_t mode : {0400, 0600, 0440, 0640}) {
+            EXPECT_EQ(key_file_fault({owner, its_group, mode}, reader), "") << owner << ' ' << mode;
+            EXPECT_NE(key_file_fault({somebody, its_group, mode}, reader), "") << mode;
+        }
+    EXPECT_EQ(key_file_fault({0, users, 0600}, reader), "");
+    EXPECT_NE(key_file_fault({0, users, 0640}, reader), "");
+    for (const mode_t mode : {0660, 0650, 0644, 0604, 0601, 0666, 0777})
+        EXPECT_NE(key_file_fault({service, its_group, mode}, reader), "") << mode;
 }
 
 TEST_F(CurveKeysTest, KeysAreFortyCharactersOfZ85) {
