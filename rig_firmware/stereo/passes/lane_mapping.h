@@ -1,23 +1,20 @@
 #pragma once
 
+#include <string_view>
+
 #include "common/gl/shader_library.h"
 
 namespace vantage {
 
-/// Which way invocations lie over the cost volume, fixed when Vantage is built for a GPU
-/// (-DVANTAGE_LANES=pixels|disparities): pixels for CPUs (llvmpipe) and wide GPUs, disparities for
-/// GPUs with few registers a lane, such as a Raspberry Pi's V3D.
+/// Which way invocations lie over the cost volume: pixels for CPUs (llvmpipe) and wide GPUs,
+/// disparities for GPUs with few registers a lane, such as a Raspberry Pi's V3D. Both give the same
+/// bits.
 enum class LaneMapping { pixels = 0, disparities = 1 };
 
-constexpr LaneMapping lane_mapping() {
-#ifdef VANTAGE_LANES_DISPARITIES
-    return LaneMapping::disparities;
-#else
-    return LaneMapping::pixels;
-#endif
-}
+/// The one for a GPU, by the name that OpenGL ES gives it.
+LaneMapping lane_mapping_of(std::string_view renderer);
 
-inline ShaderDefines lane_defines(LaneMapping mapping = lane_mapping()) {
+inline ShaderDefines lane_defines(LaneMapping mapping) {
     return {{"LANE_MAPPING", mapping == LaneMapping::disparities ? "1" : "0"}};
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "rig_firmware/stereo/passes/lane_mapping.h"
-
 namespace vantage {
 
 namespace {
@@ -17,8 +15,8 @@ ShaderDefines column_defines(PermOutput output, int valid) {
     return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
 }
 
-ShaderDefines row_defines(PermCosts costs) {
-    ShaderDefines defines = lane_defines();
+ShaderDefines row_defines(PermCosts costs, LaneMapping lanes) {
+    ShaderDefines defines = lane_defines(lanes);
     defines.emplace_back("GIVEN", costs == PermCosts::given ? "1" : "0");
     return defines;
 }
@@ -26,11 +24,12 @@ ShaderDefines row_defines(PermCosts costs) {
 }  // namespace
 
 PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                   PermOutput output, PermCosts costs, int most_code)
+                   PermOutput output, PermCosts costs, int most_code, LaneMapping lanes)
     : layout_(layout),
       disparities_(disparities),
       kind_(output),
-      rows_(Program::compute(library, "perm_rows.comp", row_defines(costs))),
+      lanes_(lanes),
+      rows_(Program::compute(library, "perm_rows.comp", row_defines(costs, lanes))),
       full_columns_(
           Program::compute(library, "perm_columns.comp", column_defines(output, slab_disparities))),
       last_columns_(Program::compute(library, "perm_columns.comp",
@@ -88,7 +87,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
     const std::size_t pixels = layout_.pixels();
     const double evaluations = static_cast<double>(pixels) * slab_disparities;
     const int row_lanes =
-        lane_mapping() == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
+        lanes_ == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
     profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
         permeability.along().bind_storage(0);
         weight_.bind_storage(1);

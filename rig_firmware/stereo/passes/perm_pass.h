@@ -3,9 +3,11 @@
 #include <optional>
 
 #include "common/gl/buffer.h"
+#include "common/gl/limits.h"
 #include "common/gl/program.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/passes/feature_pass.h"
+#include "rig_firmware/stereo/passes/lane_mapping.h"
 #include "rig_firmware/stereo/passes/perm_reference.h"
 #include "rig_firmware/stereo/passes/permeability_pass.h"
 #include "rig_firmware/stereo/passes/stereo_layout.h"
@@ -32,10 +34,11 @@ enum class PermCosts {
 class PermPass {
   public:
     /// `most_code`: the largest cost that PermOutput::costs leaves, where every cost is the
-    /// largest.
+    /// largest. `lanes` changes the time that it takes, and no bit of what it leaves.
     PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
              PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found,
-             int most_code = most_perm_code);
+             int most_code = most_perm_code,
+             LaneMapping lanes = lane_mapping_of(GlInfo::query().renderer));
 
     void run(PassProfiler& profiler, const FeaturePass& features,
              const PermeabilityPass& permeability);
@@ -65,6 +68,7 @@ class PermPass {
     StereoLayout layout_;
     int disparities_;
     PermOutput kind_;
+    LaneMapping lanes_;
     Program rows_, full_columns_, last_columns_, weight_rows_, weight_columns_;
     Buffer volume_, down_, output_, weight_;
 };

@@ -78,6 +78,13 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(bits_of(beside, 12, 12), winners.cost_before, "cost before");
     expect_equal(bits_of(beside, 0, 12), winners.cost_after, "cost after");
 
+    PermPass other_lanes(library_, layout_, GetParam().disparities, PermOutput::winners,
+                         PermCosts::found, most_perm_code, LaneMapping::disparities);
+    other_lanes.run(profiler_, features, permeabilities);
+    for (const int word : {0, 1})
+        expect_equal(winners_channel(other_lanes.winners(), layout_, word),
+                     winners_channel(perm.winners(), layout_, word), "lanes along disparities");
+
     LeftRightPass check(library_, layout_);
     check.run(profiler_, perm.winners(), &perm.weight());
     const CheckedDisparity checked = left_right_checked(winners);
