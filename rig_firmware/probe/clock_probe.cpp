@@ -13,7 +13,7 @@
 #include <time.h>
 
 #include "common/base/kernel_clock.h"
-#include "rig_firmware/clock/ptp4l_client.h"
+#include "rig_firmware/clock/ptp_state_file.h"
 #include "rig_firmware/probe/probe.h"
 
 namespace vantage {
@@ -75,36 +75,39 @@ void add_ptp(ProbePart& part) {
         part.lines.push_back(fmt::format("{} '{}'", node, name));
     }
     const bool has_ptp4l = std::filesystem::is_socket(ptp4l_socket, ignored);
+    const std::optional<PtpReading> reading = read_ptp();
     part.facts["ptp4l"] = {{"management_socket", ptp4l_socket}, {"is_there", has_ptp4l}};
     part.lines.push_back(fmt::format("ptp4l's management socket {}: {}", ptp4l_socket,
                                      has_ptp4l ? "there" : "not there"));
-    if (const std::optional<PtpState> state = read_ptp4l()) {
-        part.facts["ptp4l"]["port_state"] = state->port_state;
-        part.facts["ptp4l"]["offset_ns"] = state->offset_ns;
-        part.facts["ptp4l"]["path_delay_ns"] = state->path_delay_ns;
+    if (reading) {
+        const PtpState& state = reading->ptp;
+        part.facts["ptp4l"]["port_state"] = state.port_state;
+        part.facts["ptp4l"]["offset_ns"] = state.offset_ns;
+        part.facts["ptp4l"]["path_delay_ns"] = state.path_delay_ns;
         part.lines.push_back(
             fmt::format("ptp4l is {}, {:.0f} ns from its master, path delay {:.0f} ns",
-                        state->port_state, state->offset_ns, state->path_delay_ns));
-        if (state->is_in_step() && !state->disciplines(read_kernel_clock()))
+                        state.port_state, state.offset_ns, state.path_delay_ns));
+        if (state.is_in_step() && !reading->is_disciplined())
             part.unfit.emplace_back(
                 "ptp4l is in step, but nothing sets the system clock by it: with hardware stamps "
                 "phc2sys has to run too (vantage-phc2sys.service)");
-        if (!state->is_in_step())
+        if (!state.is_in_step())
             part.unfit.push_back(
                 fmt::format("ptp4l is {} and follows no master: start ptp4l on the host, and let "
                             "multicast through the switch",
-                            state->port_state));
+                            state.port_state));
     } else if (has_ptp4l) {
         part.unfit.push_back(
             fmt::format("ptp4l does not answer on {}: may this user write to it?", ptp4l_socket));
+    } else {
+        part.unfit.push_back(
+            fmt::format("ptp4l does not run (no socket {}, no {}): rigs will not share one time",
+                        ptp4l_socket, ptp_state_file));
     }
     if (devices.empty())
         part.unfit.emplace_back(
             "there is no PTP hardware clock: ptp4l can only stamp in software, to some tens of "
             "microseconds");
-    if (!has_ptp4l)
-        part.unfit.push_back(fmt::format(
-            "ptp4l does not run (no socket {}): rigs will not share one time", ptp4l_socket));
 }
 
 /// Tried on a thread that ends with it: a limit, a capability or a container may each decide.
@@ -141,7 +144,7 @@ void add_scheduling(ProbePart& part) {
     if (!may_be_realtime)
         part.unfit.emplace_back(
             "this user has no real-time priority, and pulses that it sends are late: start the rig "
-            "by its systemd unit, which has CAP_SYS_NICE, or raise the limit rtprio");
+            "by its systemd unit, which has leave for it, or raise the limit rtprio");
 }
 
 }  // namespace
