@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::chrono::milliseconds look_every(50);
 constexpr std::chrono::seconds status_every(5);
+/// The slowest that a thread comes round where all is well: a picture matched by a busy processor.
+constexpr std::chrono::seconds stuck_after(15);
 
 struct Options {
     std::string config;
@@ -79,6 +81,23 @@ class StatusLines {
     std::uint64_t published_ = 0;
 };
 
+/// Feeds the service manager's watchdog as long as every thread of the daemon comes round.
+/// `stuck`: the one that did not at the last call.
+void tell(ServiceNotifier& service, const RigDaemon& daemon, std::string& stuck) {
+    const std::string published =
+        fmt::format("{} frames published", daemon.status().publisher.counters.published);
+    const std::string worker = daemon.stuck_worker(stuck_after);
+    if (worker.empty()) {
+        service.alive(published);
+    } else {
+        service.stuck(fmt::format("the thread '{}' is stuck; {}", worker, published));
+        if (worker != stuck)
+            log_error("the thread '{}' has not come round for {} s; systemd's watchdog is not fed",
+                      worker, stuck_after.count());
+    }
+    stuck = worker;
+}
+
 void run(const Options& options) {
     const RigConfig config = load_rig_config(options.config);
     StopSignal stop;
@@ -88,10 +107,10 @@ void run(const Options& options) {
     ServiceNotifier service;
     service.ready();
     StatusLines lines;
+    std::string stuck;
     MonotonicTime next_status = MonotonicClock::now() + status_every;
     while (daemon.running() && !stop.wait_for(look_every)) {
-        service.alive(
-            fmt::format("{} frames published", daemon.status().publisher.counters.published));
+        tell(service, daemon, stuck);
         if (MonotonicClock::now() < next_status) continue;
         next_status += status_every;
         log_info("{}: {}", config.name, lines.next(daemon.status()));

@@ -16,9 +16,10 @@
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
-#include "rig_firmware/clock/ptp4l_client.h"
+#include "rig_firmware/clock/ptp_state_file.h"
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
+#include "rig_firmware/daemon/heartbeat.h"
 #include "rig_firmware/daemon/timecode.h"
 #include "rig_firmware/trigger/rig_trigger.h"
 
@@ -88,14 +89,14 @@ struct RigDaemon::Impl {
     void publish();
     void keep_in_step(const RigHealth& facts);
     void announce(std::uint64_t first_pulse);
-    RigSync sync_now(const std::optional<PtpState>& ptp, const KernelClock& kernel) const;
+    RigSync sync_now(const std::optional<PtpReading>& clock, int tai_offset_s) const;
     void stop();
 
     /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
     /// road and is kept for rethrow_failure().
     template <class Work>
-    void guarded(const char* name, Work work) {
-        ::pthread_setname_np(::pthread_self(), name);
+    void guarded(Heartbeat& heart, Work work) {
+        ::pthread_setname_np(::pthread_self(), heart.worker().c_str());
         try {
             work();
         } catch (...) {
@@ -103,6 +104,7 @@ struct RigDaemon::Impl {
             if (!failure) failure = std::current_exception();
             stopping = true;
         }
+        heart.rest();
     }
 
     template <class Change>
@@ -133,6 +135,9 @@ struct RigDaemon::Impl {
 
     std::uint64_t refused_pulse = 0;  ///< only the thread that keeps in step uses it
 
+    Heartbeat capture_heart{"capture"}, gpu_heart{"gpu"}, publish_heart{"publish"},
+        sync_heart{"sync"};
+
     std::atomic<bool> stopping = false;
     std::atomic<bool> finished = false;
     std::thread capture_thread, gpu_thread, publish_thread, sync_thread;
@@ -144,7 +149,7 @@ void RigDaemon::Impl::start() {
     std::promise<void> all_stand;
     capture_thread =
         std::thread([this, p = std::move(source_ready), go = all_stand.get_future()]() mutable {
-            guarded("capture", [&] { capture(std::move(p), go); });
+            guarded(capture_heart, [&] { capture(std::move(p), go); });
             captured.close();
         });
     SourceFacts source_facts = source.get();
@@ -160,17 +165,19 @@ void RigDaemon::Impl::start() {
     std::future<void> gpu = gpu_ready.get_future();
     gpu_thread = std::thread([this, calibration, specimens = std::move(source_facts.specimens),
                               p = std::move(gpu_ready)]() mutable {
-        guarded("gpu", [&] { run_gpu(calibration, specimens, std::move(p)); });
+        guarded(gpu_heart, [&] { run_gpu(calibration, specimens, std::move(p)); });
         matched.close();
     });
     gpu.get();
+    publish_heart.beat();
+    sync_heart.beat();
     publish_thread = std::thread([this] {
-        guarded("publish", [&] { publish(); });
+        guarded(publish_heart, [&] { publish(); });
         finished = true;
     });
     all_stand.set_value();
     sync_thread = std::thread([this, facts = facts_of(config, calibration)] {
-        guarded("sync", [&] { keep_in_step(facts); });
+        guarded(sync_heart, [&] { keep_in_step(facts); });
     });
 }
 
@@ -187,11 +194,14 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
         ready.set_exception(std::current_exception());
         return;
     }
+    capture_heart.beat();
     ready.set_value({source->size(), source->specimens()});
     // Frames from before the GPU's programs are built would only be thrown away.
-    while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) {
+    while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) capture_heart.beat();
+    while (!stopping && !source->ended()) {
+        capture_heart.beat();
+        capture_one(*source);
     }
-    while (!stopping && !source->ended()) capture_one(*source);
 }
 
 void RigDaemon::Impl::capture_one(StereoSource& source) {
@@ -217,20 +227,21 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
 void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     constexpr std::chrono::milliseconds look_every(50);
     constexpr int looks_per_second = 20;
-    std::optional<PtpState> ptp;
-    KernelClock kernel;
+    std::optional<PtpReading> clock;
+    int tai_offset_s = 0;
     HealthMonitor monitor(facts);
     for (int look = 0; !stopping && !finished; ++look) {
+        sync_heart.beat();
         if (look % looks_per_second == 0) {
-            ptp = read_ptp4l();
-            kernel = read_kernel_clock();
+            clock = read_ptp();
+            tai_offset_s = read_kernel_clock().tai_offset_s;
             publisher.report(monitor.look(publisher.status().counters, MonotonicClock::now()));
         }
         if (trigger) {
             trigger->rethrow_failure();
             announce(publisher.announced_pulse());
         }
-        const RigSync now = sync_now(ptp, kernel);
+        const RigSync now = sync_now(clock, tai_offset_s);
         publisher.report(now);
         {
             const std::lock_guard lock(mutex);
@@ -251,11 +262,10 @@ void RigDaemon::Impl::announce(std::uint64_t first_pulse) {
     }
 }
 
-RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp,
-                                  const KernelClock& kernel) const {
+RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int tai_offset_s) const {
     RigSync now;
     now.ready = true;
-    now.tai_offset_s = kernel.tai_offset_s;
+    now.tai_offset_s = tai_offset_s;
     if (trigger) {
         const TriggerStatus status = trigger->status();
         now.role = config.trigger.role == "lead" ? RigSync::Role::lead : RigSync::Role::follow;
@@ -270,11 +280,11 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpState>& ptp,
     } else {
         now.first_pulse = publisher.announced_pulse();
     }
-    if (ptp) {
-        now.disciplined = ptp->disciplines(kernel);
-        now.ptp_offset_ns = ptp->offset_ns;
-        now.ptp_path_delay_ns = ptp->path_delay_ns;
-        now.ptp_state = ptp->port_state;
+    if (clock) {
+        now.disciplined = clock->is_disciplined();
+        now.ptp_offset_ns = clock->ptp.offset_ns;
+        now.ptp_path_delay_ns = clock->ptp.path_delay_ns;
+        now.ptp_state = clock->ptp.port_state;
     }
     const std::lock_guard lock(mutex);
     if (sensor_clock) {
@@ -298,8 +308,10 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
         ready.set_exception(std::current_exception());
         return;
     }
+    gpu_heart.beat();
     ready.set_value();
     while (!(captured.closed() && captured.size() == 0)) {
+        gpu_heart.beat();
         std::optional<CapturedFrame> next = captured.pop_for(wait_slice);
         if (!next) continue;
         Instant instant;
@@ -319,6 +331,7 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
 void RigDaemon::Impl::publish() {
     std::uint64_t published = 0;
     while (!(matched.closed() && matched.size() == 0)) {
+        publish_heart.beat();
         std::optional<Instant> instant = matched.pop_for(wait_slice);
         if (!instant) continue;
         if (frame_limit > 0 && published == frame_limit) {
@@ -383,6 +396,19 @@ void RigDaemon::rethrow_failure() const {
         failure = impl_->failure;
     }
     if (failure) std::rethrow_exception(failure);
+}
+
+std::string RigDaemon::stuck_worker(std::chrono::nanoseconds limit) const {
+    const MonotonicTime now = MonotonicClock::now();
+    std::string longest_silent;
+    for (const Heartbeat* heart :
+         {&impl_->capture_heart, &impl_->gpu_heart, &impl_->publish_heart, &impl_->sync_heart}) {
+        const std::chrono::nanoseconds silence = heart->silence(now);
+        if (silence <= limit) continue;
+        limit = silence;
+        longest_silent = heart->worker();
+    }
+    return longest_silent;
 }
 
 void RigDaemon::stop() { impl_->stop(); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -41,6 +42,9 @@ class RigDaemon {
     /// Throws the Error that ended the road, if one did.
     void rethrow_failure() const;
     void stop();
+    /// The thread that has not come round its loop for the longest time, if that is longer than
+    /// `limit`; empty if all have. Locks nothing that such a thread could hold.
+    std::string stuck_worker(std::chrono::nanoseconds limit) const;
 
     DaemonStatus status() const;
     /// Lines for the start-up report.

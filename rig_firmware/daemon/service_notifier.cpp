@@ -34,10 +34,16 @@ void ServiceNotifier::ready() { send("READY=1"); }
 void ServiceNotifier::stopping() { send("STOPPING=1"); }
 
 void ServiceNotifier::alive(const std::string& status) {
+    send_seldom("WATCHDOG=1\nSTATUS=" + status);
+}
+
+void ServiceNotifier::stuck(const std::string& status) { send_seldom("STATUS=" + status); }
+
+void ServiceNotifier::send_seldom(const std::string& message) {
     const auto now = std::chrono::steady_clock::now();
     if (last_ && now - *last_ < period_) return;
     last_ = now;
-    send("WATCHDOG=1\nSTATUS=" + status);
+    send(message);
 }
 
 void ServiceNotifier::send(const std::string& message) const {

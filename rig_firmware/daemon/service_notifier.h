@@ -18,9 +18,13 @@ class ServiceNotifier {
     /// To be called often: sends a sign of life and the status line whenever half the watchdog's
     /// time has passed.
     void alive(const std::string& status);
+    /// In its place while a part of the program is stuck: the status line without the sign of life,
+    /// so that the watchdog restarts the program.
+    void stuck(const std::string& status);
 
   private:
     void send(const std::string& message) const;
+    void send_seldom(const std::string& message);
 
     std::string socket_;
     std::chrono::nanoseconds period_;

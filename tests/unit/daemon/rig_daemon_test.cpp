@@ -1,12 +1,23 @@
 #include "rig_firmware/daemon/rig_daemon.h"
 
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
 #include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "common/base/error.h"
+#include "common/base/unique_fd.h"
 #include "common/receive/stage_receiver.h"
 
 namespace vantage {
@@ -24,6 +35,54 @@ RigConfig small_rig() {
     config.stream.bind = "tcp://127.0.0.1:*";
     return config;
 }
+
+std::set<int> threads() {
+    std::set<int> ids;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+        ids.insert(std::stoi(task.path().filename()));
+    return ids;
+}
+
+/// Holds one thread of this process, by its name, as a driver that never answers would. Threads
+/// that libraries start have the name of the one that called them: it is the first of that name
+/// that was not there `before`.
+class HeldThread {
+  public:
+    HeldThread(const std::string& name, const std::set<int>& before) {
+        struct sigaction action {};
+        action.sa_handler = [](int) {
+            const int error = errno;
+            char byte = 0;
+            while (::read(pipe[0], &byte, 1) < 0 && errno == EINTR) {
+            }
+            errno = error;
+        };
+        action.sa_flags = SA_RESTART;
+        ::sigaction(SIGUSR1, &action, nullptr);
+        if (pipe[0] < 0 && ::pipe2(pipe.data(), O_CLOEXEC) != 0) std::abort();
+        // A thread gives itself its name once it runs.
+        int id = find(name, before);
+        for (; id == 0; id = find(name, before)) std::this_thread::sleep_for(1ms);
+        ::syscall(SYS_tgkill, ::getpid(), id, SIGUSR1);
+    }
+    ~HeldThread() { EXPECT_EQ(::write(pipe[1], "", 1), 1); }
+    HeldThread(const HeldThread&) = delete;
+    HeldThread& operator=(const HeldThread&) = delete;
+
+  private:
+    static int find(const std::string& name, const std::set<int>& before) {
+        for (const int id : threads()) {
+            std::string comm;
+            std::ifstream("/proc/self/task/" + std::to_string(id) + "/comm") >> comm;
+            if (comm == name && !before.contains(id)) return id;
+        }
+        return 0;
+    }
+    /// Kept for good: a held thread may come to read after the end of this object.
+    static inline std::array<int, 2> pipe = {-1, -1};
+};
+
+class StuckThread : public testing::TestWithParam<const char*> {};
 
 /// A stage of this rig alone, at the port that it was given.
 StageConfig stage_of(const RigDaemon& daemon, const RigConfig& config) {
@@ -59,6 +118,28 @@ TEST(RigDaemon, CanBeStoppedAtAnyTime) {
         EXPECT_FALSE(daemon.running());
     }
 }
+
+TEST_P(StuckThread, IsNamed) {
+    RigConfig config = small_rig();
+    config.source.rate_hz = 20;
+    const std::set<int> before = threads();
+    RigDaemon daemon(config);
+    EXPECT_EQ(daemon.stuck_worker(1h), "");
+    {
+        const HeldThread held(GetParam(), before);
+        while (daemon.stuck_worker(2s).empty()) std::this_thread::sleep_for(10ms);
+        EXPECT_EQ(daemon.stuck_worker(2s), GetParam());
+        EXPECT_TRUE(daemon.running());
+        EXPECT_EQ(daemon.stuck_worker(1h), "");
+    }
+    while (!daemon.stuck_worker(2s).empty()) std::this_thread::sleep_for(10ms);
+    daemon.stop();
+    daemon.rethrow_failure();
+    EXPECT_EQ(daemon.stuck_worker(0s), "") << "threads that have ended are not stuck";
+}
+
+INSTANTIATE_TEST_SUITE_P(Workers, StuckThread, testing::Values("capture", "gpu", "publish", "sync"),
+                         [](const auto& worker) { return std::string(worker.param); });
 
 TEST(RigDaemon, WithoutACalibrationServesRawPairsToWhoAsksAndAccountsForEveryFrame) {
     RigConfig config = small_rig();

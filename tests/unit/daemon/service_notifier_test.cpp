@@ -63,6 +63,15 @@ TEST_F(ServiceNotifierTest, GivesASignOfLifeEveryHalfOfTheWatchdogsTime) {
     EXPECT_EQ(heard(), "WATCHDOG=1\nSTATUS=b");
 }
 
+TEST_F(ServiceNotifierTest, GivesNoSignOfLifeWhileAPartIsStuck) {
+    ::setenv("WATCHDOG_USEC", "1", 1);
+    ServiceNotifier notifier;
+    notifier.stuck("the thread 'gpu' is stuck");
+    EXPECT_EQ(heard(), "STATUS=the thread 'gpu' is stuck");
+    notifier.alive("30.0 frames/s");
+    EXPECT_EQ(heard(), "WATCHDOG=1\nSTATUS=30.0 frames/s");
+}
+
 TEST_F(ServiceNotifierTest, DoesNothingWithoutAServiceManager) {
     ::unsetenv("NOTIFY_SOCKET");
     ServiceNotifier notifier;
