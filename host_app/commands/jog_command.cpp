@@ -1,18 +1,25 @@
+#include <array>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <poll.h>
+#include <unistd.h>
 
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
 #include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/hid/simulated_xpress.h"
+#include "host_app/control/hid/uhid_wheel.h"
 
 namespace vantage {
 namespace {
@@ -84,7 +91,9 @@ void list(const JogOptions& options) {
                                  c["usable"] ? "ready" : c["fault"].get<std::string>());
     if (controllers.empty())
         std::cout << "no jog controller is plugged in; `vantage jog list --all` shows every device "
-                     "there is, hw_config/jog/described_wheel.toml.example how to describe one\n";
+                     "there is, described_wheel.toml.example (hw_config/jog; installed: "
+                     "/usr/share/doc/vantage/examples/jog) how to describe one, and `vantage jog "
+                     "simulate` plugs one in that is none\n";
 }
 
 const char* name_of(JogKind kind) {
@@ -148,6 +157,7 @@ void monitor(const JogOptions& options) {
     StopSignal stop;
     JogDeck deck(make_system_jog_bus(), load_wheel_profiles(options.wheels),
                  {.raw_reports = options.raw});
+    log_info("waiting for jog wheels, plugged in now or later, to be moved; Ctrl-C ends");
     const MonotonicTime start = MonotonicClock::now();
     const auto is_over = [&](std::uint64_t events) {
         const std::chrono::duration<double> gone = MonotonicClock::now() - start;
@@ -162,6 +172,79 @@ void monitor(const JogOptions& options) {
     }
     if (deck.dropped() > 0)
         log_warning("{} events came faster than they could be written", deck.dropped());
+}
+
+/// Lines of standard input, without holding up whoever asks.
+class InputLines {
+  public:
+    /// Waits for a line; empty if none is whole once the time is up, or at the end.
+    std::optional<std::string> next(std::chrono::milliseconds timeout) {
+        const auto take = [&]() -> std::optional<std::string> {
+            const std::size_t end = waiting_.find('\n');
+            if (end == std::string::npos) return std::nullopt;
+            std::string line = waiting_.substr(0, end);
+            waiting_.erase(0, end + 1);
+            return line;
+        };
+        if (std::optional<std::string> line = take()) return line;
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (ended_ || ::poll(&input, 1, static_cast<int>(timeout.count())) <= 0)
+            return std::nullopt;
+        std::array<char, 4096> bytes{};
+        const ssize_t size = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (size > 0)
+            waiting_.append(bytes.data(), static_cast<std::size_t>(size));
+        else
+            ended_ = true;
+        return take();
+    }
+    bool ended() const { return ended_; }
+
+  private:
+    std::string waiting_;
+    bool ended_ = false;
+};
+
+/// Of a line `wait SECONDS`; empty for any other.
+std::optional<std::chrono::milliseconds> pause_of(const std::string& line) {
+    std::istringstream words(line);
+    std::string word;
+    double seconds = 0;
+    if (!(words >> word) || word != "wait") return std::nullopt;
+    constexpr double most_s = 3600;
+    if (!(words >> seconds) || !(seconds >= 0 && seconds <= most_s))
+        fail("'{}' is not understood: after 'wait' come 0 to {} seconds", line, most_s);
+    return std::chrono::milliseconds(std::llround(seconds * 1000));
+}
+
+void simulate() {
+    StopSignal stop;
+    const UhidWheel device({.vendor = SimulatedXpress::vendor,
+                            .product = SimulatedXpress::product,
+                            .name = SimulatedXpress::name,
+                            .descriptor = UhidWheel::five_bytes(),
+                            .get_feature = {},
+                            .set_feature = {}});
+    log_info(
+        "a simulated {} is plugged in; lines of words move it: {}, wait SECONDS; Ctrl-D "
+        "unplugs it",
+        SimulatedXpress::name, SimulatedXpress::words);
+    SimulatedXpress wheel;
+    InputLines lines;
+    while (!stop.requested() && !lines.ended()) {
+        const std::optional<std::string> line = lines.next(std::chrono::milliseconds(50));
+        if (!line) continue;
+        try {
+            if (const auto pause = pause_of(*line)) {
+                stop.wait_for(*pause);
+                continue;
+            }
+            for (const SimulatedXpress::Report& report : wheel.reports_of(*line))
+                device.send({report.begin(), report.end()});
+        } catch (const Error& error) {
+            log_error("{}", error.what());
+        }
+    }
 }
 
 }  // namespace
@@ -192,6 +275,10 @@ CommandEntry jog_command_entry() {
         monitor_command->add_option("--events", options->events, "End after so many lines")
             ->check(CLI::PositiveNumber);
         monitor_command->callback([options] { monitor(*options); });
+        jog->add_subcommand("simulate",
+                            "Plug in a ShuttleXpress that is none, moved by words on standard "
+                            "input; takes root and the kernel's /dev/uhid")
+            ->callback([] { simulate(); });
     }};
 }
 

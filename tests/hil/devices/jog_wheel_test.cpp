@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "tests/hil/devices/uhid_wheel.h"
+#include "host_app/control/hid/uhid_wheel.h"
 #include "tests/hil/devices/uinput_wheel.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -79,6 +79,20 @@ class JogWheel : public testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(JogWheel, CanBeTriedWithoutOne) {
+    const auto watching = monitor();
+    ASSERT_TRUE(comes([&] { return holds(watching->err(), "waiting for jog wheels"); }));
+    const std::filesystem::path words = folder_.path() / "words";
+    std::ofstream(words) << "wait 1\nnonsense\njog 2\nshuttle -7\nb3\nwait 1\n";
+    const ProgramResult simulated = run_to_end(
+        "/bin/sh", {"-c", std::string(VANTAGE_PROGRAM) + " jog simulate <" + words.string()});
+    EXPECT_EQ(simulated.status, 0) << simulated.err;
+    EXPECT_THAT(simulated.err, HasSubstr("'nonsense' is not understood"));
+    EXPECT_TRUE(comes([&] { return holds(watching->out(), "gone from"); })) << watching->out();
+    for (const char* event : {"ShuttleXpress  plugged in", "jog +1", "shuttle -1", "b3 pressed"})
+        EXPECT_THAT(watching->out(), HasSubstr(event));
+}
+
 TEST_F(JogWheel, ReportsComeThroughTheKernelAsEvents) {
     std::optional<UhidWheel> wheel(xpress());
     const auto program = monitor();
@@ -93,7 +107,7 @@ TEST_F(JogWheel, ReportsComeThroughTheKernelAsEvents) {
     wheel.reset();
     EXPECT_TRUE(comes([&] { return holds(program->out(), "gone from"); })) << program->out();
     program->send_signal(SIGINT);
-    EXPECT_EQ(program->wait().status, 0);
+    EXPECT_EQ(program->wait().status, 130);
 }
 
 TEST_F(JogWheel, AWheelOfEachHidFamilyIsPluggedInAndOutAndInAgain) {
@@ -278,7 +292,7 @@ TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
     EXPECT_TRUE(comes([&] { return std::abs(azimuth_now() - (held - 3)) < 0.11; })) << live.err();
     live.send_signal(SIGINT);
     const ProgramResult result = live.wait();
-    ASSERT_EQ(result.status, 0) << result.err;
+    ASSERT_EQ(result.status, 130) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     std::printf("hil: wheel %s camera %s\n", summary["wheels"].dump().c_str(),
                 summary["camera"].dump().c_str());

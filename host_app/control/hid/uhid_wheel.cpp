@@ -1,4 +1,4 @@
-#include "tests/hil/devices/uhid_wheel.h"
+#include "host_app/control/hid/uhid_wheel.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -32,7 +32,13 @@ std::vector<std::uint8_t> UhidWheel::input_of(std::uint8_t bytes) {
 
 UhidWheel::UhidWheel(Kind kind)
     : kind_(std::move(kind)), fd_(open("/dev/uhid", O_RDWR | O_CLOEXEC)) {
-    if (!fd_) fail("/dev/uhid cannot be opened: {}", std::strerror(errno));
+    if (!fd_ && errno == ENOENT)
+        fail("a simulated wheel needs the kernel's /dev/uhid, which is not there: modprobe uhid");
+    if (!fd_)
+        fail(
+            "a simulated wheel needs the kernel's /dev/uhid, which cannot be opened: {}; run this "
+            "as root",
+            std::strerror(errno));
     uhid_event event{};
     event.type = UHID_CREATE2;
     auto& create = event.u.create2;

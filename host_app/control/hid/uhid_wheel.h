@@ -29,7 +29,7 @@ class UhidWheel {
     /// As Contour's wheels have.
     static std::vector<std::uint8_t> five_bytes() { return input_of(5); }
 
-    /// Throws Error where there is no /dev/uhid.
+    /// Throws Error where there is no /dev/uhid or this user may not open it.
     explicit UhidWheel(Kind kind);
     ~UhidWheel();
     UhidWheel(const UhidWheel&) = delete;
