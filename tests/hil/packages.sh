@@ -13,5 +13,10 @@ rm -rf "$work/packages-first" "$work/packages-next"
   version=$(dpkg-deb -f "$work"/packages-first/vantage-rig_*.deb Version)
   cpack -B "$work/packages-next" -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
 ) || { tail -20 "$work/cpack.log" >&2; exit 1; }
+if ! command -v lintian >/dev/null; then
+  echo "hil: lintian is missing; ./test installs it" >&2
+  exit 1
+fi
+lintian --fail-on error,warning --tag-display-limit 0 "$work"/packages-first/*.deb || exit 1
 HIL_INIT=init_systemd exec "$here/boot.sh" "$work" packages \
-  "PACKAGES=$(echo "$work"/packages-first/*.deb)" "UPGRADE=$(echo "$work"/packages-next/vantage-rig_*.deb)"
+  "HIL_DOCUMENTS=$(realpath "$here/../documents")" "PACKAGES=$(echo "$work"/packages-first/*.deb)" "UPGRADE=$(echo "$work"/packages-next/vantage-rig_*.deb)"

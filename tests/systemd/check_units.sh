@@ -21,4 +21,12 @@ if [ "$status" -ne 0 ] || grep -F "$work" <<<"$complaints"; then
   echo "$complaints"
   exit 1
 fi
-echo "systemd read $(ls "$units" | wc -l) units without complaint"
+# Those of a user's own manager.
+if [ -d "$units/user" ]; then
+  mkdir "$work/user"
+  for unit in "$units"/user/*.service; do
+    sed 's#^ExecStart=/usr/bin/\S*#ExecStart=/bin/true#' "$unit" >"$work/user/$(basename "$unit")"
+  done
+  XDG_RUNTIME_DIR=$work systemd-analyze --user verify --man=no --recursive-errors=one "$work"/user/*.service
+fi
+echo "systemd read $(find "$units" -name '*.service' | wc -l) units without complaint"

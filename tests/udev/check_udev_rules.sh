@@ -21,7 +21,7 @@ log=$(unshare -m bash -c '
   done
   cp "$1"/*.rules /usr/lib/udev/rules.d/
   cp /etc/group /run/group
-  sed -n "s/.*GROUP=\"\([a-z]*\)\".*/\1:x:9999:/p" "$1"/*.rules | sort -u >>/run/group
+  sed -n "s/.*GROUP=\"\([a-z-]*\)\".*/\1:x:9999:/p" "$1"/*.rules | sort -u >>/run/group
   mount --bind /run/group /etc/group
   udevadm test --action=add /sys/class/net/lo 2>&1' bash "$rules") || true
 if grep -E '\.rules:[0-9]+' <<<"$log"; then
