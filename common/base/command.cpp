@@ -62,10 +62,10 @@ int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& comm
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        log_error("{}", misfit_sentence(program, words, error.what()));
+        say_error(misfit_sentence(program, words, error.what()));
         return words_do_not_fit;
     } catch (const std::exception& error) {
-        log_error("{}", error.what());
+        say_error(error.what());
         return StopSignal::was_interrupted() ? interrupted : 1;
     }
 }

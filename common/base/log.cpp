@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <string>
 
+#include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace vantage {
@@ -32,16 +34,26 @@ std::string_view level_name(LogLevel level) {
     return "";
 }
 
-}  // namespace
-
-LogLevel log_threshold() {
-    static const LogLevel threshold = threshold_from_environment();
-    return threshold;
+/// systemd.exec(5): JOURNAL_STREAM has device and inode of the stream that goes to the journal.
+bool stderr_is_the_journal() {
+    const char* stream = std::getenv("JOURNAL_STREAM");
+    struct stat file {};
+    return stream && ::fstat(STDERR_FILENO, &file) == 0 &&
+           stream == fmt::format("{}:{}", file.st_dev, file.st_ino);
 }
 
-void log_line(LogLevel level, std::string_view text) {
+std::string time_of_day() {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    tm local{};
+    localtime_r(&now.tv_sec, &local);
+    return fmt::format("{:02}:{:02}:{:02}.{:03} ", local.tm_hour, local.tm_min, local.tm_sec,
+                       now.tv_nsec / 1'000'000);
+}
+
+void write_line(std::string_view time, LogLevel level, std::string_view text) {
     const std::string line =
-        fmt::format("{}: {}{}\n", program_invocation_short_name, level_name(level), text);
+        fmt::format("{}{}: {}{}\n", time, program_invocation_short_name, level_name(level), text);
     std::string_view rest = line;
     while (!rest.empty()) {
         const ssize_t written = ::write(STDERR_FILENO, rest.data(), rest.size());
@@ -50,5 +62,18 @@ void log_line(LogLevel level, std::string_view text) {
         rest.remove_prefix(static_cast<std::size_t>(written));
     }
 }
+
+}  // namespace
+
+LogLevel log_threshold() {
+    static const LogLevel threshold = threshold_from_environment();
+    return threshold;
+}
+
+void log_line(LogLevel level, std::string_view text) {
+    write_line(stderr_is_the_journal() ? "" : time_of_day(), level, text);
+}
+
+void say_error(std::string_view text) { write_line("", LogLevel::error, text); }
 
 }  // namespace vantage

@@ -9,9 +9,13 @@ namespace vantage {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Writes one line to stderr, "name: level: text"; one write(2) a line, so lines of several threads
-/// and processes never mix. Results go to stdout, everything else through here.
+/// Writes one line to stderr, "hh:mm:ss.mmm name: level: text", by the clock on the wall; without
+/// the time where stderr is systemd's journal, which has it. One write(2) a line, so lines of
+/// several threads and processes never mix. Results go to stdout, everything else through here.
 void log_line(LogLevel level, std::string_view text);
+
+/// The sentence that a program ends with: as a log line of an error, but without the time.
+void say_error(std::string_view text);
 
 /// Lines below this level are not written. The default is info; the environment variable
 /// VANTAGE_LOG=debug|info|warning|error sets it at start.

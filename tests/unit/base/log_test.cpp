@@ -1,14 +1,18 @@
 #include "common/base/log.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/base/unique_fd.h"
@@ -16,6 +20,8 @@
 
 namespace vantage {
 namespace {
+
+using testing::ElementsAre;
 
 /// Everything written to stderr while `action` runs, by lines.
 std::vector<std::string> lines_on_stderr(auto&& action) {
@@ -34,6 +40,16 @@ std::vector<std::string> lines_on_stderr(auto&& action) {
     return lines;
 }
 
+/// "hh:mm:ss.mmm ", and then the text.
+MATCHER_P(IsALineOf, text, "") {
+    constexpr std::string_view form = "00:00:00.000 ";
+    if (arg.size() != form.size() + std::string_view(text).size()) return false;
+    for (std::size_t i = 0; i < form.size(); ++i)
+        if (form[i] == '0' ? !std::isdigit(static_cast<unsigned char>(arg[i])) : arg[i] != form[i])
+            return false;
+    return arg.substr(form.size()) == text;
+}
+
 TEST(Log, WritesTheProgramTheLevelAndTheText) {
     const auto lines = lines_on_stderr([] {
         log_line(LogLevel::info, "to say");
@@ -41,9 +57,46 @@ TEST(Log, WritesTheProgramTheLevelAndTheText) {
         log_error("{} of {}", 3, "4");
     });
     ASSERT_EQ(lines.size(), 3u);
-    EXPECT_EQ(lines[0], "base_test: to say");
-    EXPECT_EQ(lines[1], "base_test: warning: to heed");
-    EXPECT_EQ(lines[2], "base_test: error: 3 of 4");
+    EXPECT_THAT(lines[0], IsALineOf("base_test: to say"));
+    EXPECT_THAT(lines[1], IsALineOf("base_test: warning: to heed"));
+    EXPECT_THAT(lines[2], IsALineOf("base_test: error: 3 of 4"));
+}
+
+TEST(Log, GivesTheTimeOfDay) {
+    const auto of_day = [] {
+        const std::time_t now = std::time(nullptr);
+        std::tm local{};
+        localtime_r(&now, &local);
+        return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
+    };
+    std::string before, after;
+    const auto lines = lines_on_stderr([&] {
+        before = of_day();
+        log_info("now");
+        after = of_day();
+    });
+    const std::string logged = lines.at(0).substr(0, 8);
+    EXPECT_TRUE(logged == before || logged == after) << logged;
+}
+
+TEST(Log, LeavesTheTimeToTheJournal) {
+    const auto lines = lines_on_stderr([] {
+        struct stat file {};
+        fstat(STDERR_FILENO, &file);
+        setenv("JOURNAL_STREAM", fmt::format("{}:{}", file.st_dev, file.st_ino).c_str(), 1);
+        log_info("to the journal");
+        setenv("JOURNAL_STREAM", fmt::format("{}:{}", file.st_dev, file.st_ino + 1).c_str(), 1);
+        log_info("to a file, from a service");
+        unsetenv("JOURNAL_STREAM");
+    });
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "base_test: to the journal");
+    EXPECT_THAT(lines[1], IsALineOf("base_test: to a file, from a service"));
+}
+
+TEST(Log, TheSentenceAProgramEndsWithStandsAlone) {
+    EXPECT_THAT(lines_on_stderr([] { say_error("no such file"); }),
+                ElementsAre("base_test: error: no such file"));
 }
 
 TEST(Log, KeepsLinesOfSeveralThreadsWhole) {
@@ -59,7 +112,7 @@ TEST(Log, KeepsLinesOfSeveralThreadsWhole) {
     });
     ASSERT_EQ(lines.size(), static_cast<std::size_t>(threads * each));
     for (const std::string& line : lines) {
-        const std::string text = line.substr(std::string("base_test: ").size());
+        const std::string text = line.substr(std::string("hh:mm:ss.mmm base_test: ").size());
         ASSERT_EQ(text.size(), 200u);
         ASSERT_EQ(std::count(text.begin(), text.end(), text[0]), 200) << text;
     }
