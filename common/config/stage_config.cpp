@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/atomic_file.h"
+#include "common/base/time_zone.h"
 #include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 
@@ -46,6 +47,14 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
     rigs.push_back(std::move(rig));
 }
 
+void read_timecode(TomlTable& table, StageConfig& config) {
+    table.read("zone", config.timecode_zone);
+    if (!config.timecode_zone.empty() && !is_time_zone(config.timecode_zone))
+        table.refuse("zone", fmt::format("= '{}' is no time zone of this computer; timedatectl "
+                                         "list-timezones lists them",
+                                         config.timecode_zone));
+}
+
 void read_view(TomlTable& table, StageConfig::View& view) {
     table.read("width_px", view.width_px, {16, 4096});
     table.read("height_px", view.height_px, {16, 4096});
@@ -69,6 +78,7 @@ StageConfig load_stage_config(const std::filesystem::path& path) {
         top.read("key_file", config.key_file);
         top.read("rate_hz", config.rate_hz, {0.01, 1000});
         top.read("latency_budget_ms", config.latency_budget_ms, {1, 60000});
+        top.read_table("timecode", [&](TomlTable& t) { read_timecode(t, config); });
         top.read_table("view", [&](TomlTable& t) { read_view(t, config.view); });
     });
     return config;

@@ -23,6 +23,8 @@ struct StageConfig {
     double latency_budget_ms =
         200;  ///< a rig whose frame of pulse k is later than this is left out of set k
 
+    std::string timecode_zone;  ///< whose time of day is shown; empty: this computer's
+
     struct View {
         int width_px = 1280, height_px = 720;
         double field_of_view_deg = 45;     ///< horizontal

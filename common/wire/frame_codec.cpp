@@ -64,18 +64,6 @@ Pose to_pose(const wire::Geometry& geometry) {
     return pose;
 }
 
-void check_timecode(const std::string& timecode) {
-    if (timecode.empty()) return;
-    constexpr std::string_view form = "00:00:00:00";
-    bool fits = timecode.size() == form.size();
-    for (std::size_t i = 0; fits && i < form.size(); ++i) {
-        const bool drop_frame_mark = i == 8 && timecode[i] == ';';
-        fits = form[i] == '0' ? timecode[i] >= '0' && timecode[i] <= '9'
-                              : timecode[i] == ':' || drop_frame_mark;
-    }
-    if (!fits) fail("a timecode has to read hh:mm:ss:ff");
-}
-
 void check_times(const wire::StageTimes& times) {
     constexpr double an_hour_ms = 3.6e6;
     check_range("times.capture_ms", times.capture_ms(), 0, an_hour_ms);
@@ -93,7 +81,6 @@ Pose check_header(const wire::FrameHeader& header) {
         fail("a frame header is truncated");
     check_name("rig", header.rig());
     if (!header.calibration_id().empty()) check_name("calibration id", header.calibration_id());
-    check_timecode(header.timecode());
     if (header.trigger_index() > max_trigger_index)
         fail("trigger index {} is beyond {}", header.trigger_index(), max_trigger_index);
     if (header.exposure_tai_ns() < 0 || header.published_tai_ns() < 0)
@@ -166,7 +153,6 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     header.set_synchronized(frame.synchronized);
     header.set_trigger_index(frame.trigger_index);
     header.set_exposure_tai_ns(to_ns(frame.exposure));
-    header.set_timecode(frame.timecode);
     header.set_calibration_id(frame.calibration_id);
     wire::Geometry& geometry = *header.mutable_geometry();
     geometry.set_width_px(static_cast<std::uint32_t>(frame.geometry.width_px));
@@ -269,7 +255,6 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     frame.trigger_index = header.trigger_index();
     frame.exposure = tai_from_ns(header.exposure_tai_ns());
     frame.published = tai_from_ns(header.published_tai_ns());
-    frame.timecode = header.timecode();
     frame.calibration_id = header.calibration_id();
     frame.geometry.width_px = width;
     frame.geometry.height_px = height;

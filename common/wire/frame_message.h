@@ -75,7 +75,6 @@ struct RigFrame {
     std::uint64_t trigger_index = 0;
     TaiTime exposure{};  ///< centre of exposure
     TaiTime published{};
-    std::string timecode;  ///< SMPTE 12M "hh:mm:ss:ff", or empty
     std::string calibration_id;
     RectifiedStereo geometry;                   ///< of the colour picture
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left

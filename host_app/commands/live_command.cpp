@@ -9,6 +9,7 @@
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/time_zone.h"
 #include "common/colour/colour_file.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
@@ -143,6 +144,7 @@ void live(const LiveOptions& options) {
     // Before the receiver's threads, so that they leave the signals to it.
     StopSignal stop;
     const StageConfig stage = load_stage_config(options.stage);
+    if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     FlightPlan plan{.start = start_view(stage.view), .move = {}, .frames = {}, .seconds = {}};
     if (!options.path.empty()) plan.move = Move::load(options.path);
     if (options.frames > 0) plan.frames = options.frames;

@@ -20,7 +20,6 @@
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
 #include "rig_firmware/daemon/heartbeat.h"
-#include "rig_firmware/daemon/timecode.h"
 #include "rig_firmware/trigger/rig_trigger.h"
 
 namespace vantage {
@@ -343,8 +342,6 @@ void RigDaemon::Impl::publish() {
         const MonotonicTime start = MonotonicClock::now();
         for (std::optional<RigFrame>* frame : {&instant->view, &instant->raw_pair}) {
             if (!*frame) continue;
-            if ((*frame)->synchronized)
-                (*frame)->timecode = time_of_day_code(exposure, config.source.rate_hz);
             {
                 const std::lock_guard lock(mutex);
                 (*frame)->counters = counters;

@@ -56,7 +56,6 @@ RigFrame seed_frame() {
     frame.session = 1;
     frame.synchronized = true;
     frame.trigger_index = 1000;
-    frame.timecode = "01:02:03:04";
     frame.calibration_id = "c1";
     frame.geometry = {width, height, 300, 8, 8, 4, 0.1};
     frame.colour = ColourImage(height, width, cv::Vec4b(10, 20, 30, 255));

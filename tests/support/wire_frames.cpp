@@ -13,7 +13,6 @@ RigFrame make_frame(std::uint64_t trigger_index, int width_px, int height_px) {
     frame.synchronized = true;
     frame.trigger_index = trigger_index;
     frame.exposure = TaiClock::now();
-    frame.timecode = "01:02:03:04";
     frame.calibration_id = "bench-7";
     frame.geometry = {width_px, height_px, 300.5, 30.25, 31.5, 22.75, 0.12};
     frame.world_from_camera = look_at({1, 2, 3}, {0, 1, 0});

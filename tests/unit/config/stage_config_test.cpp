@@ -79,6 +79,15 @@ TEST_F(StageConfigTest, WantsRigsWithNamesOfTheirOwn) {
               "config.toml:2: 'endpoint' in [[rigs]] is missing");
 }
 
+TEST_F(StageConfigTest, TakesATimeZoneThatIsKnown) {
+    const std::string head =
+        "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n[timecode]\n";
+    EXPECT_EQ(load(head + "zone = 'Europe/Stockholm'\n").timecode_zone, "Europe/Stockholm");
+    EXPECT_EQ(fault(head + "zone = 'Europe/Stokholm'\n"),
+              "config.toml:6: 'zone' in [timecode] = 'Europe/Stokholm' is no time zone of this "
+              "computer; timedatectl list-timezones lists them");
+}
+
 TEST_F(StageConfigTest, NamesLineAndMendOfAFault) {
     const std::string head = "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n";
     EXPECT_EQ(

@@ -35,7 +35,6 @@ void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
     EXPECT_EQ(got.trigger_index, sent.trigger_index);
     EXPECT_EQ(got.exposure, sent.exposure);
     EXPECT_EQ(got.published, sent.published);
-    EXPECT_EQ(got.timecode, sent.timecode);
     EXPECT_EQ(got.calibration_id, sent.calibration_id);
     EXPECT_EQ(got.geometry.width_px, sent.geometry.width_px);
     EXPECT_EQ(got.geometry.height_px, sent.geometry.height_px);
@@ -59,7 +58,6 @@ void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
 
 TEST(FrameCodec, GivesBackEveryNumberAndPixelOfALosslessFrame) {
     RigFrame sent = make_frame(max_trigger_index, 311, 239);
-    sent.timecode = "23:59:59;29";
     FrameEncoder encoder(lossless);
     const RigFrame got = decode(encoder.encode(sent));
     expect_same_numbers(got, sent);
@@ -238,8 +236,6 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"LongRigName", [](auto& h) { h.set_rig(std::string(65, 'a')); }, "rig name"},
         Spoiled{"ControlCharacterInName", [](auto& h) { h.set_rig("rig\n"); }, "rig name"},
         Spoiled{"CalibrationId", [](auto& h) { h.set_calibration_id("a b"); }, "calibration id"},
-        Spoiled{"Timecode", [](auto& h) { h.set_timecode("1:2:3:4"); }, "timecode"},
-        Spoiled{"TimecodeLetters", [](auto& h) { h.set_timecode("aa:bb:cc:dd"); }, "timecode"},
         Spoiled{"TriggerIndex", [](auto& h) { h.set_trigger_index(max_trigger_index + 1); },
                 "trigger index"},
         Spoiled{"NegativeExposure", [](auto& h) { h.set_exposure_tai_ns(-1); }, "times"},
