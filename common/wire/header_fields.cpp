@@ -4,11 +4,21 @@
 #include <cassert>
 #include <cmath>
 
+#include <google/protobuf/stubs/logging.h>
+
 #include "common/base/error.h"
 #include "common/wire/limits.h"
 #include "frame.pb.h"
 
 namespace vantage {
+namespace {
+
+/// What the library would print of a damaged message is in the Error that the message ends in.
+void keep_protobuf_quiet() {
+    [[maybe_unused]] static const auto replaced = google::protobuf::SetLogHandler(nullptr);
+}
+
+}  // namespace
 
 void check_schema_version(std::string_view what, std::uint32_t version) {
     if (version != wire_schema_version)
@@ -38,6 +48,7 @@ std::vector<std::byte> serialise(const google::protobuf::MessageLite& message) {
 
 void parse(std::span<const std::byte> part, std::string_view what,
            google::protobuf::MessageLite& message) {
+    keep_protobuf_quiet();
     if (part.size() > max_header_bytes)
         fail("a {} of {} bytes is beyond the limit of {}", what, part.size(), max_header_bytes);
     if (!message.ParseFromArray(part.data(), static_cast<int>(part.size())))

@@ -16,6 +16,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/log_limiter.h"
 #include "common/config/endpoint.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/limits.h"
@@ -33,11 +34,18 @@ constexpr int receive_high_water_mark = 64;
 /// A host that talks without end does not keep frames from leaving.
 constexpr int messages_per_turn = 64;
 constexpr std::chrono::seconds handshake_limit{5};
+/// Between lines about messages that are no host's.
+constexpr std::chrono::seconds complaint_period{10};
 
 /// The key a message came under, as HostAdmission let it in; empty without keys.
 std::string host_key_of(zmq::message_t& part) {
     const char* user = zmq_msg_gets(part.handle(), "User-Id");
     return user ? user : "";
+}
+
+std::string address_of(zmq::message_t& part) {
+    const char* address = zmq_msg_gets(part.handle(), "Peer-Address");
+    return address ? address : "an unknown address";
 }
 
 }  // namespace
@@ -141,7 +149,11 @@ struct Publisher::Impl {
             links.hear(route, host_key_of(parts[1]), message, now);
             if (message.first_pulse != 0) announced_pulse = message.first_pulse;
         } catch (const Error& error) {
+            if (const auto times = complaints.count(1, now))
+                log_warning("messages that are no host's were refused: {}; the last, from {}: {}",
+                            *times, address_of(parts.back()), error.what());
             const std::lock_guard lock(mutex);
+            ++malformed;
             links.refuse(route, fmt::format("rig {}: {}", rig, error.what()));
         }
         return true;
@@ -196,6 +208,8 @@ struct Publisher::Impl {
     mutable std::mutex mutex;  ///< of links and failure; never held over a socket call
     HostLinks links;
     std::string failure;
+    std::uint64_t malformed = 0;
+    LogLimiter complaints{complaint_period};  ///< the I/O thread's
     std::atomic<std::uint64_t> announced_pulse = 0;
 
     zmq::context_t context;
@@ -267,7 +281,7 @@ std::uint64_t Publisher::announced_pulse() const { return impl_->announced_pulse
 
 PublisherStatus Publisher::status() const {
     const std::lock_guard lock(impl_->mutex);
-    return {impl_->links.rig_counters(), impl_->links.hosts()};
+    return {impl_->links.rig_counters(), impl_->links.hosts(), impl_->malformed};
 }
 
 std::uint64_t Publisher::session() const { return impl_->session; }

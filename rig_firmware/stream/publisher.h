@@ -14,6 +14,7 @@ namespace vantage {
 struct PublisherStatus {
     RigCounters counters;  ///< the daemon's last, with `published` and `send_dropped`
     std::vector<HostLinks::HostStatus> hosts;
+    std::uint64_t malformed = 0;  ///< messages that were no host's
 };
 
 /// Offers a rig's frames to any number of hosts. Each is sent frames as fast as it takes them and
