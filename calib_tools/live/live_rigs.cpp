@@ -35,14 +35,9 @@ StageConfig stage_of(const LiveOptions& options) {
 }
 
 std::string state_of(const RigStatus& rig) {
-    if (!rig.refused.empty()) return rig.refused;
-    if (rig.unsynchronized > 0)
-        return fmt::format(
-            "rig {} sends pictures that name no pulse of the stage: give it a trigger", rig.rig);
-    if (rig.connected)
-        return fmt::format("rig {} is connected and sends no pictures: is it triggered?", rig.rig);
-    return fmt::format("rig {} does not answer{}", rig.rig,
-                       rig.last_error.empty() ? "" : ": " + rig.last_error);
+    if (const std::string trouble = trouble_of(rig); !trouble.empty())
+        return fmt::format("rig {}: {}", rig.rig, trouble);
+    return fmt::format("rig {} is connected and sends no pictures: is it triggered?", rig.rig);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ enum class Absence {
     disconnected,    ///< no sign of life from the rig
     unsynchronized,  ///< the rig's frames name no pulse of the stage, so they are fused with no
                      ///< other
+    not_asked,       ///< this host asked the rig for no frames, or for none of this pulse
     out_of_step,     ///< the rig counts pulses differently from the rest of the stage
 };
 

@@ -7,15 +7,24 @@
 namespace vantage {
 namespace {
 
+/// A rig that is silent this long has no say in the stage's step.
 constexpr std::chrono::seconds silence_limit{1};
 /// A rig this far behind the others does not lag, it counts differently.
 constexpr std::chrono::seconds behind_limit{5};
+
+/// A rig in play may be late by the budget, and miss one of the pulses it is asked for.
+std::chrono::nanoseconds patience(const FrameSetAssembler::Options& options,
+                                  std::uint32_t rate_divisor) {
+    return options.latency_budget + 2 * options.period * rate_divisor;
+}
 
 }  // namespace
 
 FrameSetAssembler::FrameSetAssembler(std::vector<std::string> rigs, const Options& options)
     : options_(options),
-      step_(rigs.size(), {options.period, options.latency_budget, silence_limit, behind_limit}) {
+      step_(rigs.size(), {options.period, options.latency_budget,
+                          std::max<std::chrono::nanoseconds>(silence_limit, patience(options, 1)),
+                          behind_limit}) {
     for (std::string& name : rigs) {
         rigs_.emplace_back();
         rigs_.back().name = std::move(name);
@@ -32,6 +41,7 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     const std::uint64_t index = frame->trigger_index;
     const bool new_session = rig.session && *rig.session != frame->session;
     rig.newest = index;
+    rig.heard = arrival;
     rig.session = frame->session;
     const StageStep::Result step = step_.hear(rig_number, index, new_session, arrival);
     if (step.began_anew) {
@@ -57,6 +67,10 @@ void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {
     rigs_[rig].connected = connected;
 }
 
+void FrameSetAssembler::set_asked(std::size_t rig, std::uint32_t rate_divisor) {
+    rigs_[rig].rate_divisor = rate_divisor;
+}
+
 std::vector<FrameSet> FrameSetAssembler::take_closed(MonotonicTime now) {
     std::optional<std::uint64_t> through;
     for (const auto& [index, set] : open_)
@@ -72,19 +86,30 @@ std::optional<MonotonicTime> FrameSetAssembler::next_deadline() const {
     return next;
 }
 
+bool FrameSetAssembler::asked_for(std::size_t rig, std::uint64_t index) const {
+    const std::uint32_t divisor = rigs_[rig].rate_divisor;
+    return divisor != 0 && index % divisor == 0;
+}
+
+bool FrameSetAssembler::in_play(std::size_t number, std::uint64_t index, MonotonicTime now) const {
+    const Rig& rig = rigs_[number];
+    return rig.connected && !rig.unsynchronized && rig.newest &&
+           now - rig.heard <= patience(options_, rig.rate_divisor) && asked_for(number, index) &&
+           step_.verdict(number) == StageStep::Verdict::in_step;
+}
+
 bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSet& set,
                                                MonotonicTime now) const {
     for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
-        const bool in_play = !rigs_[rig].unsynchronized && step_.active(rig, now) &&
-                             step_.verdict(rig) == StageStep::Verdict::in_step;
         const bool went_past = rigs_[rig].newest && *rigs_[rig].newest > index;
-        if (in_play && !set.frames[rig] && !went_past) return false;
+        if (!set.frames[rig] && !went_past && in_play(rig, index, now)) return false;
     }
     return true;
 }
 
 Absence FrameSetAssembler::absence(std::size_t rig, std::uint64_t index) const {
     if (!rigs_[rig].connected) return Absence::disconnected;
+    if (!asked_for(rig, index)) return Absence::not_asked;
     if (rigs_[rig].unsynchronized) return Absence::unsynchronized;
     if (step_.verdict(rig) == StageStep::Verdict::out_of_step) return Absence::out_of_step;
     if (rigs_[rig].newest && *rigs_[rig].newest > index) return Absence::missed_by_rig;

@@ -28,8 +28,9 @@ enum class FrameFate {
 /// closes when every rig that is in play has delivered it or gone past it, or when the latency
 /// budget is up; the budget counts from that first frame, not from the exposure, so that it bounds
 /// what one rig can cost the others whatever the rigs' own latency is and however the host's clock
-/// is set. Sets close in the order of their pulses. A rig without frames for a second is not waited
-/// for.
+/// is set. Sets close in the order of their pulses. In play is a rig that is connected, is asked
+/// for the pulse, and was not silent for longer than the latency budget and two periods of what it
+/// is asked for; it is again with its next frame.
 ///
 /// Frames that name no pulse of the stage are never joined with another rig's; only on a stage of a
 /// single rig are they taken as they come.
@@ -49,8 +50,10 @@ class FrameSetAssembler {
 
     FrameFate add(std::size_t rig, std::shared_ptr<const RigFrame> frame, MonotonicTime arrival);
 
-    /// Whether the rig gives signs of life; only says why a rig is absent.
+    /// Whether the rig gives signs of life; at first none does.
     void set_connected(std::size_t rig, bool connected);
+    /// Which pulses the rig is asked for: those whose index this divides; 0: none. At first all.
+    void set_asked(std::size_t rig, std::uint32_t rate_divisor);
 
     /// The sets that are closed by now, oldest first.
     std::vector<FrameSet> take_closed(MonotonicTime now);
@@ -68,11 +71,15 @@ class FrameSetAssembler {
     struct Rig {
         std::string name;
         bool connected = false;
+        std::uint32_t rate_divisor = 1;  ///< 0: no frames are asked for
         bool unsynchronized = false;
         std::optional<std::uint64_t> session;
         std::optional<std::uint64_t> newest;  ///< index
+        MonotonicTime heard{};                ///< when that came
     };
 
+    bool asked_for(std::size_t rig, std::uint64_t index) const;
+    bool in_play(std::size_t rig, std::uint64_t index, MonotonicTime now) const;
     bool everyone_accounted_for(std::uint64_t index, const OpenSet& set, MonotonicTime now) const;
     Absence absence(std::size_t rig, std::uint64_t index) const;
     void close_through(std::uint64_t index, MonotonicTime now);

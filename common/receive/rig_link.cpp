@@ -110,23 +110,25 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     if (parts.size() != 1 && parts.size() != 1 + frame_parts)
         fail("a message of {} parts came from rig {}", parts.size(), rig_.name);
     RigMessage message = decode_rig_message(bytes_of(parts.front()));
-    if (!message.refusal.empty()) {
-        view_.refused = message.refusal;
-        return false;
-    }
-    if (message.rig != rig_.name) {
-        view_.refused = fmt::format(
+    if (message.refusal.empty() && message.rig != rig_.name)
+        message.refusal = fmt::format(
             "the rig at {} calls itself {}, the stage calls it {}; make name and endpoint agree",
             rig_.endpoint, message.rig, rig_.name);
+    if (!message.refusal.empty()) {
+        view_.refused = message.refusal;
+        gone_ = true;
         return false;
     }
     const bool with_frame = parts.size() > 1;
     account_.hear(message, with_frame);
-    heard_ = now;
+    view_.heard = now;
+    gone_ = false;
     view_.refused.clear();
     view_.lost = account_.lost();
-    view_.link = message.counters;
-    view_.rig_counters = message.rig_counters;
+    view_.restarts = account_.restarts();
+    view_.link = account_.link_counters();
+    view_.rig_counters = account_.rig_counters();
+    view_.since_start = message.rig_counters;
     view_.sync = message.sync;
     view_.health = message.health;
     if (!with_frame) return false;
@@ -148,10 +150,8 @@ void RigLink::watch(MonotonicTime now) {
         std::memcpy(&event, parts.front().data<std::byte>(), sizeof event);
         std::memcpy(&value, parts.front().data<std::byte>() + sizeof event, sizeof value);
         switch (event) {
-            case ZMQ_EVENT_CONNECT_RETRIED:
-                view_.last_error = fmt::format("no rig answers at {}", rig_.endpoint);
-                break;
             case ZMQ_EVENT_DISCONNECTED:
+                gone_ = true;
                 view_.last_error = fmt::format("the connection to {} broke off", rig_.endpoint);
                 break;
             case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
@@ -184,6 +184,7 @@ void RigLink::watch(MonotonicTime now) {
 
 void RigLink::refuse(std::string sentence, MonotonicTime now) {
     view_.refused = std::move(sentence);
+    gone_ = true;
     if (!reopen_) reopen_ = now + refusal_retry_period;
 }
 
@@ -196,7 +197,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     HostMessage message;
     message.host_id = host_id_;
     message.link = account_.link();
-    message.handled = account_.known() - wish.unhandled;
+    message.handled = account_.handled(wish.unhandled);
     message.credit_window = credit_window;
     message.streaming = wish.streaming;
     message.rate_divisor = wish.rate_divisor;
@@ -211,7 +212,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
 
 RigLink::View RigLink::view(MonotonicTime now) const {
     View view = view_;
-    view.connected = heard_ && now - *heard_ <= liveness_limit;
+    view.connected = view_.heard && !gone_ && now - *view_.heard <= liveness_limit;
     return view;
 }
 

@@ -39,12 +39,15 @@ class RigLink {
 
     struct View {
         bool connected = false;
+        std::optional<MonotonicTime> heard;  ///< its last message
         std::string refused;
         std::string last_error;
         std::uint64_t malformed = 0;  ///< messages that were no delivery, heartbeat or refusal
         std::uint64_t lost = 0;
-        LinkCounters link;
-        RigCounters rig_counters;
+        std::uint64_t restarts = 0;
+        LinkCounters link;         ///< as LinkAccount adds it up
+        RigCounters rig_counters;  ///< likewise
+        RigCounters since_start;   ///< as the rig says, since its daemon started
         RigSync sync;
         RigHealth health;
     };
@@ -89,7 +92,7 @@ class RigLink {
 
     LinkAccount account_;
     View view_;
-    std::optional<MonotonicTime> heard_;
+    bool gone_ = false;  ///< since it was last heard it refused this host, or the connection broke
     std::optional<MonotonicTime> reopen_;
     MonotonicTime next_heartbeat_{};
     HostMessage told_;

@@ -14,8 +14,11 @@
 #include "common/base/error.h"
 #include "common/base/kernel_clock.h"
 #include "common/base/log.h"
+#include "common/base/log_limiter.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
+#include "common/receive/outage_book.h"
+#include "common/receive/reachability.h"
 #include "common/receive/rig_link.h"
 #include "common/receive/take_starter.h"
 #include "common/wire/curve_keys.h"
@@ -31,7 +34,16 @@ namespace {
 /// newest of these.
 constexpr std::size_t max_closed_sets = 4;
 
-constexpr auto forever = std::chrono::hours(1);
+/// A rig that is not connected is looked into so soon, and then so often.
+constexpr std::chrono::milliseconds first_probe_after{300};
+constexpr std::chrono::milliseconds probe_period{2000};
+constexpr std::chrono::milliseconds probe_limit{1000};
+
+/// Between lines about a rig's bad messages.
+constexpr std::chrono::seconds complaint_period{10};
+
+/// A take's rigs become ready one after the other; who is not so long after is named.
+constexpr std::chrono::seconds ready_patience{3};
 
 double ms_between(std::chrono::nanoseconds duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -67,11 +79,16 @@ struct StageReceiver::Impl {
     struct Rig {
         Rig(zmq::context_t& context, const StageConfig::Rig& config,
             const std::optional<CurveKeys>& keys)
-            : name(config.name), link(context, config, keys), inbox(RigLink::credit_window) {
+            : name(config.name),
+              endpoint(parse_endpoint(config.endpoint, "endpoint")),
+              link(context, config, keys),
+              inbox(RigLink::credit_window) {
             status.rig = name;
-            status.same_clock = parse_endpoint(config.endpoint, "endpoint").loopback;
+            status.endpoint = config.endpoint;
+            status.same_clock = endpoint.loopback;
         }
         const std::string name;
+        const Endpoint endpoint;
         RigLink link;
         BoundedQueue<RigLink::Delivery> inbox;
         std::atomic<std::uint64_t> unhandled = 0;
@@ -81,6 +98,8 @@ struct StageReceiver::Impl {
         RigStatus status;
         std::uint64_t undecodable_frames = 0;
         RigLink::Wish wish;
+        OutageBook outages;
+        LogLimiter complaints{complaint_period};
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
 
@@ -96,6 +115,7 @@ struct StageReceiver::Impl {
         for (const auto& rig : rigs) {
             rig->wish.streaming = purpose != Purpose::look_on;
             rig->wish.raw_pairs = purpose == Purpose::calibrate;
+            rig->status.stage_rate_hz = stage.rate_hz;
         }
         for (std::size_t i = 0; i < rigs.size(); ++i)
             rigs[i]->decoder = std::thread([this, i] { decode_all(i); });
@@ -145,8 +165,11 @@ struct StageReceiver::Impl {
         }
         const std::lock_guard lock(mutex);
         for (std::size_t i = 0; i < rigs.size(); ++i) {
-            show(*rigs[i], rigs[i]->link.view(now));
-            assembler.set_connected(i, rigs[i]->status.connected);
+            Rig& rig = *rigs[i];
+            show(rig, rig.link.view(now), now);
+            // What came before the rig was gone still joins its sets.
+            assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
+            assembler.set_asked(i, rig.wish.streaming ? rig.wish.rate_divisor : 0);
         }
         collect_closed(now);
         start_take(now);
@@ -158,9 +181,13 @@ struct StageReceiver::Impl {
         std::vector<TakeStarter::Rig> all;
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);
-        if (!first || first_pulse != 0) return;
-        first_pulse = *first;
-        log_info("the take's first pulse is {}", first_pulse);
+        if (first && first_pulse == 0) {
+            first_pulse = *first;
+            log_info("the take's first pulse is {}", first_pulse);
+            name_laggards_at = now + ready_patience;
+        }
+        if (!name_laggards_at || now < *name_laggards_at) return;
+        name_laggards_at.reset();
         for (const auto& rig : rigs)
             if (!rig->status.connected || !rig->status.sync.ready)
                 log_warning("rig {} is not ready; it joins when it is", rig->name);
@@ -172,6 +199,21 @@ struct StageReceiver::Impl {
         if (const auto deadline = assembler.next_deadline())
             wait = std::min(wait, *deadline - MonotonicClock::now());
         return wait;
+    }
+
+    /// Finds out why a rig is not connected. On its decoder's thread, which has nothing else to do
+    /// then.
+    void probe(Rig& rig) {
+        {
+            const std::lock_guard lock(mutex);
+            if (rig.status.connected || !rig.status.refused.empty()) return;
+        }
+        std::string reason = why_unreachable(rig.endpoint, probe_limit);
+        if (reason.empty())
+            reason = fmt::format("something at {} takes connections and does not speak as a rig",
+                                 rig.endpoint.text());
+        const std::lock_guard lock(mutex);
+        if (!rig.status.connected) rig.status.unreachable = std::move(reason);
     }
 
     void hand_over(Rig& rig, RigLink::Delivery delivery) {
@@ -186,10 +228,15 @@ struct StageReceiver::Impl {
     void decode_all(std::size_t number) {
         Rig& rig = *rigs[number];
         FrameDecoder decoder;
+        std::chrono::milliseconds patience = first_probe_after;
         while (true) {
-            const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(forever);
+            const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(patience);
             if (!delivery && rig.inbox.closed()) return;
-            if (!delivery) continue;
+            patience = probe_period;
+            if (!delivery) {
+                probe(rig);
+                continue;
+            }
             try {
                 decode(number, decoder, *delivery);
             } catch (const std::exception& error) {
@@ -245,27 +292,45 @@ struct StageReceiver::Impl {
                 rigs[i]->status.in_sets += set.slots[i].frame != nullptr;
             ++sets;
             complete_sets += set.present() == static_cast<int>(rigs.size());
+            newest_set = now;
             closed_sets.push(std::move(set));
         }
     }
 
     /// Precondition: mutex is held.
-    static void show(Rig& rig, RigLink::View view) {
+    static void show(Rig& rig, RigLink::View view, MonotonicTime now) {
         RigStatus& status = rig.status;
         if (!view.refused.empty() && view.refused != status.refused)
             log_warning("{}", view.refused);
         if (view.connected != status.connected)
             log_info("rig {} is {}", rig.name, view.connected ? "connected" : "gone");
+        if (view.connected) status.unreachable.clear();
+        rig.outages.note(view.connected, view.heard);
+        status.outages = rig.outages.outages();
+        status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
+        status.restarts = view.restarts;
+        const std::string rate_before = rate_worry(status);
         status.connected = view.connected;
         status.refused = std::move(view.refused);
-        status.undecodable = rig.undecodable_frames + view.malformed;
         status.lost = view.lost;
         status.link = view.link;
         status.rig_counters = view.rig_counters;
+        status.since_start = view.since_start;
         status.sync = std::move(view.sync);
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
+        if (const std::string rate = rate_worry(status); rate != rate_before && !rate.empty())
+            log_warning("rig {}: {}", rig.name, rate);
+        complain(rig, rig.undecodable_frames + view.malformed, now);
+    }
+
+    /// Precondition: mutex is held.
+    static void complain(Rig& rig, std::uint64_t undecodable, MonotonicTime now) {
+        const std::uint64_t more = undecodable - std::exchange(rig.status.undecodable, undecodable);
+        if (const auto times = rig.complaints.count(more, now))
+            log_warning("messages of rig {} at {} that are none or damaged: {}; the last fault: {}",
+                        rig.name, rig.status.endpoint, *times, rig.status.last_error);
     }
 
     const Purpose purpose;
@@ -277,8 +342,10 @@ struct StageReceiver::Impl {
     FrameSetAssembler assembler;
     TakeStarter starter;
     std::uint64_t first_pulse = 0;  ///< 0: not announced yet; only the I/O thread uses it
+    std::optional<MonotonicTime> name_laggards_at;
     std::uint64_t sets = 0;
     std::uint64_t complete_sets = 0;
+    std::optional<MonotonicTime> newest_set;
     std::string failure;
 
     BoundedQueue<FrameSet> closed_sets;
@@ -286,31 +353,6 @@ struct StageReceiver::Impl {
     std::atomic<bool> stopping = false;
     std::thread io_thread;
 };
-
-std::string clock_text(const RigStatus& rig) {
-    if (rig.same_clock) return "this computer's clock";
-    const RigSync& sync = rig.sync;
-    std::string text;
-    if (sync.disciplined)
-        text = fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", sync.ptp_state,
-                           sync.ptp_offset_ns, sync.ptp_path_delay_ns);
-    else if (sync.ptp_state.empty())
-        text = fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined);
-    else if (sync.ptp_state == "SLAVE")
-        text = fmt::format("{} (ptp4l is SLAVE, but nothing sets the system clock by it: phc2sys)",
-                           clocks_not_disciplined);
-    else
-        text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
-    if (const std::string worry = tai_worry(rig); !worry.empty()) text += "; " + worry;
-    return text;
-}
-
-std::string tai_worry(const RigStatus& rig) {
-    if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
-    return fmt::format(
-        "its TAI is {} s from UTC and this computer's {} s: give both the same, or neither any",
-        rig.sync.tai_offset_s, rig.own_tai_offset_s);
-}
 
 StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose)
     : impl_(std::make_unique<Impl>(stage, purpose)) {}
@@ -337,6 +379,7 @@ ReceiverStatus StageReceiver::status() const {
     }
     status.sets = impl_->sets;
     status.complete_sets = impl_->complete_sets;
+    status.newest_set = impl_->newest_set;
     status.sets_dropped = impl_->closed_sets.dropped_count();
     return status;
 }

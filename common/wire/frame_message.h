@@ -44,6 +44,7 @@ struct RigSync {
     double ptp_offset_ns = 0, ptp_path_delay_ns = 0;
     std::string ptp_state;  ///< of ptp4l's port, such as "SLAVE"; empty: no ptp4l
     int tai_offset_s = 0;   ///< of its CLOCK_TAI from UTC
+    double rate_hz = 0;     ///< of pulses, as the rig was told; 0: it does not say
 
     bool operator==(const RigSync&) const = default;
 };

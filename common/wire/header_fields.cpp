@@ -85,14 +85,18 @@ void to_wire(const RigSync& sync, wire::Sync& out) {
     out.set_ptp_path_delay_ns(sync.ptp_path_delay_ns);
     out.set_ptp_state(sync.ptp_state);
     out.set_tai_offset_s(sync.tai_offset_s);
+    out.set_rate_hz(sync.rate_hz);
 }
 
 RigSync from_wire(const wire::Sync& sync) {
     for (const double value :
          {static_cast<double>(sync.lateness_p50_us()), static_cast<double>(sync.lateness_p99_us()),
           static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.ptp_offset_ns(),
-          sync.ptp_path_delay_ns()})
+          sync.ptp_path_delay_ns(), sync.rate_hz()})
         if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is no number", value);
+    // Within what a PulseGrid takes.
+    if (sync.rate_hz() != 0 && (sync.rate_hz() < 0.001 || sync.rate_hz() > 1e6))
+        fail("a rig's rate of {} Hz is outside 0.001..1000000", sync.rate_hz());
     if (sync.role() < wire::Sync::FREE || sync.role() > wire::Sync::FOLLOW)
         fail("a rig's sync state has the role {}, which is not known here",
              static_cast<int>(sync.role()));
@@ -116,6 +120,7 @@ RigSync from_wire(const wire::Sync& sync) {
     result.ptp_path_delay_ns = sync.ptp_path_delay_ns();
     result.ptp_state = sync.ptp_state();
     result.tai_offset_s = sync.tai_offset_s();
+    result.rate_hz = sync.rate_hz();
     return result;
 }
 

@@ -48,7 +48,8 @@ nlohmann::ordered_json to_json(const RigSync& sync) {
             {"ptp_state", sync.ptp_state},
             {"ptp_offset_ns", sync.ptp_offset_ns},
             {"ptp_path_delay_ns", sync.ptp_path_delay_ns},
-            {"tai_offset_s", sync.tai_offset_s}};
+            {"tai_offset_s", sync.tai_offset_s},
+            {"rate_hz", sync.rate_hz}};
 }
 
 nlohmann::ordered_json to_json(const RigHealth& health) {

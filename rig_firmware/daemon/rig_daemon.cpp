@@ -265,6 +265,7 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int ta
     RigSync now;
     now.ready = true;
     now.tai_offset_s = tai_offset_s;
+    now.rate_hz = config.source.rate_hz;
     if (trigger) {
         const TriggerStatus status = trigger->status();
         now.role = config.trigger.role == "lead" ? RigSync::Role::lead : RigSync::Role::follow;

@@ -293,7 +293,7 @@ TEST_F(LiveCalibration, says_what_is_known_of_a_rig_that_sends_nothing) {
     const ProgramResult silent = calibrate(with_board(
         {"stereo", "--rig", "A=" + file("kept"), "-o", file("c.yaml"), "--patience-s", "1"}));
     EXPECT_EQ(silent.status, 1);
-    EXPECT_THAT(silent.err, HasSubstr("no picture came for 1 s: rig A does not answer"));
+    EXPECT_THAT(silent.err, HasSubstr("no picture came for 1 s: rig A: "));
     const ProgramResult unknown =
         calibrate(with_board({"stereo", "--rig", "C=" + file("kept"), "-o", file("c.yaml")}));
     EXPECT_EQ(unknown.status, 1);

@@ -132,20 +132,93 @@ TEST(FrameSetAssembler, ARigThatNeverCameDelaysNothing) {
     }
 }
 
-TEST(FrameSetAssembler, ARigThatStopsDelaysByTheBudgetForASecondAndThenNothing) {
+TEST(FrameSetAssembler, ARigThatIsGoneIsNotWaitedForUntilItIsBack) {
     Stage stage(2);
     start(stage, 2, 100);
-    for (std::uint64_t k = 101; k < 130; ++k) {
+    stage.at(101, 10ms);
+    stage.frame(0, 101);
+    EXPECT_THAT(stage.closed(), IsEmpty()) << "it may be on its way";
+    stage.assembler().set_connected(1, false);
+    const auto without = stage.closed();
+    ASSERT_EQ(without.size(), 1u);
+    EXPECT_EQ(without[0].slots[1].absence, Absence::disconnected);
+    stage.at(102, 10ms);
+    stage.frame(0, 102);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(102));
+
+    stage.assembler().set_connected(1, true);
+    stage.at(103, 10ms);
+    stage.frame(1, 103);
+    stage.frame(0, 103);
+    EXPECT_EQ(stage.closed().at(0).present(), 2);
+    stage.at(104, 10ms);
+    stage.frame(0, 104);
+    EXPECT_THAT(stage.closed(), IsEmpty()) << "it is waited for again";
+}
+
+TEST(FrameSetAssembler, ARigIsWaitedForOnlyAtThePulsesItIsAskedFor) {
+    Stage stage(2);
+    start(stage, 2, 100);
+    stage.assembler().set_asked(1, 3);
+    for (const std::uint64_t k : {101, 103}) {
         stage.at(k, 10ms);
         stage.frame(0, k);
-        const std::size_t open = stage.assembler().open_sets();
+        const auto sets = stage.closed();
+        ASSERT_EQ(sets.size(), 1u);
+        EXPECT_EQ(sets[0].slots[1].absence, Absence::not_asked);
+        stage.at(k + 1, 10ms);
+        stage.frame(0, k + 1);
+        stage.frame(1, k + 1);
         stage.closed();
-        if (k < 124) {
-            EXPECT_LE(open, static_cast<std::size_t>(budget / period) + 2) << k;
-        } else if (k > 126) {
-            EXPECT_EQ(stage.assembler().open_sets(), 0u) << k;
-        }
     }
+    stage.at(105, 10ms);
+    stage.frame(0, 105);
+    EXPECT_THAT(stage.closed(), IsEmpty());
+    stage.assembler().set_asked(1, 0);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(105)) << "asked to stop";
+}
+
+TEST(FrameSetAssembler, RigsThatAreAskedForFewPulsesAreWaitedForAtThose) {
+    Stage stage(2);
+    for (const std::size_t rig : {0, 1}) stage.assembler().set_asked(rig, 50);
+    start(stage, 2, 100);
+    stage.at(150, 10ms);
+    stage.frame(0, 150);
+    EXPECT_THAT(stage.closed(), IsEmpty());
+    stage.frame(1, 150);
+    EXPECT_EQ(stage.closed().at(0).present(), 2);
+}
+
+TEST(FrameSetAssembler, ASilentRigIsWaitedForALatencyBudgetAndTwoPeriods) {
+    Stage stage(2);
+    start(stage, 2, 100);
+    const MonotonicTime silent_since = stage.now();
+    for (std::uint64_t k = 101; k < 130; ++k) {
+        stage.at(k, 10ms);
+        stage.closed();
+        stage.frame(0, k);
+        const bool waited_for = !stage.assembler().take_closed(stage.now()).size();
+        EXPECT_EQ(waited_for, stage.now() - silent_since <= budget + 2 * period) << k;
+    }
+}
+
+TEST(FrameSetAssembler, OnASlowStageRigsAreWaitedForAsWell) {
+    FrameSetAssembler assembler({"a", "b"}, {5s, 200ms});
+    const auto frame = [](std::uint64_t index) {
+        auto made = std::make_shared<RigFrame>();
+        made->trigger_index = index;
+        made->synchronized = true;
+        return made;
+    };
+    for (const std::size_t rig : {0, 1}) assembler.set_connected(rig, true);
+    MonotonicTime now = monotonic_from_ns(0) + 1h;
+    for (const std::size_t rig : {0, 1}) assembler.add(rig, frame(100), now);
+    assembler.take_closed(now);
+    now += 5s;
+    assembler.add(0, frame(101), now);
+    EXPECT_THAT(assembler.take_closed(now), IsEmpty());
+    assembler.add(1, frame(101), now + 20ms);
+    EXPECT_EQ(assembler.take_closed(now + 20ms).at(0).present(), 2);
 }
 
 TEST(FrameSetAssembler, JitterWithinTheBudgetCostsNoFrame) {

@@ -53,5 +53,42 @@ TEST(LinkAccount, ACountThatGoesBackwardsIsRefusedAndChangesNothing) {
     EXPECT_EQ(account.lost(), 0u);
 }
 
+RigMessage message_of_session(std::uint64_t session, const LinkCounters& link,
+                              const RigCounters& rig) {
+    RigMessage message = message_of(session, link.sent);
+    message.session = session;
+    message.counters = link;
+    message.rig_counters = rig;
+    return message;
+}
+
+TEST(LinkAccount, AddsUpWhatARigCountsOverItsRestarts) {
+    LinkAccount account;
+    account.hear(message_of_session(1, {0, 0, 0, 0}, {}), false);
+    account.hear(message_of_session(1, {10, 1, 2, 3}, {12, 1, 1, 10, 2}), true);
+    account.hear(message_of_session(2, {4, 1, 0, 1}, {5, 2, 0, 4, 0}), true);
+    EXPECT_EQ(account.restarts(), 1u);
+    EXPECT_EQ(account.link_counters(), (LinkCounters{14, 2, 2, 4}));
+    EXPECT_EQ(account.rig_counters(), (RigCounters{17, 3, 1, 14, 2}));
+}
+
+TEST(LinkAccount, LeavesOutWhatTheRigCountedBeforeThisHostCame) {
+    LinkAccount account;
+    // Two frames are inside the rig.
+    account.hear(message_of_session(1, {}, {1002, 7, 30, 970, 5}), false);
+    EXPECT_EQ(account.rig_counters(), (RigCounters{2, 0, 0, 0, 0}));
+    account.hear(message_of_session(1, {3, 0, 0, 0}, {1003, 8, 30, 973, 5}), false);
+    EXPECT_EQ(account.rig_counters(), (RigCounters{3, 1, 0, 3, 0}));
+}
+
+TEST(LinkAccount, HandledFramesAreThoseOfThePresentLink) {
+    LinkAccount account;
+    account.hear(message_of(1, 1), true);
+    account.hear(message_of(1, 2), true);
+    EXPECT_EQ(account.handled(1), 1u);
+    account.hear(message_of(2, 1), true);
+    EXPECT_EQ(account.handled(3), 0u);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -44,6 +44,7 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     sent.sync.first_pulse = 4711;
     sent.sync.ptp_state = "SLAVE";
     sent.sync.ptp_offset_ns = -12.5;
+    sent.sync.rate_hz = 29.97;
     sent.health = {61.5f, true, 30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z", 0.125f};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
@@ -106,6 +107,7 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
                 HasSubstr("control characters"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_captured_hz(NAN); }),
                 HasSubstr("no number"));
+    EXPECT_THAT(refusal([](auto& m) { m.mutable_sync()->set_rate_hz(-1); }), HasSubstr("rate"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_id("a b"); }),
                 HasSubstr("calibration name"));
     EXPECT_THAT(

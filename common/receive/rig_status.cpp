@@ -1,0 +1,60 @@
+#include "common/receive/rig_status.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/base/pulse_grid.h"
+
+namespace vantage {
+
+std::string clock_text(const RigStatus& rig) {
+    if (rig.same_clock) return "this computer's clock";
+    const RigSync& sync = rig.sync;
+    std::string text;
+    if (sync.disciplined)
+        text = fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", sync.ptp_state,
+                           sync.ptp_offset_ns, sync.ptp_path_delay_ns);
+    else if (sync.ptp_state.empty())
+        text = fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined);
+    else if (sync.ptp_state == "SLAVE")
+        text = fmt::format("{} (ptp4l is SLAVE, but nothing sets the system clock by it: phc2sys)",
+                           clocks_not_disciplined);
+    else
+        text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
+    if (const std::string worry = tai_worry(rig); !worry.empty()) text += "; " + worry;
+    return text;
+}
+
+std::string tai_worry(const RigStatus& rig) {
+    if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
+    return fmt::format(
+        "its TAI is {} s from UTC and this computer's {} s: give both the same, or neither any",
+        rig.sync.tai_offset_s, rig.own_tai_offset_s);
+}
+
+std::string rate_worry(const RigStatus& rig) {
+    if (rig.sync.rate_hz == 0 || rig.stage_rate_hz == 0) return {};
+    // On the grid, where 29.97 and 30000/1001 are the same.
+    const double of_rig = PulseGrid(rig.sync.rate_hz).rate_hz();
+    const double of_stage = PulseGrid(rig.stage_rate_hz).rate_hz();
+    constexpr double same = 1e-6;
+    if (std::abs(of_rig / of_stage - 1) < same) return {};
+    return fmt::format("it runs at {:g} Hz and the stage at {:g} Hz: give both the same rate_hz",
+                       rig.sync.rate_hz, rig.stage_rate_hz);
+}
+
+std::string trouble_of(const RigStatus& rig) {
+    if (!rig.refused.empty()) return rig.refused;
+    if (!rig.connected)
+        return rig.unreachable.empty() ? fmt::format("nothing was heard from {}", rig.endpoint)
+                                       : rig.unreachable;
+    if (std::string worry = rate_worry(rig); !worry.empty()) return worry;
+    if (rig.out_of_step > 0 && rig.in_sets == 0)
+        return "it counts pulses differently from the rest of the stage: is its clock set?";
+    if (rig.unsynchronized > 0 && rig.in_sets == 0)
+        return "its pictures name no pulse of the stage: give it a trigger";
+    return {};
+}
+
+}  // namespace vantage

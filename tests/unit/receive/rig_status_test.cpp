@@ -1,0 +1,62 @@
+#include "common/receive/rig_status.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+RigStatus good_rig() {
+    RigStatus rig;
+    rig.rig = "north";
+    rig.endpoint = "tcp://north:5600";
+    rig.connected = true;
+    rig.stage_rate_hz = rig.sync.rate_hz = 25;
+    return rig;
+}
+
+TEST(RigStatus, AGoodRigHasNoTrouble) { EXPECT_EQ(trouble_of(good_rig()), ""); }
+
+TEST(RigStatus, NamesARigAtAnotherRateWithBoth) {
+    RigStatus rig = good_rig();
+    rig.sync.rate_hz = 2;
+    EXPECT_EQ(trouble_of(rig),
+              "it runs at 2 Hz and the stage at 25 Hz: give both the same rate_hz");
+}
+
+TEST(RigStatus, TakesTheRatesOfBroadcastAsTheyAreWritten) {
+    RigStatus rig = good_rig();
+    rig.stage_rate_hz = 29.97;
+    rig.sync.rate_hz = 30000.0 / 1001;
+    EXPECT_EQ(rate_worry(rig), "");
+    rig.sync.rate_hz = 30;
+    EXPECT_THAT(rate_worry(rig), HasSubstr("30 Hz and the stage at 29.97 Hz"));
+    rig.sync.rate_hz = 0;
+    EXPECT_EQ(rate_worry(rig), "") << "an older rig does not say";
+}
+
+TEST(RigStatus, SaysWhyARigIsNotConnected) {
+    RigStatus rig = good_rig();
+    rig.connected = false;
+    EXPECT_EQ(trouble_of(rig), "nothing was heard from tcp://north:5600");
+    rig.unreachable = "the name north does not resolve";
+    EXPECT_EQ(trouble_of(rig), "the name north does not resolve");
+    rig.refused = "no more hosts";
+    EXPECT_EQ(trouble_of(rig), "no more hosts");
+}
+
+TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
+    RigStatus rig = good_rig();
+    rig.out_of_step = 5;
+    EXPECT_THAT(trouble_of(rig), HasSubstr("counts pulses differently"));
+    rig.in_sets = 1;
+    EXPECT_EQ(trouble_of(rig), "");
+    rig = good_rig();
+    rig.unsynchronized = 5;
+    EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
+}
+
+}  // namespace
+}  // namespace vantage
