@@ -173,6 +173,7 @@ CommandEntry live_command_entry() {
         auto options = std::make_shared<LiveOptions>();
         CLI::App* command = program.add_subcommand(
             "live", "Connect to the rigs of a stage, fuse, fly, put out; ends with a summary");
+        command->footer("What the summary's words mean:\n" + counters_legend());
         command->add_option("--stage", options->stage, "The stage (TOML)")->required();
         command->add_flag("--headless", options->headless, "No window");
         command

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -40,14 +41,42 @@ ReceiverStatus look(const StageConfig& stage, double wait_s) {
     return receiver.status();
 }
 
+/// Whether it gives pictures, as far as its own numbers say.
+bool delivers(const RigStatus& rig) {
+    return trouble_of(rig).empty() && rig.health.published_hz > 0;
+}
+
+/// Of the stage as a whole. Onlookers get no pictures, so there is nothing to be stale.
+SignalState signal_of(const ReceiverStatus& status) {
+    return std::any_of(status.rigs.begin(), status.rigs.end(), delivers) ? SignalState::live
+                                                                         : SignalState::no_signal;
+}
+
 nlohmann::ordered_json to_json(const RigStatus& rig) {
-    return {{"name", rig.rig},
-            {"state", state_of(rig)},
-            {"clock", clock_text(rig)},
-            {"same_clock", rig.same_clock},
-            {"sync", to_json(rig.sync)},
-            {"health", to_json(rig.health)},
-            {"frames", to_json(rig.rig_counters)}};
+    nlohmann::ordered_json json{{"name", rig.rig}, {"state", state_of(rig)}};
+    if (const std::string trouble = trouble_of(rig); !trouble.empty()) json["trouble"] = trouble;
+    json["delivers"] = delivers(rig);
+    json["clock"] = clock_text(rig);
+    json["same_clock"] = rig.same_clock;
+    json["sync"] = to_json(rig.sync);
+    json["health"] = to_json(rig.health);
+    json["frames"] = to_json(rig.since_start);
+    return json;
+}
+
+void print(const ReceiverStatus& status) {
+    for (const RigStatus& rig : status.rigs) {
+        std::cout << fmt::format("{}: {}\n", rig.rig, full_state_of(rig));
+        if (!rig.connected) continue;
+        const RigCounters& counters = rig.since_start;
+        std::cout << fmt::format(
+            "    {}\n    {}\n    since it started: captured {}, missed {}, late {}, published {}\n",
+            clock_text(rig), health_text(rig.health), counters.captured, counters.missed,
+            counters.late, counters.published);
+        if (const std::string pulses = pulse_text(rig.sync); !pulses.empty())
+            std::cout << "    " << pulses << '\n';
+    }
+    std::cout << "signal: " << title_of(signal_of(status)) << '\n';
 }
 
 void run(const Options& options) {
@@ -56,20 +85,20 @@ void run(const Options& options) {
     if (options.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const RigStatus& rig : status.rigs) all.push_back(to_json(rig));
-        std::cout << nlohmann::ordered_json{{"rigs", all}}.dump() << '\n';
-        return;
+        std::cout
+            << nlohmann::ordered_json{{"signal", key_of(signal_of(status))}, {"rigs", all}}.dump()
+            << '\n';
+    } else {
+        print(status);
     }
-    for (const RigStatus& rig : status.rigs) {
-        std::cout << fmt::format("{}: {}\n", rig.rig, state_of(rig));
-        if (!rig.connected) continue;
-        const RigCounters& counters = rig.rig_counters;
-        std::cout << fmt::format(
-            "    {}\n    {}\n    captured {}, missed {}, late {}, published {}\n", clock_text(rig),
-            health_text(rig.health), counters.captured, counters.missed, counters.late,
-            counters.published);
-        if (const std::string pulses = pulse_text(rig.sync); !pulses.empty())
-            std::cout << "    " << pulses << '\n';
-    }
+    std::string troubles;
+    std::size_t troubled = 0;
+    for (const RigStatus& rig : status.rigs)
+        if (const std::string trouble = trouble_of(rig); !trouble.empty()) {
+            troubles += fmt::format("; {}: {}", rig.rig, trouble);
+            ++troubled;
+        }
+    if (troubled > 0) fail("{} of {} rigs cannot serve{}", troubled, status.rigs.size(), troubles);
 }
 
 }  // namespace
@@ -81,7 +110,8 @@ CommandEntry rigs_command_entry() {
         auto options = std::make_shared<Options>();
         CLI::App* status = rigs->add_subcommand("status",
                                                 "Every rig: clock, pulses, rates, temperature, "
-                                                "calibration, and what became of its frames");
+                                                "calibration, what became of its frames; ends "
+                                                "with 1 if a rig cannot serve, and says why");
         status->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
             ->required();
         status->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")

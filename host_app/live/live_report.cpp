@@ -26,7 +26,7 @@ std::vector<CounterGroup> counters_of(const RigAccount& rig) {
     const RigStatus& s = rig.status;
     const RigCounters& r = s.rig_counters;
     return {{"rig",
-             "at the rig, since it started",
+             "at the rig, since this host came",
              {{"captured", "captured", r.captured},
               {"missed", "missed", r.missed},
               {"late", "late", r.late},
@@ -96,10 +96,15 @@ std::vector<std::string> computer_worries_of(const RigStatus& status) {
 std::string rig_remarks(const LiveReport& report) {
     std::string text;
     for (const RigAccount& rig : report.rigs) {
-        if (!rig.status.connected)
-            text += fmt::format("{} is {}\n", rig.status.rig, state_of(rig.status));
-        else if (!rig.status.same_clock)
-            text += fmt::format("{}: {}\n", rig.status.rig, clock_text(rig.status));
+        const RigStatus& status = rig.status;
+        if (!status.connected)
+            text += fmt::format("{} is {}\n", status.rig, full_state_of(status));
+        else if (!status.same_clock)
+            text += fmt::format("{}: {}\n", status.rig, clock_text(status));
+        if (const std::string trouble = trouble_of(status); status.connected && !trouble.empty())
+            text += fmt::format("{}: {}\n", status.rig, trouble);
+        if (const std::string outages = outages_of(status); !outages.empty())
+            text += fmt::format("{}: {}\n", status.rig, outages);
         for (const std::string& worry : computer_worries_of(rig.status))
             text += fmt::format("{}: {}\n", rig.status.rig, worry);
         if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
@@ -118,8 +123,41 @@ std::string state_of(const RigStatus& status) {
     return status.connected ? "connected" : "disconnected";
 }
 
+std::string full_state_of(const RigStatus& status) {
+    if (!status.refused.empty()) return state_of(status);
+    const std::string trouble = trouble_of(status);
+    return trouble.empty() ? state_of(status) : state_of(status) + ": " + trouble;
+}
+
+std::string outages_of(const RigStatus& status) {
+    const auto times = [](std::uint64_t n) {
+        return n == 1 ? std::string("once") : fmt::format("{} times", n);
+    };
+    std::string text;
+    if (status.outages > 0)
+        text = fmt::format("was away {}, {:.1f} s in all", times(status.outages), status.outage_s);
+    if (status.restarts > 0)
+        text += fmt::format("{}its daemon was started anew {}", text.empty() ? "" : "; ",
+                            times(status.restarts));
+    return text;
+}
+
+std::string counters_legend() {
+    return "Every frame since this host came ends in one place. At the rig: missed (a pulse "
+           "without "
+           "a picture),\nlate (a step was still busy), published. On the way: thinned (this host "
+           "asked for fewer or none),\npushed out (this host or its network was slow), sent; lost "
+           "(sent, and the connection broke). At this\nhost: damaged (not readable), host busy, "
+           "late (its set was closed), duplicate, unsynced (names no pulse\nof the stage), out of "
+           "step (counts pulses differently from the other rigs), in sets; of those: fused (in "
+           "a\npicture), superseded (a newer set came before a picture was due).\n";
+}
+
 std::vector<std::string> worries_of(const RigStatus& status) {
     std::vector<std::string> worries = computer_worries_of(status);
+    if (status.connected)
+        if (std::string worry = rate_worry(status); !worry.empty())
+            worries.push_back(std::move(worry));
     if (status.connected && !status.same_clock && !status.sync.disciplined)
         worries.emplace_back(clocks_not_disciplined);
     if (status.connected)
@@ -160,7 +198,8 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                 {"ticks", programme.ticks},
                                 {"repeated_ticks", programme.repeated},
                                 {"synthesiser", report.synthesiser},
-                                {"renderer", report.renderer}};
+                                {"renderer", report.renderer},
+                                {"signal", key_of(report.signal)}};
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);
@@ -192,6 +231,11 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["rigs"] = nlohmann::ordered_json::array();
     for (const RigAccount& rig : report.rigs) {
         nlohmann::ordered_json entry{{"name", rig.status.rig}, {"state", state_of(rig.status)}};
+        if (const std::string trouble = trouble_of(rig.status); !trouble.empty())
+            entry["trouble"] = trouble;
+        entry["outages"] = {{"count", rig.status.outages},
+                            {"total_s", rig.status.outage_s},
+                            {"restarts", rig.status.restarts}};
         for (const CounterGroup& group : counters_of(rig))
             for (const Counter& counter : group.counters)
                 entry[group.key][counter.key] = counter.value;
@@ -264,6 +308,8 @@ std::string to_text(const LiveReport& report) {
         report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
         report.instants_prepared, report.sets_superseded, report.sets_dropped);
     text += rig_tables(report);
+    if (!report.rigs.empty()) text += counters_legend() + '\n';
+    text += fmt::format("signal at the end: {}\n", title_of(report.signal));
     text += rig_remarks(report);
     text += fmt::format("{:<10}  {:>8}  {:>8}\n", "step", "p50 ms", "p95 ms");
     for (const StepTime& step : step_times(report))

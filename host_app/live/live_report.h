@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/percentiles.h"
+#include "common/receive/signal_state.h"
 #include "common/receive/stage_receiver.h"
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/flight/orbit_view.h"
@@ -32,7 +33,8 @@ struct LiveReport {
     PictureFormat format;
     double rate_hz = 0;  ///< that was asked for
     std::string synthesiser, renderer;
-    OrbitView view;  ///< of the last picture
+    SignalState signal = SignalState::no_signal;  ///< at the end
+    OrbitView view;                               ///< of the last picture
     ProgrammeBooks programme;
     int faults = 0;  ///< renderers and preparers that were made anew
 
@@ -70,6 +72,12 @@ nlohmann::ordered_json to_json(const LiveReport& report);
 std::string to_text(const LiveReport& report);
 /// "connected", "disconnected" or "refused: ...".
 std::string state_of(const RigStatus& status);
+/// The state, and why the rig gives nothing: "disconnected: connection refused at ...".
+std::string full_state_of(const RigStatus& status);
+/// When and how a rig was away since this host came; empty if it never was.
+std::string outages_of(const RigStatus& status);
+/// What the words over the counters mean, for people: several lines.
+std::string counters_legend();
 
 /// What of a connected rig a technician should look after, a few words each: heat, supply, clock.
 std::vector<std::string> worries_of(const RigStatus& status);

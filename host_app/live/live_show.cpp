@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/pulse_grid.h"
 #include "common/gl/limits.h"
 #include "host_app/output/contact_sheet_sink.h"
 
@@ -20,9 +21,7 @@ std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set)
                 return slot.frame && slot.rig == rig.rig;
             }))
             continue;
-        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, state_of(rig));
-        if (!rig.last_error.empty() && rig.refused.empty())
-            text += fmt::format(" ({})", rig.last_error);
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, full_state_of(rig));
     }
     return text;
 }
@@ -135,6 +134,11 @@ std::optional<OrbitView> LiveShow::rig_view(int number) const {
     return view_from_eye(eye, eye + distance_m * axis, field_of_view_rad);
 }
 
+SignalState LiveShow::signal_of(const ReceiverStatus& status, const ProgrammeState& state) const {
+    return signal_state(status, state.is_held || state.behind_s.has_value(),
+                        PulseGrid(settings_.pulse_rate_hz).period(), MonotonicClock::now());
+}
+
 LiveReport LiveShow::report() const {
     const ReceiverStatus status = last_status_.value_or(this->status());
     const InstantThread::Books instants = instants_.books();
@@ -146,6 +150,7 @@ LiveReport LiveShow::report() const {
     report.synthesiser = state.synthesiser;
     report.view = state.view;
     report.renderer = renderer_;
+    report.signal = signal_of(status, state);
     report.instants_prepared = instants.prepared;
     report.prepare_ms = instants.prepare_ms;
     report.rig_steps = instants.rig_steps;

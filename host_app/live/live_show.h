@@ -65,6 +65,7 @@ class LiveShow {
 
   private:
     std::optional<OrbitView> rig_view(int number) const;
+    SignalState signal_of(const ReceiverStatus& status, const ProgrammeState& state) const;
 
     LiveSettings settings_;
     FlightPlan plan_;

@@ -17,9 +17,9 @@ void ProgressLog::tell(const LiveShow& show) {
     if (now - last_ < period) return;
     const double elapsed_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
-    int connected = 0;
+    int giving = 0;
     const ReceiverStatus status = show.status();
-    for (const RigStatus& rig : status.rigs) connected += rig.connected;
+    for (const RigStatus& rig : status.rigs) giving += trouble_of(rig).empty();
     const ProgrammeBooks books = show.books();
     const InstantThread::Books instants = show.instant_books();
     const ProgrammeState state = show.state();
@@ -28,7 +28,7 @@ void ProgressLog::tell(const LiveShow& show) {
         "rigs, {:.0f} ms from exposure to picture, levels {}/{}, camera at azimuth {:.1f} degrees",
         books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
         static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
-        static_cast<double>(instants.prepared - instants_) / elapsed_s, connected,
+        static_cast<double>(instants.prepared - instants_) / elapsed_s, giving,
         status.rigs.size(), state.latency_ms, state.render_level, state.prepare_level,
         state.view.azimuth_rad * deg);
     pictures_ = books.pictures;

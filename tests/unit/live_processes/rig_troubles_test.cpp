@@ -1,0 +1,157 @@
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/wire/curve_keys.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/free_ports.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Rigs that do not do what they should, and what the host says of them; each a process.
+class RigTroubles : public testing::Test {
+  protected:
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+    std::string endpoint(int port) const { return fmt::format("tcp://127.0.0.1:{}", port); }
+
+    /// Two rigs: "north" and "south".
+    void write_stage(const std::string& north, const std::string& south,
+                     const std::string& keys_of_north = "", const std::string& top = "") {
+        std::ofstream(file("stage.toml"))
+            << "version = 1\nrate_hz = 5\nlatency_budget_ms = 1000\n"
+            << top << "[[rigs]]\nname = \"north\"\nendpoint = \"" << north << "\"\n"
+            << keys_of_north << "[[rigs]]\nname = \"south\"\nendpoint = \"" << south << "\"\n"
+            << "[view]\nwidth_px = 128\nheight_px = 72\n";
+    }
+
+    std::unique_ptr<ChildProgram> start_rig(const std::string& name, int port, double rate_hz,
+                                            const std::string& stream = "") {
+        std::ofstream(file(name + ".toml"))
+            << "version = 1\nname = \"" << name << "\"\n[source]\nrate_hz = " << rate_hz
+            << "\nwidth_px = 160\nheight_px = 120\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+            << "[stream]\nbind = \"" << endpoint(port) << "\"\n"
+            << stream;
+        return std::make_unique<ChildProgram>(
+            VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
+            folder_.path());
+    }
+
+    ProgramResult status(double wait_s, bool as_json = false) const {
+        std::vector<std::string> arguments{
+            "rigs", "status", "--stage", file("stage.toml"), "--wait", fmt::format("{}", wait_s)};
+        if (as_json) arguments.emplace_back("--json");
+        return run_to_end(VANTAGE_PROGRAM, arguments);
+    }
+
+    /// Until the program has written these words, a minute at most.
+    static void wait_for(const ChildProgram& program, const std::string& words) {
+        for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
+            usleep(10'000);
+    }
+
+    TemporaryFolder folder_;
+    const std::pair<int, int> ports_ = two_free_ports();
+};
+
+TEST_F(RigTroubles, AreAFailureWithTheReasonOfEachRig) {
+    write_stage("tcp://no-such-rig.invalid:5600", endpoint(ports_.second),
+                "public_key = \"" + generate_curve_keys().public_key + "\"\n",
+                "key_file = \"host.key\"\n");
+    write_key_file(file("host.key"), generate_curve_keys());
+    const ProgramResult result = status(5);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("2 of 2 rigs cannot serve"));
+    EXPECT_THAT(result.err, HasSubstr("north: the name no-such-rig.invalid does not resolve"));
+    EXPECT_THAT(result.err, HasSubstr("south: connection refused at " + endpoint(ports_.second)));
+    EXPECT_THAT(result.out, HasSubstr("signal: NO SIGNAL"));
+}
+
+TEST_F(RigTroubles, WithKeysSayWhoseKeyIsWrong) {
+    const CurveKeys rig_keys = generate_curve_keys();
+    write_key_file(file("rig.key"), rig_keys);
+    write_key_file(file("host.key"), generate_curve_keys());
+    std::ofstream(file("authorized_hosts")) << "# none\n";
+    const auto north =
+        start_rig("north", ports_.first, 5,
+                  "key_file = \"rig.key\"\nauthorized_hosts = \"authorized_hosts\"\n");
+    wait_for(*north, "publishing on");
+    const std::string top = "key_file = \"host.key\"\n";
+    // South is the same rig, asked without a key.
+    write_stage(endpoint(ports_.first), endpoint(ports_.first),
+                "public_key = \"" + rig_keys.public_key + "\"\n", top);
+    ProgramResult result = status(60, true);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("north: rig north at " + endpoint(ports_.first) +
+                                      " does not admit this host"));
+    EXPECT_THAT(result.err, HasSubstr("south: rig south at " + endpoint(ports_.first) +
+                                      " talks only to hosts with keys"));
+    EXPECT_EQ(nlohmann::json::parse(result.out)["signal"], "no_signal");
+
+    write_stage(endpoint(ports_.first), endpoint(ports_.first),
+                "public_key = \"" + generate_curve_keys().public_key + "\"\n", top);
+    result = status(60, true);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("does not hold the key"));
+}
+
+TEST_F(RigTroubles, NameARigAtAnotherRate) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const auto north = start_rig("north", ports_.first, 2);
+    const auto south = start_rig("south", ports_.second, 5);
+    wait_for(*north, "publishing on");
+    wait_for(*south, "publishing on");
+    const ProgramResult result = status(60, true);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("north: it runs at 2 Hz and the stage at 5 Hz"));
+    EXPECT_THAT(result.err, Not(HasSubstr("south:")));
+    const nlohmann::json rigs = nlohmann::json::parse(result.out)["rigs"];
+    EXPECT_EQ(rigs[0]["sync"]["rate_hz"], 2);
+    EXPECT_EQ(rigs[1]["sync"]["rate_hz"], 5);
+}
+
+TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    auto north = start_rig("north", ports_.first, 5);
+    const auto south = start_rig("south", ports_.second, 5);
+    ChildProgram host(VANTAGE_PROGRAM,
+                      {"live", "--stage", file("stage.toml"), "--headless", "--json", "--seconds",
+                       "600", "--wait", "60"},
+                      folder_.path());
+    wait_for(host, " pictures, ");
+    north->send_signal(SIGKILL);
+    wait_for(host, "rig north is gone");
+    north = start_rig("north", ports_.first, 5);
+    // The log's last word of it so far is that it is gone.
+    const auto back = [&] {
+        const std::string log = host.err();
+        return log.rfind("rig north is connected") > log.rfind("rig north is gone");
+    };
+    for (int i = 0; i < 6000 && !back(); ++i) usleep(10'000);
+    sleep(2);
+    host.send_signal(SIGINT);
+    const ProgramResult result = host.wait();
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    const nlohmann::json rig = summary["rigs"][0];
+    EXPECT_EQ(rig["outages"]["count"], 1) << result.err;
+    EXPECT_EQ(rig["outages"]["restarts"], 1);
+    EXPECT_GT(rig["outages"]["total_s"], 0);
+    EXPECT_GE(rig["link"]["sent"].get<int>() - rig["link"]["lost"].get<int>(),
+              rig["host"]["received"].get<int>());
+    EXPECT_GT(rig["host"]["received"], 0);
+    EXPECT_EQ(summary["signal"], "live");
+}
+
+}  // namespace
+}  // namespace vantage
