@@ -9,6 +9,7 @@
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/stop_signal.h"
+#include "common/base/time_zone.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
 #include "common/wire/status_report.h"
@@ -81,6 +82,7 @@ void print(const ReceiverStatus& status) {
 
 void run(const Options& options) {
     const StageConfig stage = load_stage_config(options.stage);
+    if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     const ReceiverStatus status = look(stage, options.wait_s);
     if (options.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();

@@ -78,7 +78,13 @@ struct RigDaemon::Impl {
         : config(rig_config),
           frame_limit(most_frames),
           publisher(rig_config.stream, rig_config.name),
-          trigger(RigTrigger::make(rig_config)) {}
+          trigger(RigTrigger::make(rig_config)) {
+        // Hosts may be there already; what this rig is to do they learn before what it does.
+        RigSync first;
+        first.rate_hz = config.source.rate_hz;
+        first.tai_offset_s = read_kernel_clock().tai_offset_s;
+        publisher.report(first);
+    }
 
     void start();
     void capture(std::promise<SourceFacts> ready, const std::future<void>& go);

@@ -107,6 +107,15 @@ TEST(RigDaemon, AccountsForEveryFrameAtItsStop) {
     EXPECT_GT(status.latency_ms.p50, status.match_ms.p50);
 }
 
+TEST(RigDaemon, SaysItsRateFromItsFirstWordOn) {
+    const RigConfig config = small_rig();
+    const RigDaemon daemon(config);
+    const StageReceiver onlooker(stage_of(daemon, config), StageReceiver::Purpose::look_on);
+    for (int i = 0; i < 6000 && !onlooker.status().rigs[0].connected; ++i)
+        std::this_thread::sleep_for(10ms);
+    EXPECT_EQ(onlooker.status().rigs[0].sync.rate_hz, config.source.rate_hz);
+}
+
 TEST(RigDaemon, CanBeStoppedAtAnyTime) {
     for (const auto after : {0ms, 3ms, 40ms, 150ms}) {
         RigDaemon daemon(small_rig());
