@@ -42,9 +42,6 @@ constexpr std::chrono::milliseconds probe_limit{1000};
 /// Between lines about a rig's bad messages.
 constexpr std::chrono::seconds complaint_period{10};
 
-/// A take's rigs become ready one after the other; who is not so long after is named.
-constexpr std::chrono::seconds ready_patience{3};
-
 double ms_between(std::chrono::nanoseconds duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
@@ -181,16 +178,11 @@ struct StageReceiver::Impl {
         std::vector<TakeStarter::Rig> all;
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);
-        if (first && first_pulse == 0) {
-            first_pulse = *first;
-            log_info("the take's first pulse is {}", first_pulse);
-            name_laggards_at = now + ready_patience;
-        }
-        if (!name_laggards_at || now < *name_laggards_at) return;
-        name_laggards_at.reset();
-        for (const auto& rig : rigs)
-            if (!rig->status.connected || !rig->status.sync.ready)
-                log_warning("rig {} is not ready; it joins when it is", rig->name);
+        for (const std::size_t late : starter.laggards(all, now))
+            log_warning("rig {} is not ready; it joins when it is", rigs[late]->name);
+        if (!first || first_pulse != 0) return;
+        first_pulse = *first;
+        log_info("the take's first pulse is {}", first_pulse);
     }
 
     std::chrono::nanoseconds next_wait() {
@@ -342,7 +334,6 @@ struct StageReceiver::Impl {
     FrameSetAssembler assembler;
     TakeStarter starter;
     std::uint64_t first_pulse = 0;  ///< 0: not announced yet; only the I/O thread uses it
-    std::optional<MonotonicTime> name_laggards_at;
     std::uint64_t sets = 0;
     std::uint64_t complete_sets = 0;
     std::optional<MonotonicTime> newest_set;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ class TakeStarter {
     static constexpr std::chrono::seconds longest_wait{15};
     /// From the announcement to the first pulse: several heartbeats.
     static constexpr std::chrono::seconds notice{1};
+    /// Rigs become ready one after the other; who is not so long after the announcement is named.
+    static constexpr std::chrono::seconds ready_patience{3};
 
     explicit TakeStarter(const PulseGrid& grid) : grid_(grid) {}
 
@@ -33,10 +36,17 @@ class TakeStarter {
     std::optional<std::uint64_t> update(const std::vector<Rig>& rigs, TaiTime tai,
                                         MonotonicTime now);
 
+    /// Which rigs are not ready although the take's first pulse is known for a while: told once.
+    std::vector<std::size_t> laggards(const std::vector<Rig>& rigs, MonotonicTime now);
+
   private:
+    std::optional<std::uint64_t> find_first_pulse(const std::vector<Rig>& rigs, TaiTime tai,
+                                                  MonotonicTime now);
+
     PulseGrid grid_;
     std::optional<std::uint64_t> first_pulse_;
     std::optional<MonotonicTime> first_ready_;
+    std::optional<MonotonicTime> name_laggards_at_;
 };
 
 }  // namespace vantage

@@ -51,6 +51,23 @@ TEST_F(TakeStarterTest, GoesOnWithATakeThatRuns) {
     EXPECT_EQ(update(0s), 4711u);
 }
 
+TEST_F(TakeStarterTest, NamesOnceWhoIsNotReadyAWhileAfterTheTakeIsKnown) {
+    rigs_[0].sync.first_pulse = 4711;
+    make_ready(0);
+    update(0s);
+    EXPECT_TRUE(starter_.laggards(rigs_, monotonic_).empty()) << "the others were not heard yet";
+    make_ready(1);
+    EXPECT_TRUE(starter_.laggards(rigs_, monotonic_ + 2s).empty());
+    EXPECT_EQ(starter_.laggards(rigs_, monotonic_ + 3s), std::vector<std::size_t>{2});
+    EXPECT_TRUE(starter_.laggards(rigs_, monotonic_ + 9s).empty());
+}
+
+TEST_F(TakeStarterTest, NamesNobodyBeforeThereIsATake) {
+    make_ready(0);
+    update(0s);
+    EXPECT_TRUE(starter_.laggards(rigs_, monotonic_ + 10s).empty());
+}
+
 TEST_F(TakeStarterTest, BelievesNoRigThatIsGone) {
     rigs_[1].sync.first_pulse = 4711;
     rigs_[1].connected = false;
