@@ -43,20 +43,10 @@ done < <(awk -v length_s="$seconds" '
   { third = int(3 * $1 / length_s); key = $2 " " $3; if ($4 > most[key, third]) most[key, third] = $4; seen[key] = 1 }
   END { for (key in seen) if (most[key, 1] && most[key, 2]) print key, most[key, 1], most[key, 2] }' "$samples" | sort)
 
-# Frames: what came in at each place is what went out or was counted as left out; two may be on their way.
-account() { # place, jq expression: in minus everything counted
-  local line
-  while read -r line; do
-    local rig=${line% *} difference=${line##* } status=0
-    [ "$difference" -ge 0 ] && [ "$difference" -le 2 ] || status=1
-    check "$rig: $difference frames on their way $1" $status
-  done < <(jq -r ".rigs[] | \"\(.name) \($2)\"" "$report")
-}
-account "inside the rig" '.rig | .captured - .published - .late'
-account "on the link" '.link | .offered - .sent - .send_dropped - .thinned'
-account "from link to host" '.link.sent - .link.lost - .host.received'
-account "inside the host" '.host | .received - .undecodable - .queue_dropped - .late - .duplicate - .unsynchronized - .out_of_step - .in_sets'
-account "from set to picture" '.host | .in_sets - .fused - .superseded'
+account=$(tools/check_account.sh "$report" || true)
+sed '$d' <<<"$account"
+read -r p _ f _ <<<"$(tail -n 1 <<<"$account")"
+passed=$((passed + p)) failed=$((failed + f))
 jq -r '"\(.pictures) pictures in \(.duration_s | round) s; \(.sets.closed) sets: \(.sets.complete) complete, \(.sets.fused) fused, \(.sets.superseded) superseded, \(.sets.dropped) dropped"' "$report"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]
