@@ -127,9 +127,10 @@ add_custom_target(vantage_arm64_tests)
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
-# those that only the latter does.
+# those that only the latter does. A test is a process, but for those of TOGETHER: these suites make something costly once
+# for all their tests, and each is a process and one test of CTest.
 function(vantage_unit_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;TOGETHER" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -147,7 +148,13 @@ function(vantage_unit_test name)
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
   string(JOIN "-" labels unit ${ARG_LABELS})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+  set(properties LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+  list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE together)
+  string(JOIN ":" together ${together})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${together}" PROPERTIES ${properties})
+  foreach(suite ${ARG_TOGETHER})
+    add_test(NAME ${suite} COMMAND ${name} "--gtest_filter=${suite}.*")
+    # They are the long ones: two of them must not be what everything waits for in the end.
+    set_tests_properties(${suite} PROPERTIES ${properties} COST 1000 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  endforeach()
 endfunction()

@@ -73,7 +73,7 @@ std::vector<BoardPattern> floor_and_hand_board() {
 
 RenderedStage::RenderedStage(const std::vector<BoardPattern>& patterns, int width_px,
                              std::uint64_t seed)
-    : pattern_(patterns.front()), random_(seed) {
+    : patterns_(patterns), pattern_(patterns.front()), random_(seed), cameras_(2 * rig_count) {
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i < rig_count; ++i) {
         StereoCalibration rig;
@@ -85,9 +85,13 @@ RenderedStage::RenderedStage(const std::vector<BoardPattern>& patterns, int widt
             Eigen::Vector3d(-0.12, 0.002 * unit(random_), 0.003 * unit(random_));
         rig.world_from_left = look_at(on_arc(i, distance_m), target_m);
         truths_.push_back(rig);
-        cameras_.emplace_back(patterns, rig.left);
-        cameras_.emplace_back(patterns, rig.right);
     }
+}
+
+BoardCamera& RenderedStage::camera(int rig, int side) {
+    std::optional<BoardCamera>& camera = cameras_[static_cast<std::size_t>(2 * rig + side)];
+    if (!camera) camera.emplace(patterns_, side == 0 ? truth(rig).left : truth(rig).right);
+    return *camera;
 }
 
 bool RenderedStage::whole_in_picture(const CameraModel& camera,
@@ -173,7 +177,7 @@ GreyImage RenderedStage::film(int rig, int side, const std::vector<StandingBoard
     std::vector<BoardCamera::PlacedBoard> placed;
     for (const StandingBoard& board : boards)
         placed.push_back({board.board, camera_from_world * board.world_from_board});
-    return cameras_[static_cast<std::size_t>(2 * rig + side)].film(placed, faults, random_());
+    return camera(rig, side).film(placed, faults, random_());
 }
 
 }  // namespace vantage

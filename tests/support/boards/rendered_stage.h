@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -58,10 +59,14 @@ class RenderedStage {
     bool whole_in_picture(const CameraModel& camera, const Pose& camera_from_board) const;
     Pose turned_board(double tilt_rad, const Eigen::Vector3d& middle_m);
 
-    BoardPattern pattern_;
+    BoardCamera& camera(int rig, int side);
+
+    std::vector<BoardPattern> patterns_;
+    BoardPattern pattern_;  ///< the first
     std::mt19937_64 random_;
     std::vector<StereoCalibration> truths_;
-    std::vector<BoardCamera> cameras_;
+    /// Two of each rig, made when they film first: working out a lens takes longer than a picture.
+    std::vector<std::optional<BoardCamera>> cameras_;
 };
 
 }  // namespace vantage

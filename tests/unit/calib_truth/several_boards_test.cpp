@@ -17,11 +17,14 @@ BoardPattern charuco(const std::string& size, double square_m, int first_marker)
     return pattern;
 }
 
+constexpr int width_px = 1280, stage_seed = 21;
+
 /// The rigs as a chessboard leaves them that each saw from near, in twenty-five pairs: its corners
 /// are where they are in truth but for the noise of a good fit.
-std::vector<StageRig> calibrated_rigs(RenderedStage& stage, std::uint64_t seed) {
+std::vector<StageRig> calibrate_rigs() {
     const BoardPattern pattern = chessboard_pattern("9x6", 0.1);
-    SyntheticViews views(pattern, 0.03, seed);
+    const RenderedStage stage(pattern, width_px, stage_seed);
+    SyntheticViews views(pattern, 0.03, 5);
     std::vector<StageRig> rigs;
     for (int r = 0; r < RenderedStage::rig_count; ++r) {
         const StereoCalibration& truth = stage.truth(r);
@@ -44,6 +47,12 @@ std::vector<StageRig> calibrated_rigs(RenderedStage& stage, std::uint64_t seed) 
         rig.sigma = calibration_sigma(solved);
         rigs.push_back(rig);
     }
+    return rigs;
+}
+
+/// Once for all tests: the stage has the same rigs whatever boards it shows.
+const std::vector<StageRig>& calibrated_rigs() {
+    static const std::vector<StageRig> rigs = calibrate_rigs();
     return rigs;
 }
 
@@ -76,8 +85,8 @@ TEST(SeveralBoards, of_different_markers_join_four_rigs_in_one_calibration) {
     boards.add("floor", {patterns[0]});
     boards.add("left", {patterns[1]});
     boards.add("right", {patterns[2]});
-    RenderedStage stage(patterns, 1280, 21);
-    std::vector<StageRig> rigs = calibrated_rigs(stage, 5);
+    RenderedStage stage(patterns, width_px, stage_seed);
+    std::vector<StageRig> rigs = calibrated_rigs();
     long long instant = 0;
     // The one on the floor stays there while two assistants carry the others about, each before
     // another pair of rigs.
@@ -101,8 +110,8 @@ TEST(SeveralBoards, of_different_markers_join_four_rigs_in_one_calibration) {
 TEST(SeveralBoards, fixed_to_a_wand_join_rigs_that_see_different_faces) {
     std::vector<BoardPattern> faces;
     for (int f = 0; f < 5; ++f) faces.push_back(charuco("4x4", 0.075, 12 * f));
-    RenderedStage stage(faces, 1280, 31);
-    std::vector<StageRig> rigs = calibrated_rigs(stage, 6);
+    RenderedStage stage(faces, width_px, stage_seed);
+    std::vector<StageRig> rigs = calibrated_rigs();
     BoardSet boards;
     boards.add("wand", faces);
     const std::vector<Pose> on_cube = cube_faces(faces.front());
