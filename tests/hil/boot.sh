@@ -19,8 +19,11 @@ cp "$here/guest/${HIL_INIT:-init}" "$share/init"
 cp "$here/guest/finish" "$share/finish"
 printf 'export %q\n' "KERNEL_ROOT=$work/kernel" "KERNEL_RELEASE=$release" "$@" >"$share/environment"
 
+# Root in the machine is to read what root can read here.
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo -n)
 boot() { # QEMU options of the accelerator
-  timeout -k 5 "${HIL_TIMEOUT_S:-900}" qemu-system-x86_64 -M q35 "$@" -smp 2 -m 2560 \
+  "${as_root[@]}" timeout -k 5 "${HIL_TIMEOUT_S:-900}" qemu-system-x86_64 -M q35 "$@" -smp 2 -m 2560 \
     -nodefaults -no-user-config -nographic -no-reboot -serial "file:$share/console" \
     -kernel "$work/vmlinux" -initrd "$work/initrd.img" \
     -append "console=ttyS0 quiet panic=-1 oops=panic mitigations=off nokaslr random.trust_cpu=on audit=0 apparmor=0 selinux=0" \

@@ -8,9 +8,10 @@ work=$1 program=$2 usb_camera=$3 capture_test=$4
 data=${VANTAGE_DATA:-$here/../../../shared/data}
 "$here/prepare.sh" "$work"
 
-cameras=()
+cameras=() sockets=$(mktemp -d)
 end_cameras() {
   [ ${#cameras[@]} -eq 0 ] || kill "${cameras[@]}" 2>/dev/null || true
+  rm -rf "$sockets"
 }
 trap end_cameras EXIT
 qemu=
@@ -19,7 +20,7 @@ if [ -d "$data/middlebury2003/teddy" ]; then
   qemu="-device qemu-xhci,id=usb,addr=10"
   port=1
   for picture in im2 im6; do
-    socket=$work/camera$port.socket
+    socket=$sockets/camera$port # the path of a socket is short, and QEMU takes no space in it
     "$usb_camera" "$socket" "port$port" 320 240 10 "$data/middlebury2003/teddy/$picture.png" &
     cameras+=($!)
     for _ in $(seq 100); do [ -S "$socket" ] && break || sleep 0.1; done

@@ -19,4 +19,4 @@ if ! command -v lintian >/dev/null; then
 fi
 lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/packages-first/*.deb || exit 1
 HIL_INIT=init_systemd exec "$here/boot.sh" "$work" packages \
-  "HIL_DOCUMENTS=$(realpath "$here/../documents")" "PACKAGES=$(echo "$work"/packages-first/*.deb)" "UPGRADE=$(echo "$work"/packages-next/vantage-rig_*.deb)"
+  "HIL_DOCUMENTS=$(realpath "$here/../documents")" "PACKAGES=$(realpath "$work/packages-first")" "UPGRADE=$(realpath "$work"/packages-next/vantage-rig_*.deb)"

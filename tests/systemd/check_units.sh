@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # The daemon is where it was built, and linuxptp need not be here.
 for unit in "$units"/*.service; do
-  sed -e "s#^ExecStart=/usr/bin/vantage-rig#ExecStart=$rig#" -e 's#^ExecStart=/usr/sbin/\S*#ExecStart=/bin/true#' "$unit" \
+  sed -e "s#^ExecStart=/usr/bin/vantage-rig#ExecStart=\"$rig\"#" -e 's#^ExecStart=/usr/sbin/\S*#ExecStart=/bin/true#' "$unit" \
     >"$work/$(basename "$unit")"
 done
 status=0
