@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages of packages.txt that are missing, and nothing else.
-#   tools/install_packages.sh run|test
+#   tools/install_packages.sh run|test|bare
 # Works as root and with sudo. Where everything is there already it asks neither apt nor the network.
 # On Debian 12 it adds bookworm-backports from the mirror that this computer already uses.
 set -euo pipefail
@@ -8,9 +8,9 @@ cd "$(dirname "$0")/.."
 
 purpose=${1:-run}
 case "$purpose" in
-  run | test) ;;
+  run | test | bare) ;;
   *)
-    echo "install_packages.sh: '$purpose' is neither run nor test" >&2
+    echo "install_packages.sh: '$purpose' is neither run nor test nor bare" >&2
     exit 2
     ;;
 esac
@@ -29,7 +29,10 @@ done < <(dpkg-query -W -f '${Package} ${db:Status-Status} ${Version}\n')
 missing=() missing_backports=()
 while read -r name flags; do
   case "$name" in '' | '#'*) continue ;; esac
-  case " $flags " in *' test '*) [ "$purpose" = test ] || continue ;; esac
+  case "$purpose: $flags " in
+    test:*' test '* | bare:*' bare '*) ;;
+    run:*' test '* | *' bare '* | bare:*) continue ;;
+  esac
   case " $flags " in *' amd64 '*) [ "$architecture" = amd64 ] || continue ;; esac
   have=${version[$name]:-}
   case " $flags " in
