@@ -41,10 +41,9 @@ trap 'exit 130' INT TERM
 
 # The processor draws everything where there is no GPU: then the stage runs at a rate that it holds.
 if "$bin/vantage-rig" probe --json 2>/dev/null | grep -q '"is_software": *false'; then
-  rate_hz=30 fps=30 size=1280x720 latency_budget_ms=200 preset=balanced
+  rate_hz=25 fps=50 size=1920x1080 rig_size=960x720 disparities_of_stage=96 latency_budget_ms=200 preset=balanced
 else
-  preset=fast
-  rate_hz=2 fps=4 size=480x270 latency_budget_ms=1500
+  rate_hz=5 fps=12.5 size=480x270 rig_size=320x240 disparities_of_stage=32 latency_budget_ms=600 preset=fast
   # Four rigs share the processor: one drawing thread each does the same work with less waiting.
   export LP_NUM_THREADS=1
 fi
@@ -169,8 +168,8 @@ if [ -z "$left" ]; then
 [source]
 kind = "virtual"
 rate_hz = $rate_hz
-width_px = 320
-height_px = 240
+width_px = ${rig_size%x*}
+height_px = ${rig_size#*x}
 noise_sigma = 1.0
 seed = $i
 
@@ -178,7 +177,8 @@ seed = $i
 azimuth_deg = $azimuth
 
 [match]
-disparities = 32
+preset = "$preset"
+disparities = $disparities_of_stage
 END
   done
 elif [ -n "$calibration" ]; then
@@ -222,17 +222,18 @@ fi
 for config in "$demo"/rig*.toml "$demo"/pair.toml; do
   [ -f "$config" ] || continue
   name=$(basename "$config" .toml)
-  "$bin/vantage-rig" run --config "$config" >"$demo/$name.log" 2>&1 &
+  # What stands for rig computers yields to the host, which has this one for itself elsewhere.
+  nice -n 5 "$bin/vantage-rig" run --config "$config" >"$demo/$name.log" 2>&1 &
   rigs+=($!)
 done
 echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs are in out/demo/" >&2
 
 # A processor that draws everything also compiles the programs first; a slow one takes its time.
-live=(live --stage "$demo/stage.toml" --wait 60)
+live=(live --stage "$demo/stage.toml" --wait 60 --rate "$fps")
 host=(env -u LP_NUM_THREADS "$bin/vantage")
 if $headless; then
   # Nobody goes back in time here.
-  "${host[@]}" "${live[@]}" --headless --past-mb 64 --rate "$fps" --seconds "$seconds" "${json[@]}" --path "$move" \
+  "${host[@]}" "${live[@]}" --headless --past-mb 64 --seconds "$seconds" "${json[@]}" --path "$move" \
     --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 elif [ -n "$calibration" ]; then

@@ -74,6 +74,20 @@ StateLook look_of(RigState state) {
     return {"no link", palette::bad};
 }
 
+const ImVec4& colour_of(SignalState signal) {
+    switch (signal) {
+        case SignalState::live:
+            return palette::good;
+        case SignalState::hold:
+            return palette::accent;
+        case SignalState::stale:
+            return palette::warn;
+        case SignalState::no_signal:
+            break;
+    }
+    return palette::bad;
+}
+
 void draw_picture(const PanelState& state) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImDrawList& ground = *ImGui::GetBackgroundDrawList();
@@ -105,10 +119,8 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         badge(fonts, "WAITING FOR RIGS", palette::warn);
     else if (state.behind_s)
         badge(fonts, fmt::format("{:.1f} s BACK", *state.behind_s).c_str(), palette::accent);
-    else if (state.frozen)
-        badge(fonts, "FROZEN", palette::accent);
     else
-        badge(fonts, "LIVE", palette::good);
+        badge(fonts, title_of(state.signal), colour_of(state.signal));
     if (state.recording) badge(fonts, "REC", palette::bad);
     if (!state.waiting) {
         ImGui::PushFont(fonts.strong);
@@ -119,10 +131,13 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         ImGui::SameLine(0, 0);
     }
     const std::string right =
-        fmt::format("{}x{}   {:.1f} pictures/s   {:.0f} ms   {}   F1 help",
-                    state.picture ? state.picture->width_px() : 0,
-                    state.picture ? state.picture->height_px() : 0, state.picture_rate_hz,
-                    state.latency_ms, state.synthesiser);
+        state.asks_to_end
+            ? std::string("Esc again to end the programme")
+            : fmt::format("{}x{}   {:.1f} pictures/s   {:.0f} ms   {}, level {}/{}   F1 help",
+                          state.picture ? state.picture->width_px() : 0,
+                          state.picture ? state.picture->height_px() : 0, state.picture_rate_hz,
+                          state.latency_ms, state.synthesiser, state.render_level,
+                          state.prepare_level);
     ImGui::SetCursorPosX(screen.x - ImGui::CalcTextSize(right.c_str()).x - 0.9f * em());
     text(palette::dim, right);
     ImGui::End();

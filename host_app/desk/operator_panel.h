@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/gl/texture.h"
+#include "common/receive/signal_state.h"
 #include "host_app/desk/style.h"
 #include "host_app/flight/orbit_view.h"
 
@@ -47,7 +48,8 @@ struct PanelState {
     std::string timecode;
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
-    bool frozen = false, recording = false;
+    SignalState signal = SignalState::live;
+    bool recording = false;
     std::optional<double> behind_s;  ///< while in the past: how far
     double picture_rate_hz = 0, latency_ms = 0;
     std::vector<float> latency_history_ms;  ///< oldest first

@@ -97,6 +97,7 @@ void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const F
         state_.stages.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.picture_rate_hz = picture_rate_.per_second();
     state_.latency_ms = programme.latency_ms;
+    state_.signal = report.signal;
     state_.novelty = novelty_of(programme);
     state_.recording = !report.film.empty();
     for (const SinkState& sink : report.programme.sinks)
@@ -135,7 +136,6 @@ PanelState PanelFeed::state(LiveShow& show) {
                 state_.timecode =
                     timecodes_->of_pulse(set->trigger_index, slot.frame->sync.tai_offset_s);
     }
-    state_.frozen = programme.is_held;
     state_.behind_s = programme.behind_s;
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.synthesiser = programme.synthesiser;
