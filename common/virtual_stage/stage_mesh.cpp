@@ -62,8 +62,6 @@ void StageMeshBuilder::end_chunk() {
     }
     chunk.centre_m = 0.5f * (low + high);
     chunk.radius_m = 0.5f * (high - low).norm();
-    chunk.low_m = low.y();
-    chunk.high_m = high.y();
 }
 
 std::uint32_t StageMeshBuilder::add_vertex(const SurfacePoint& point) {

@@ -46,7 +46,6 @@ struct StageChunk {
     std::uint32_t first_index = 0, index_count = 0;
     Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();  ///< of a sphere around it, for culling
     float radius_m = 0;
-    float low_m = 0, high_m = 0;  ///< its heights
     ChunkKind kind;
 };
 
