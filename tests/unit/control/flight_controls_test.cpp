@@ -1,0 +1,230 @@
+#include "host_app/control/flight_controls.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/hid/scripted_port.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(HandsBox, AddsUpWhatComesAndKnowsTheEarliest) {
+    HandsBox box;
+    EXPECT_FALSE(box.take().since);
+    const MonotonicTime start{1h};
+    box.put({}, start);
+    EXPECT_FALSE(box.take().since) << "no hand moved";
+    box.put({.orbit_azimuth_rad = 0.1}, start + 1ms);
+    box.put({.orbit_azimuth_rad = 0.2, .toggle_freeze = true}, start + 5ms);
+    const HandsBox::Taken taken = box.take();
+    EXPECT_NEAR(taken.input.orbit_azimuth_rad, 0.3, 1e-12);
+    EXPECT_TRUE(taken.input.toggle_freeze);
+    EXPECT_EQ(taken.since, start + 1ms);
+    EXPECT_FALSE(box.take().input.is_any()) << "every input is taken once";
+}
+
+/// A wheel in a pretended socket, and the steps that come of turning it.
+class FlightControlsTest : public testing::Test {
+  protected:
+    FlightControlsTest() {
+        plug_in();
+        step();
+    }
+
+    static FlightPlan start() {
+        FlightPlan plan;
+        plan.start.distance_m = 4.5;
+        plan.start.field_of_view_rad = 1.0;
+        return plan;
+    }
+    static std::optional<OrbitView> rig_view(int number) {
+        if (number != 1) return std::nullopt;
+        OrbitView view;
+        view.azimuth_rad = 0.3;
+        return view;
+    }
+
+    void plug_in() {
+        wheel_ = std::make_shared<ScriptedDevice>(JogPlace{
+            .path = "/dev/hidraw0", .id = {0x0b33, 0x0020}, .name = "ShuttleXpress", .serial = {}});
+        reports_ = 0;
+        sockets_.plug(wheel_);
+        send({0, detent_, 0, 0, 0});  // where the wheel stands
+    }
+    void unplug() {
+        sockets_.unplug(wheel_);
+        ASSERT_TRUE(wait_for([](const auto& devices) { return devices.empty(); }));
+    }
+    void turn(int detents) {
+        detent_ = static_cast<std::uint8_t>(detent_ + detents);
+        send({0, detent_, 0, 0, 0});
+    }
+    void push_button(int number) {
+        send({0, detent_, 0, static_cast<std::uint8_t>(0x10 << (number - 1)), 0});
+        send({0, detent_, 0, 0, 0});
+    }
+    /// Until the computer has read it: the same report again tells nothing new, and is counted only
+    /// once the one before it is through.
+    void send(const Bytes& report) {
+        wheel_->send(report);
+        wheel_->send(report);
+        reports_ += 2;
+        ASSERT_TRUE(wait_for([&](const auto& devices) {
+            return devices.size() == 1 && devices[0].reports == reports_;
+        }));
+    }
+    template <class Condition>
+    bool wait_for(Condition condition) {
+        for (int i = 0; i < 5000; ++i) {
+            if (condition(deck_.devices())) return true;
+            std::this_thread::sleep_for(2ms);
+        }
+        return false;
+    }
+
+    /// The next one, so long after the one before.
+    PilotStep step(double after_s = 0.02) {
+        time_s_ += after_s;
+        const PilotStep step = controls_.step(time_s_);
+        azimuth_rad_ = step.view.azimuth_rad;
+        return step;
+    }
+
+    ScriptedSockets sockets_;
+    JogDeck deck_{sockets_.bus(), load_wheel_profiles(), {.raw_reports = false, .look_every = 5ms}};
+    FlightControls controls_{
+        {.plan = start(), .pulse_rate_hz = 25, .has_past = true}, &deck_, rig_view};
+    std::shared_ptr<ScriptedDevice> wheel_;
+    std::uint8_t detent_ = 7;
+    std::uint64_t reports_ = 0;
+    double time_s_ = 0, azimuth_rad_ = 0;
+};
+
+TEST_F(FlightControlsTest, HoldsItsPoseWhileNoHandMoves) {
+    const double before_rad = azimuth_rad_;
+    for (int i = 0; i < 20; ++i) {
+        const PilotStep still = step();
+        EXPECT_FALSE(still.hand);
+        EXPECT_FALSE(still.toggle_hold || still.to_live || still.next_synthesiser ||
+                     still.toggle_source_map);
+        EXPECT_EQ(still.past_pulses, 0);
+    }
+    EXPECT_EQ(azimuth_rad_, before_rad);
+}
+
+TEST_F(FlightControlsTest, ATurnOfTheWheelIsInTheNextStep) {
+    const double before_rad = azimuth_rad_;
+    const MonotonicTime before = MonotonicClock::now();
+    turn(3);
+    const PilotStep turned = step();
+    EXPECT_GT(std::abs(azimuth_rad_ - before_rad), 1e-3);
+    ASSERT_TRUE(turned.hand);
+    EXPECT_GE(*turned.hand, before);
+    EXPECT_LE(*turned.hand, MonotonicClock::now());
+    EXPECT_FALSE(step().hand) << "once only";
+}
+
+TEST_F(FlightControlsTest, TheShuttleMovesTheNextStepAndAllAfterIt) {
+    send({3, detent_, 0, 0, 0});
+    double last_rad = azimuth_rad_;
+    for (int i = 0; i < 5; ++i) {
+        step();
+        EXPECT_GT(std::abs(azimuth_rad_ - last_rad), 1e-6) << "step " << i;
+        last_rad = azimuth_rad_;
+    }
+}
+
+TEST_F(FlightControlsTest, TheStepAfterTheFreezeButtonHolds) {
+    push_button(3);
+    EXPECT_TRUE(step().toggle_hold);
+    EXPECT_FALSE(step().toggle_hold);
+}
+
+TEST_F(FlightControlsTest, HoldsItsPoseWithoutTheWheelAndGoesOnWhenItIsBack) {
+    turn(3);
+    send({7, detent_, 0, 0, 0});
+    step();
+    unplug();
+    step(5);
+    const double held_rad = azimuth_rad_;
+    step(5);
+    EXPECT_NEAR(azimuth_rad_, held_rad, 1e-9)
+        << "the ring was pushed to its stop when the cable went";
+    plug_in();
+    step();
+    EXPECT_NEAR(azimuth_rad_, held_rad, 1e-9) << "a wheel that comes back asks for nothing yet";
+    turn(-2);
+    step();
+    EXPECT_GT(std::abs(azimuth_rad_ - held_rad), 1e-3);
+}
+
+TEST_F(FlightControlsTest, TheWheelGoesThroughThePastPulseByPulse) {
+    push_button(4);
+    step();
+    ASSERT_NE(controls_.lines().wheel.find("past"), std::string::npos) << controls_.lines().wheel;
+    const double before_rad = azimuth_rad_;
+    turn(-3);
+    EXPECT_EQ(step().past_pulses, -3);
+    EXPECT_EQ(step().past_pulses, 0);
+    send({5, detent_, 0, 0, 0});
+    double pulses = 0;
+    for (int i = 0; i < 50; ++i) pulses += step().past_pulses;
+    EXPECT_GT(pulses, 1) << "forward, by the ring";
+    EXPECT_LE(pulses, 2 * 25 + 1e-9) << "at most at twice the stage's rate";
+    EXPECT_EQ(azimuth_rad_, before_rad) << "the camera stays";
+}
+
+TEST_F(FlightControlsTest, MouseAndWheelMeetInOneStep) {
+    turn(1);
+    const MonotonicTime earlier = MonotonicClock::now() - 1s;
+    controls_.hands().put({.toggle_freeze = true,
+                           .next_synthesiser = true,
+                           .to_live = true,
+                           .toggle_novelty = true,
+                           .past_steps = -2},
+                          earlier);
+    const double before_rad = azimuth_rad_;
+    const PilotStep both = step();
+    EXPECT_TRUE(both.toggle_hold && both.next_synthesiser && both.to_live &&
+                both.toggle_source_map);
+    EXPECT_EQ(both.past_pulses, -2);
+    EXPECT_GT(std::abs(azimuth_rad_ - before_rad), 1e-4);
+    EXPECT_EQ(both.hand, earlier) << "the earlier of the two hands";
+}
+
+TEST_F(FlightControlsTest, FliesToWhatARigSees) {
+    push_button(1);
+    for (int i = 0; i < 500; ++i) step();
+    EXPECT_NEAR(azimuth_rad_, 0.3, 0.01);
+    push_button(2);
+    for (int i = 0; i < 100; ++i) step();
+    EXPECT_NEAR(azimuth_rad_, 0.3, 0.01) << "there is no second rig";
+}
+
+TEST_F(FlightControlsTest, TellsWhatTheWheelDrives) {
+    step();
+    EXPECT_NE(controls_.lines().wheel.find("drives the orbit"), std::string::npos)
+        << controls_.lines().wheel;
+    EXPECT_FALSE(controls_.lines().move_progress);
+    unplug();
+    step();
+    EXPECT_EQ(controls_.lines().wheel, "");
+}
+
+TEST(FlightControlsWithoutADeck, FlyThePlannedMove) {
+    FlightPlan plan;
+    OrbitView end = plan.start;
+    end.azimuth_rad = 0.4;
+    plan.move = Move({{0, plan.start, Easing::linear}, {2, end, Easing::linear}}, false);
+    FlightControls controls({.plan = plan}, nullptr, [](int) { return std::nullopt; });
+    EXPECT_NEAR(controls.step(1).view.azimuth_rad, 0.2, 1e-9);
+    EXPECT_NEAR(*controls.lines().move_progress, 0.5, 1e-9);
+    EXPECT_NEAR(controls.step(3).view.azimuth_rad, 0.4, 1e-9);
+    EXPECT_EQ(controls.lines().wheel, "");
+}
+
+}  // namespace
+}  // namespace vantage
