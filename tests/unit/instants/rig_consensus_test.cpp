@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
+#include "host_app/instants/rig_presence.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
@@ -108,7 +109,7 @@ class DoubtedStripTest : public testing::Test {
     DepthImage bettered_strip(const DepthView& own) {
         const DepthView rigs[] = {own, film(-0.4), film(0.4)};
         std::vector<std::unique_ptr<RigHistory>> views;
-        upload_views(rigs, views);
+        upload_with_fades(rigs, nominal_dt_s, views);
         return consensus_.better(*views[0], views).download()(strip);
     }
 
