@@ -1,5 +1,7 @@
 #include "host_app/output/video_recorder.h"
 
+#include "common/base/error.h"
+
 namespace vantage {
 namespace {
 
@@ -27,10 +29,16 @@ void VideoRecorder::finish() {
     if (failed_) std::rethrow_exception(failure_);
     try {
         writer_.finish();
-    } catch (...) {
-        writer_.keep_what_is_written();
-        throw;
+    } catch (const std::exception& error) {
+        std::rethrow_exception(end_after(error));
     }
+}
+
+std::exception_ptr VideoRecorder::end_after(const std::exception& error) {
+    if (writer_.frames() == 0) return std::make_exception_ptr(Error(error.what()));
+    const char* rest = writer_.keep_what_is_written() ? "; what was written until then is kept"
+                                                      : "; nothing of it can be read";
+    return std::make_exception_ptr(Error(std::string(error.what()) + rest));
 }
 
 void VideoRecorder::write() {
@@ -47,9 +55,8 @@ void VideoRecorder::write() {
                 std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                     .count());
         }
-    } catch (...) {
-        writer_.keep_what_is_written();
-        failure_ = std::current_exception();
+    } catch (const std::exception& error) {
+        failure_ = end_after(error);
         failed_ = true;
     }
 }

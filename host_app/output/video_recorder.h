@@ -15,7 +15,8 @@ namespace vantage {
 
 /// Writes a film on a thread of its own, so that the encoder never holds up the picture. When the
 /// encoder cannot follow, the oldest waiting picture is left out of the film and counted; the
-/// others keep their times.
+/// others keep their times. When the disk fails, what was written is kept where it can be read, and
+/// the Error says so.
 class VideoRecorder {
   public:
     /// Throws Error as VideoWriter does.
@@ -40,6 +41,8 @@ class VideoRecorder {
         std::chrono::nanoseconds time{};
     };
     void write();
+    /// Keeps what can be kept; what to throw.
+    std::exception_ptr end_after(const std::exception& error);
 
     VideoWriter writer_;
     BoundedQueue<Picture> queue_;

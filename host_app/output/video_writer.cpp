@@ -29,6 +29,16 @@ const char* container_of(const std::filesystem::path& path) {
     fail("{} cannot be written: a film is a .mkv or .mp4 file, not '{}'", path.string(), extension);
 }
 
+/// Whether a file opens and has a picture.
+bool is_readable(const std::filesystem::path& path) {
+    AVFormatContext* input = nullptr;
+    if (avformat_open_input(&input, path.c_str(), nullptr, nullptr) < 0) return false;
+    const AvPacketPtr packet(av_packet_alloc());
+    const bool has_picture = av_read_frame(input, packet.get()) >= 0;
+    avformat_close_input(&input);
+    return has_picture;
+}
+
 }  // namespace
 
 VideoWriter::VideoWriter(std::filesystem::path path, const VideoSettings& settings)
@@ -109,6 +119,8 @@ void VideoWriter::open_file() {
     avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
     if (const int code = avio_open(&output_->pb, partial_.c_str(), AVIO_FLAG_WRITE); code < 0)
         fail_writing(code);
+    // Matroska keeps a cluster in memory until it is whole: what a failure may cost.
+    av_opt_set_int(output_->priv_data, "cluster_time_limit", 1000, 0);
     if (const int code = avformat_write_header(output_.get(), nullptr); code < 0) {
         output_.reset();
         std::error_code ignored;
@@ -137,6 +149,7 @@ void VideoWriter::finish() {
     if (frames_ == 0) fail("{} is not written: the film has no picture", path_.string());
     if (const int code = avcodec_send_frame(encoder_.get(), nullptr); code < 0) fail_writing(code);
     drain();
+    is_ended_ = true;
     if (const int code = av_write_trailer(output_.get()); code < 0) fail_writing(code);
     if (const int code = avio_closep(&output_->pb); code < 0) fail_writing(code);
     std::error_code error;
@@ -156,18 +169,20 @@ void VideoWriter::drain() {
         packet_->stream_index = stream_->index;
         if (const int code = av_interleaved_write_frame(output_.get(), packet_.get()); code < 0)
             fail_writing(code);
-        ++packets_;
     }
 }
 
-void VideoWriter::keep_what_is_written() noexcept {
-    if (finished_ || packets_ == 0) return;
-    // Without its index, a Matroska file still opens.
-    av_write_trailer(output_.get());
+bool VideoWriter::keep_what_is_written() noexcept {
+    if (finished_) return true;
+    // Without its index, a Matroska file still opens; an MP4 file does not.
+    if (!is_ended_) av_write_trailer(output_.get());
+    is_ended_ = true;
     avio_closep(&output_->pb);
-    std::error_code ignored;
-    std::filesystem::rename(partial_, path_, ignored);
-    finished_ = true;
+    if (!is_readable(partial_)) return false;
+    std::error_code error;
+    std::filesystem::rename(partial_, path_, error);
+    finished_ = !error;
+    return finished_;
 }
 
 void VideoWriter::fail_writing(int code) const {

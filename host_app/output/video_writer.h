@@ -37,9 +37,9 @@ class VideoWriter {
     /// picture was added.
     void finish();
 
-    /// After a failure: puts what was written until then in its place, if it is anything. Throws
-    /// nothing.
-    void keep_what_is_written() noexcept;
+    /// After a failure, the last call: puts what was written until then in its place, if it can be
+    /// read (Matroska can, MP4 cannot). False: it cannot, and a file that stood there stays.
+    bool keep_what_is_written() noexcept;
 
     std::uint64_t frames() const { return frames_; }
     std::string codec_name() const;
@@ -57,9 +57,9 @@ class VideoWriter {
     AvFramePtr frame_;
     AvPacketPtr packet_;
     AVStream* stream_ = nullptr;  ///< owned by output_
-    std::uint64_t frames_ = 0, packets_ = 0;
+    std::uint64_t frames_ = 0;
     std::int64_t last_pts_ = -1;
-    bool finished_ = false;
+    bool is_ended_ = false, finished_ = false;
 };
 
 }  // namespace vantage

@@ -1,8 +1,12 @@
 #include "host_app/output/video_writer.h"
 
+#include <csignal>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <sys/resource.h>
 
 #include "common/base/error.h"
 #include "host_app/output/video_recorder.h"
@@ -116,6 +120,85 @@ TEST(VideoRecorder, AccountsForEveryPicture) {
     EXPECT_EQ(film.times_s.size(), recorder.frames());
     EXPECT_NEAR(film.times_s.back(), 0.59, 0.0011) << "the newest picture is never the one dropped";
 }
+
+/// While it lives, files stop to grow at so many bytes, as they do on a full disk.
+class FullDisk {
+  public:
+    explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit small = before_;
+        small.rlim_cur = bytes;
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+class FullDiskTest : public testing::TestWithParam<const char*> {
+  protected:
+    /// Pictures that compress badly, until the recorder says that it has failed; its sentence.
+    std::string record_until_it_fails() {
+        VideoRecorder recorder(path_, {.width_px = 160, .height_px = 120, .rate_hz = 25});
+        cv::RNG random(1);
+        ColourImage noise(120, 160);
+        return thrown_sentence([&] {
+            for (int i = 0; i < 250; ++i) {
+                random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+                recorder.add(noise.clone(), i * 40ms);
+                std::this_thread::sleep_for(2ms);
+            }
+            recorder.finish();
+        });
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_.path() / (std::string("film") + GetParam());
+};
+
+TEST_P(FullDiskTest, LeavesTheOldFileWhereNothingCanBeRead) {
+    std::ofstream(path_) << "the last take";
+    std::string sentence;
+    {
+        const FullDisk disk(200);
+        sentence = record_until_it_fails();
+    }
+    EXPECT_NE(sentence.find(path_.string()), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("File too large"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("nothing of it can be read"), std::string::npos) << sentence;
+    EXPECT_EQ(files_in(folder_.path()), 1u);
+    std::string text;
+    std::getline(std::ifstream(path_), text);
+    EXPECT_EQ(text, "the last take");
+}
+
+INSTANTIATE_TEST_SUITE_P(Containers, FullDiskTest, testing::Values(".mkv", ".mp4"));
+
+using FullDiskMatroskaTest = FullDiskTest;
+
+TEST_P(FullDiskMatroskaTest, LeavesWhatWasWrittenReadableAndSaysSo) {
+    std::ofstream(path_) << "the last take";
+    std::string sentence;
+    {
+        const FullDisk disk(1'000'000);
+        sentence = record_until_it_fails();
+    }
+    EXPECT_NE(sentence.find("File too large"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("what was written until then is kept"), std::string::npos) << sentence;
+    EXPECT_EQ(files_in(folder_.path()), 1u);
+    const ProbedFilm film = probe_film(path_);
+    EXPECT_EQ(film.width_px, 160);
+    EXPECT_GE(film.times_s.size(), 5u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Containers, FullDiskMatroskaTest, testing::Values(".mkv"));
 
 TEST(VideoRecorder, LeavesNoFileBehindWhenAbandoned) {
     const TemporaryFolder folder;
