@@ -35,6 +35,7 @@ void LevelChooser::fix(std::size_t level) {
 
 void LevelChooser::go_to(std::size_t level, MonotonicTime now) {
     if (since_) spent_s_[level_] += seconds(*since_, now);
+    is_risen_to_ = level < level_;
     level_ = level;
     since_ = now;
     misfits_ = 0;
@@ -50,10 +51,12 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     const double allowed_ms = share_ * time_ms;
     misfits_ = work_ms > allowed_ms ? misfits_ + 1 : 0;
     if (misfits_ >= most_misfits && level_ + 1 < usual_ms_.size()) {
-        // One that was risen to and left soon: wait longer before the next try.
-        patience_s_ = seconds(*since_, now) < mistake_s
-                          ? std::min(2 * patience_s_, longest_patience_s)
-                          : first_patience_s;
+        // One that was risen to and left soon: wait longer before the next try. One that held: its
+        // times are past.
+        if (seconds(*since_, now) >= mistake_s)
+            patience_s_ = first_patience_s;
+        else if (is_risen_to_)
+            patience_s_ = std::min(2 * patience_s_, longest_patience_s);
         go_to(level_ + 1, now);
         return;
     }

@@ -33,7 +33,7 @@ class LevelChooser {
 
     double share_;
     std::size_t level_ = 0;
-    bool is_fixed_ = false;
+    bool is_fixed_ = false, is_risen_to_ = false;
     std::vector<std::optional<double>> usual_ms_;  ///< of every level that was tried
     int misfits_ = 0;
     std::optional<MonotonicTime> since_;       ///< of this level

@@ -1,0 +1,186 @@
+#include "host_app/programme/governor.h"
+
+#include <functional>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A chooser among four levels whose works have 10 ms, of which they may take 8.
+class LevelChooserTest : public testing::Test {
+  protected:
+    static constexpr double time_ms = 10;
+    static constexpr std::chrono::milliseconds tick{20};
+
+    /// One work at the level that is chosen.
+    void work(double ms) {
+        chooser_.saw(chooser_.level(), ms, time_ms, now_);
+        now_ += tick;
+    }
+    /// Works that take what they cost at their levels, for so long; returns the times at which the
+    /// level rose.
+    std::vector<MonotonicTime> run_for(std::chrono::nanoseconds time,
+                                       const std::function<double(std::size_t)>& cost_ms) {
+        std::vector<MonotonicTime> rises;
+        for (const MonotonicTime end = now_ + time; now_ < end;) {
+            const std::size_t before = chooser_.level();
+            work(cost_ms(before));
+            if (chooser_.level() < before) rises.push_back(now_);
+        }
+        return rises;
+    }
+    double seconds_since(MonotonicTime start) const {
+        return std::chrono::duration<double>(now_ - start).count();
+    }
+
+    LevelChooser chooser_{4, 0.8};
+    MonotonicTime now_{1h};
+};
+
+TEST_F(LevelChooserTest, FallsAfterThreeWorksInARowThatDoNotFit) {
+    work(9);
+    work(9);
+    work(7);
+    work(9);
+    work(9);
+    EXPECT_EQ(chooser_.level(), 0u) << "one in between fitted";
+    work(9);
+    EXPECT_EQ(chooser_.level(), 1u);
+}
+
+TEST_F(LevelChooserTest, FallsNoFurtherForWorksOfTheLevelBefore) {
+    for (int i = 0; i < 3; ++i) work(9);
+    for (int i = 0; i < 9; ++i) chooser_.saw(0, 30, time_ms, now_);
+    EXPECT_EQ(chooser_.level(), 1u) << "they were begun before it fell";
+}
+
+TEST_F(LevelChooserTest, StaysAtTheCheapestWhateverItTakes) {
+    for (int i = 0; i < 100; ++i) work(50);
+    EXPECT_EQ(chooser_.level(), 3u);
+}
+
+TEST_F(LevelChooserTest, RisesAfterTwoSecondsOfRoom) {
+    for (int i = 0; i < 3; ++i) work(9);
+    const MonotonicTime fallen = now_;
+    run_for(1900ms, [](std::size_t) { return 2; });
+    EXPECT_EQ(chooser_.level(), 1u);
+    run_for(300ms, [](std::size_t) { return 2; });
+    EXPECT_EQ(chooser_.level(), 0u) << seconds_since(fallen) << " s after it fell";
+}
+
+TEST_F(LevelChooserTest, ComesBackAsSoonFromTheCheapest) {
+    while (chooser_.level() < 3) work(50);
+    run_for(7s, [](std::size_t) { return 2; });
+    EXPECT_EQ(chooser_.level(), 0u)
+        << "nobody rose to what was fallen through, so it was no mistake";
+}
+
+TEST_F(LevelChooserTest, DoesNotRiseWithoutRoom) {
+    for (int i = 0; i < 3; ++i) work(9);
+    run_for(60s, [](std::size_t) { return 6; });
+    EXPECT_EQ(chooser_.level(), 1u) << "the level above is dearer, and this one just fits";
+}
+
+TEST_F(LevelChooserTest, DoesNotRiseWhileRoomComesAndGoes) {
+    for (int i = 0; i < 3; ++i) work(9);
+    for (int i = 0; i < 60; ++i) {
+        run_for(1s, [](std::size_t) { return 2; });
+        for (int j = 0; j < 5; ++j) work(7.5);
+    }
+    EXPECT_EQ(chooser_.level(), 1u);
+}
+
+TEST_F(LevelChooserTest, TriesALevelThatHadToBeLeftSoonLaterAndLater) {
+    const std::vector<MonotonicTime> rises =
+        run_for(600s, [](std::size_t level) { return level == 0 ? 12 : 3; });
+    ASSERT_GE(rises.size(), 4u) << "it goes on trying";
+    EXPECT_LE(rises.size(), 15u) << "and does not pump";
+    for (std::size_t i = 2; i < rises.size(); ++i)
+        EXPECT_GE(rises[i] - rises[i - 1] + 2 * tick, rises[i - 1] - rises[i - 2]) << i;
+    EXPECT_GE(rises.back() - rises[rises.size() - 2], 30s);
+    EXPECT_LE(rises.back() - rises[rises.size() - 2], 62s) << "it is not given up";
+}
+
+TEST_F(LevelChooserTest, IsQuickAgainOnceALevelHasHeld) {
+    run_for(100s, [](std::size_t level) { return level == 0 ? 12 : 3; });
+    run_for(100s, [](std::size_t) { return 2; });
+    ASSERT_EQ(chooser_.level(), 0u);
+    for (int i = 0; i < 3; ++i) work(9);
+    ASSERT_EQ(chooser_.level(), 1u);
+    run_for(2200ms, [](std::size_t) { return 2; });
+    EXPECT_EQ(chooser_.level(), 0u);
+}
+
+TEST_F(LevelChooserTest, StaysWhereItIsFixed) {
+    chooser_.fix(2);
+    run_for(10s, [](std::size_t) { return 50; });
+    EXPECT_EQ(chooser_.level(), 2u);
+    run_for(10s, [](std::size_t) { return 1; });
+    EXPECT_EQ(chooser_.level(), 2u);
+    chooser_.fix(99);
+    EXPECT_EQ(chooser_.level(), 3u) << "there is no cheaper one";
+}
+
+TEST_F(LevelChooserTest, TellsWhatShareOfTheTimeEveryLevelWasTaken) {
+    for (const double share : chooser_.shares(now_)) EXPECT_EQ(share, 0) << "before the first work";
+    const MonotonicTime start = now_;
+    run_for(30s, [](std::size_t) { return 2; });
+    for (int i = 0; i < 3; ++i) work(30);
+    const double at_best_s = seconds_since(start);
+    run_for(10s, [](std::size_t) { return 7; });
+    const std::vector<double> shares = chooser_.shares(now_);
+    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1, 1e-9);
+    EXPECT_NEAR(shares[0], at_best_s / seconds_since(start), 0.01);
+    EXPECT_NEAR(shares[1], 1 - shares[0], 1e-9);
+}
+
+TEST(Governor, LetsEveryClockFallByItself) {
+    Governor governor(50, 25, {});
+    MonotonicTime now{1h};
+    const auto tick = [&](double render_ms, double prepare_ms) {
+        governor.saw_render(governor.render(), render_ms, now);
+        governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
+        now += 40ms;
+    };
+    for (int i = 0; i < 3; ++i) tick(19, 30);
+    EXPECT_EQ(governor.render().rank, 1) << "of 20 ms it may take 16";
+    EXPECT_EQ(governor.prepare().rank, 0) << "of 40 ms it may take 36";
+    for (int i = 0; i < 3; ++i) tick(5, 39);
+    EXPECT_EQ(governor.prepare().rank, 1);
+}
+
+TEST(Governor, KeepsTheLevelThatIsWishedFor) {
+    Governor governor(50, 25, {2});
+    MonotonicTime now{1h};
+    for (int i = 0; i < 300; ++i, now += 20ms) {
+        governor.saw_render(governor.render(), 100, now);
+        governor.saw_prepare(governor.prepare().rank, 1, now);
+    }
+    EXPECT_EQ(governor.render().rank, 2);
+    EXPECT_EQ(governor.prepare().rank, 2);
+    EXPECT_EQ(governor.render_shares(now)[2], 1);
+}
+
+TEST(QualityWish, ReadsBestAutoAndNumbers) {
+    EXPECT_FALSE(QualityWish::parse("auto").level);
+    EXPECT_EQ(QualityWish::parse("best").level, 0u);
+    for (std::size_t level = 0; level < render_levels().size(); ++level)
+        EXPECT_EQ(QualityWish::parse(std::to_string(level)).level, level);
+}
+
+TEST(QualityWish, RefusesTheRestWithTheMend) {
+    for (const char* text : {"", "high", "-1", "1.5", "2 ", "+1", "5", "99999999999999999999"}) {
+        const std::string sentence = thrown_sentence([&] { QualityWish::parse(text); });
+        EXPECT_NE(sentence.find("best, auto or a level from 0"), std::string::npos) << sentence;
+        EXPECT_NE(sentence.find("'" + std::string(text) + "'"), std::string::npos) << sentence;
+    }
+}
+
+}  // namespace
+}  // namespace vantage
