@@ -1,0 +1,536 @@
+#include "host_app/programme/programme.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/gl/egl_context.h"
+#include "tests/unit/sets/scripted_feed.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Flies as it is told, and counts how often it is asked.
+class ScriptedPilot final : public Pilot {
+  public:
+    ScriptedPilot() {
+        // At the rigs' own place, which sees the wall through and through.
+        next_.view.distance_m = 4.5;
+        next_.view.field_of_view_rad = 1.0;
+    }
+
+    PilotStep step(double /*time_s*/) override {
+        const std::lock_guard lock(mutex_);
+        if (!failure_.empty()) throw Error(failure_);
+        ++steps_;
+        next_.view.azimuth_rad += turn_rad_;
+        const PilotStep step = next_;
+        next_ = {.view = step.view};
+        return step;
+    }
+
+    /// Changes the next step; all but its view is for that one only.
+    template <class Change>
+    void next(Change change) {
+        const std::lock_guard lock(mutex_);
+        change(next_);
+    }
+    /// From now on, at every step.
+    void turn(double rad) {
+        const std::lock_guard lock(mutex_);
+        turn_rad_ = rad;
+    }
+    void fail_with(std::string sentence) {
+        const std::lock_guard lock(mutex_);
+        failure_ = std::move(sentence);
+    }
+    int steps() const {
+        const std::lock_guard lock(mutex_);
+        return steps_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    PilotStep next_;
+    double turn_rad_ = 0;
+    int steps_ = 0;
+    std::string failure_;
+};
+
+/// What a sink was given.
+struct Seen {
+    std::mutex mutex;
+    std::vector<std::uint64_t> ticks;
+    int empty_pictures = 0;
+    cv::Vec4b last_middle;
+    std::uint64_t last_pulse = 0;
+    bool is_finished = false;
+
+    std::size_t count() {
+        const std::lock_guard lock(mutex);
+        return ticks.size();
+    }
+};
+
+class NotingSink final : public PictureSink {
+  public:
+    explicit NotingSink(std::shared_ptr<Seen> seen) : seen_(std::move(seen)) {}
+    std::string name() const override { return "notes"; }
+    void take(const ProgrammePicture& picture) override {
+        const std::lock_guard lock(seen_->mutex);
+        seen_->ticks.push_back(picture.tick);
+        seen_->empty_pictures += picture.picture.empty() || picture.overlaid.empty();
+        seen_->last_middle = picture.picture(picture.picture.rows / 2, picture.picture.cols / 2);
+        seen_->last_pulse = picture.set->trigger_index;
+    }
+    void finish() override { seen_->is_finished = true; }
+
+  private:
+    std::shared_ptr<Seen> seen_;
+};
+
+/// Takes some pictures and fails; or fails at its end.
+class FailingSink final : public PictureSink {
+  public:
+    FailingSink(int pictures, std::shared_ptr<Seen> seen)
+        : left_(pictures), seen_(std::move(seen)) {}
+    std::string name() const override { return "broken line"; }
+    void take(const ProgrammePicture& picture) override {
+        if (left_-- == 0) fail("the line is broken");
+        const std::lock_guard lock(seen_->mutex);
+        seen_->ticks.push_back(picture.tick);
+    }
+    void finish() override { fail("the line did not end well"); }
+
+  private:
+    int left_;
+    std::shared_ptr<Seen> seen_;
+};
+
+/// The preparer of a synthesiser that takes as long as it is told to, and whose instants say the
+/// level that they were asked for.
+class SlowPreparer final : public InstantPreparer {
+  public:
+    SlowPreparer(std::unique_ptr<InstantPreparer> preparer,
+                 std::shared_ptr<std::atomic<int>> sleep_ms)
+        : preparer_(std::move(preparer)), sleep_ms_(std::move(sleep_ms)) {}
+
+    void take(std::span<const DepthView> views, double dt_s) override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(*sleep_ms_));
+        preparer_->take(views, dt_s);
+    }
+    std::shared_ptr<const Instant> prepare(const VirtualView& target,
+                                           const PrepareLevel& level) override {
+        auto instant = std::make_shared<Instant>(*preparer_->prepare(target, level));
+        instant->level = level.rank;
+        return instant;
+    }
+
+  private:
+    std::unique_ptr<InstantPreparer> preparer_;
+    std::shared_ptr<std::atomic<int>> sleep_ms_;
+};
+
+class ProgrammeTest : public testing::Test {
+  protected:
+    static constexpr double rate_hz = 25;
+
+    ProgrammeTest() { instants_settings_.pulse_rate_hz = rate_hz; }
+
+    /// Ready to be started, with a sink that notes what it is given.
+    Programme& make() {
+        instants_context_ =
+            std::unique_ptr<EglContext>(new EglContext(EglContext::sharing_with_current()));
+        instants_.emplace(instants_settings_, feed_.feed(), *instants_context_);
+        programme_.emplace(settings_, *instants_, pilot_);
+        programme_->add(std::make_unique<NotingSink>(seen_));
+        return *programme_;
+    }
+    void start() {
+        programme_->start([](std::uint64_t, double) { return false; });
+    }
+    void push(std::uint64_t pulse, unsigned char red = 200) {
+        feed_.push(feed_.set(pulse, {"north", "south"}, {red, 100, 50, 255}));
+    }
+    template <class Condition>
+    static bool wait_for(Condition condition) {
+        for (int i = 0; i < 15000; ++i) {
+            if (condition()) return true;
+            std::this_thread::sleep_for(2ms);
+        }
+        return false;
+    }
+    std::uint64_t shown_pulse() const {
+        const std::shared_ptr<const MadePicture> picture = programme_->state().picture;
+        return picture ? picture->job.instant->set->trigger_index : 0;
+    }
+    bool wait_for_pulse(std::uint64_t pulse) {
+        return wait_for([&] { return shown_pulse() == pulse; });
+    }
+    /// Lets so many ticks go by.
+    bool wait_for_ticks(std::size_t ticks) {
+        const std::size_t before = seen_->count();
+        return wait_for([&] { return seen_->count() >= before + ticks; });
+    }
+    /// Instants come of a preparer that sleeps as long as `sleep_ms_` says.
+    void slow_down_preparing() {
+        const auto entry = find_synthesiser(settings_.synthesiser);
+        // A preparer is made when the name changes.
+        instants_->prepare_for("another", entry.make_preparer);
+        push(1);
+        ASSERT_TRUE(wait_for([&] {
+            const auto newest = instants_->newest();
+            return newest && newest->synthesiser == "another";
+        }));
+        instants_->prepare_for(
+            entry.name, [entry, sleep = sleep_ms_](const ShaderLibrary& shaders) {
+                return std::make_unique<SlowPreparer>(entry.make_preparer(shaders), sleep);
+            });
+        ASSERT_TRUE(wait_for([&] { return instants_->newest()->synthesiser == entry.name; }));
+    }
+    void expect_every_tick_once() {
+        const std::lock_guard lock(seen_->mutex);
+        for (std::size_t i = 0; i < seen_->ticks.size(); ++i) ASSERT_EQ(seen_->ticks[i], i);
+        EXPECT_EQ(seen_->empty_pictures, 0);
+    }
+
+    EglContext context_;
+    ScriptedFeed feed_{{"north", "south"}};
+    ScriptedPilot pilot_;
+    std::shared_ptr<Seen> seen_ = std::make_shared<Seen>();
+    std::shared_ptr<std::atomic<int>> sleep_ms_ = std::make_shared<std::atomic<int>>(0);
+    InstantThread::Settings instants_settings_;
+    Programme::Settings settings_{.format = {.width_px = 64, .height_px = 48},
+                                  .rate_hz = rate_hz,
+                                  .pulse_rate_hz = rate_hz,
+                                  .synthesiser = "mesh",
+                                  .quality = {}};
+    std::unique_ptr<EglContext> instants_context_;
+    std::optional<InstantThread> instants_;
+    std::optional<Programme> programme_;
+};
+
+TEST_F(ProgrammeTest, ShowsTheNewestInstant) {
+    make();
+    start();
+    push(1, 200);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push(2, 20);
+    ASSERT_TRUE(wait_for_pulse(2));
+    ASSERT_TRUE(wait_for_ticks(2));
+    const std::lock_guard lock(seen_->mutex);
+    EXPECT_EQ(seen_->last_pulse, 2u);
+    EXPECT_NEAR(seen_->last_middle[0], 20, 2);
+}
+
+TEST_F(ProgrammeTest, HandsOutNothingBeforeTheFirstPicture) {
+    make();
+    start();
+    ASSERT_TRUE(wait_for([&] { return pilot_.steps() > 10; })) << "hands are asked all the same";
+    EXPECT_EQ(seen_->count(), 0u);
+    EXPECT_EQ(programme_->books().ticks, 0u);
+    push(1);
+    ASSERT_TRUE(wait_for_ticks(3));
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, TicksGoOnWhileNoInstantComes) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    ASSERT_TRUE(wait_for_ticks(20));
+    programme_->stop();
+    expect_every_tick_once();
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_EQ(books.ticks, seen_->count());
+    EXPECT_GE(books.pictures, 1u);
+    EXPECT_LE(books.pictures, 3u) << "nothing changed, so the same picture is handed out again";
+    EXPECT_TRUE(seen_->is_finished);
+}
+
+TEST_F(ProgrammeTest, FliesOnWhileNoInstantComes) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const std::uint64_t before = programme_->books().pictures;
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 10; }));
+    EXPECT_EQ(shown_pulse(), 1u);
+}
+
+TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
+    make();
+    ASSERT_NO_FATAL_FAILURE(slow_down_preparing());
+    pilot_.turn(0.002);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    *sleep_ms_ = 2000;
+    const std::size_t ticks_before = seen_->count();
+    const int steps_before = pilot_.steps();
+    const std::uint64_t pictures_before = programme_->books().pictures;
+    // Whoever waited for an instant would get through three of 75 ticks.
+    for (std::uint64_t pulse = 2; pulse < 77; ++pulse) {
+        push(pulse);
+        std::this_thread::sleep_for(40ms);
+    }
+    EXPECT_GE(seen_->count() - ticks_before, 50u);
+    EXPECT_GE(pilot_.steps() - steps_before, 30);
+    EXPECT_GE(programme_->books().pictures - pictures_before, 20u);
+    EXPECT_LE(instants_->books().prepared, 4u) << "it did sleep";
+    programme_->stop();
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, CountsWhatItRepeats) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for_ticks(40));
+    programme_->stop();
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_EQ(books.ticks, seen_->count()) << "sinks get every tick, also one that is repeated";
+    EXPECT_LE(books.pictures + books.repeated, books.ticks);
+    EXPECT_GE(books.pictures + books.repeated, 35u) << "every tick had another camera";
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, ASinkThatThrowsIsClosedAndNamedAndTheOthersGoOn) {
+    make();
+    const auto broken = std::make_shared<Seen>();
+    programme_->add(std::make_unique<FailingSink>(3, broken));
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_ticks(20));
+    programme_->stop();
+    EXPECT_EQ(broken->count(), 3u) << "it is asked no more";
+    const std::vector<SinkState> sinks = programme_->books().sinks;
+    ASSERT_EQ(sinks.size(), 2u);
+    EXPECT_EQ(sinks[0].failure, "");
+    EXPECT_EQ(sinks[0].pictures, seen_->count());
+    EXPECT_EQ(sinks[1].name, "broken line");
+    EXPECT_EQ(sinks[1].failure, "the line is broken");
+    EXPECT_EQ(sinks[1].pictures, 3u);
+    EXPECT_TRUE(seen_->is_finished);
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
+    make();
+    programme_->add(std::make_unique<FailingSink>(1'000'000, std::make_shared<Seen>()));
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_ticks(2));
+    programme_->stop();
+    EXPECT_EQ(programme_->books().sinks.at(1).failure, "the line did not end well");
+    EXPECT_TRUE(seen_->is_finished);
+}
+
+TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
+    make();
+    ASSERT_NO_FATAL_FAILURE(slow_down_preparing());
+    start();
+    // Instants that come at the stage's rate and take longer than that are prepared worse.
+    *sleep_ms_ = 45;
+    std::uint64_t pulse = 1;
+    ASSERT_TRUE(wait_for([&] {
+        push(++pulse);
+        std::this_thread::sleep_for(40ms);
+        const auto picture = programme_->state().picture;
+        return picture && picture->job.instant->instant->level > 0;
+    }));
+    pilot_.next([](PilotStep& step) { step.toggle_hold = true; });
+    ASSERT_TRUE(wait_for([&] { return programme_->state().is_held; }));
+    *sleep_ms_ = 0;
+    ASSERT_TRUE(wait_for([&] {
+        const auto picture = programme_->state().picture;
+        return picture->job.instant->instant->level == 0 && picture->job.level.rank == 0;
+    })) << "what stands still is shown as well as can be";
+    const std::uint64_t held = shown_pulse();
+    push(pulse + 10);
+    const std::uint64_t before = programme_->books().pictures;
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 5; }));
+    EXPECT_EQ(shown_pulse(), held) << "the camera flies and time stands";
+    pilot_.next([](PilotStep& step) { step.toggle_hold = true; });
+    EXPECT_TRUE(wait_for_pulse(pulse + 10)) << "what came meanwhile";
+    EXPECT_FALSE(programme_->state().is_held);
+}
+
+TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
+    instants_settings_.replay_bytes = 100'000'000;
+    make();
+    start();
+    for (std::uint64_t pulse = 1; pulse <= 5; ++pulse) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    EXPECT_FALSE(programme_->state().behind_s);
+    pilot_.next([](PilotStep& step) { step.past_pulses = -2; });
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_NEAR(*programme_->state().behind_s, 2 / rate_hz, 1e-9);
+    push(6);
+    ASSERT_TRUE(wait_for([&] { return *programme_->state().behind_s > 2.5 / rate_hz; }))
+        << "it stands while the stage goes on";
+    EXPECT_EQ(shown_pulse(), 3u);
+    pilot_.next([](PilotStep& step) { step.past_pulses = 1; });
+    ASSERT_TRUE(wait_for_pulse(4));
+    pilot_.next([](PilotStep& step) { step.past_pulses = -100; });
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.next([](PilotStep& step) { step.past_pulses = 100; });
+    ASSERT_TRUE(wait_for_pulse(6));
+    pilot_.next([](PilotStep& step) { step.to_live = true; });
+    push(7);
+    ASSERT_TRUE(wait_for_pulse(7));
+    EXPECT_FALSE(programme_->state().behind_s);
+}
+
+TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
+    constexpr std::size_t set_bytes = 2 * 46 * 62 * (4 + 2);
+    instants_settings_.replay_bytes = 3 * set_bytes;
+    make();
+    start();
+    for (std::uint64_t pulse = 1; pulse <= 3; ++pulse) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    pilot_.next([](PilotStep& step) { step.past_pulses = -2; });
+    ASSERT_TRUE(wait_for_pulse(1));
+    for (std::uint64_t pulse = 4; pulse <= 12; ++pulse) push(pulse);
+    ASSERT_TRUE(wait_for([&] { return instants_->replay_span()->oldest == 10; }));
+    const std::uint64_t before = programme_->books().pictures;
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 10; }));
+    EXPECT_EQ(shown_pulse(), 1u);
+}
+
+TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.005);
+    ASSERT_TRUE(wait_for_ticks(3));
+    const std::string before = programme_->state().synthesiser;
+    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    ASSERT_TRUE(wait_for([&] {
+        const ProgrammeState state = programme_->state();
+        return state.synthesiser != before &&
+               state.picture->job.instant->synthesiser == state.synthesiser;
+    }));
+    push(2, 20);
+    ASSERT_TRUE(wait_for_pulse(2));
+    ASSERT_TRUE(wait_for_ticks(3));
+    programme_->stop();
+    expect_every_tick_once();
+    EXPECT_EQ(programme_->books().faults, 0);
+    EXPECT_NEAR(seen_->last_middle[0], 20, 2);
+}
+
+TEST_F(ProgrammeTest, ShowsTheSourceMapWhileThatIsAskedFor) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_FALSE(programme_->state().picture->sources);
+    const auto toggle = [](PilotStep& step) { step.toggle_source_map = true; };
+    pilot_.next(toggle);
+    ASSERT_TRUE(wait_for([&] { return programme_->state().picture->sources.has_value(); }));
+    const SourceMap sources = *programme_->state().picture->sources;
+    EXPECT_EQ(sources.shares.rigs.size(), 2u);
+    EXPECT_EQ(sources.legend.size(), 2u);
+    EXPECT_TRUE(programme_->state().source_map);
+    pilot_.next(toggle);
+    ASSERT_TRUE(wait_for([&] { return !programme_->state().picture->sources; }));
+}
+
+TEST_F(ProgrammeTest, TellsHowLongAHandTookToThePicture) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(programme_->books().hand_ms.count, 0u);
+    pilot_.next([](PilotStep& step) {
+        step.view.azimuth_rad = 0.1;
+        step.hand = MonotonicClock::now();
+    });
+    ASSERT_TRUE(wait_for([&] { return programme_->books().hand_ms.count == 1; }));
+    EXPECT_GT(programme_->books().hand_ms.max, 0);
+}
+
+TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
+    settings_.quality = {3};
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const std::shared_ptr<const MadePicture> picture = programme_->state().picture;
+    EXPECT_EQ(picture->job.level.rank, 3);
+    EXPECT_EQ(picture->picture.size(), cv::Size(64, 48)) << "whatever size is rendered";
+    EXPECT_NEAR(picture->picture(24, 32)[0], 200, 3);
+}
+
+TEST_F(ProgrammeTest, PutsTheEyesOfAStereoscopicPictureSideBySide) {
+    settings_.format.stereoscopy = Stereoscopy{};
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const ColourImage picture = programme_->state().picture->picture;
+    EXPECT_EQ(picture.size(), cv::Size(64, 48));
+    EXPECT_GE(picture(24, 16)[3], 128) << "the middle of the left eye's half";
+    EXPECT_GE(picture(24, 48)[3], 128) << "of the right eye's";
+}
+
+TEST_F(ProgrammeTest, EndsWhenItsPlanDoes) {
+    make();
+    push(1);
+    programme_->start([](std::uint64_t pictures, double) { return pictures >= 12; });
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for([&] { return programme_->is_over(); }));
+    programme_->stop();
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_GE(books.pictures + books.repeated, 12u);
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, HandsOnWhatEndedIt) {
+    make();
+    start();
+    EXPECT_FALSE(programme_->is_over());
+    pilot_.fail_with("the deck broke");
+    EXPECT_TRUE(wait_for([&] {
+        try {
+            return programme_->is_over();
+        } catch (const Error& error) {
+            return std::string(error.what()) == "the deck broke";
+        }
+    }));
+}
+
+TEST_F(ProgrammeTest, HandsOnWhatTheFeedThrew) {
+    feed_.fail_with("the receiver broke");
+    make();
+    start();
+    EXPECT_TRUE(wait_for([&] {
+        try {
+            return programme_->is_over();
+        } catch (const Error& error) {
+            return std::string(error.what()) == "the receiver broke";
+        }
+    }));
+}
+
+}  // namespace
+}  // namespace vantage
