@@ -8,13 +8,15 @@
 namespace vantage {
 namespace {
 
-/// Works in a row that do not fit before the level falls.
+/// Works in a row that do not fit before the level falls; one that is this many times too long
+/// counts for two.
 constexpr int most_misfits = 3;
+constexpr double far_off = 2;
 /// Of the time for a work at the next better level, by what it took before or, untried, by what
 /// this one takes.
 constexpr double room = 0.75, untried_ratio = 1.6;
-/// Before the level rises: at first, and at most, after it had to fall again.
-constexpr double first_patience_s = 2, longest_patience_s = 60;
+/// Before the level rises: until it first had to fall, at first then, and at most.
+constexpr double least_patience_s = 0.5, first_patience_s = 2, longest_patience_s = 60;
 /// A level that had to be left within so long after it was risen to was a mistake.
 constexpr double mistake_s = 5;
 constexpr double mean_share = 0.2;
@@ -27,6 +29,11 @@ double seconds(MonotonicTime from, MonotonicTime to) {
 
 LevelChooser::LevelChooser(std::size_t levels, double share)
     : share_(share), usual_ms_(levels), spent_s_(levels), patience_s_(first_patience_s) {}
+
+void LevelChooser::begin_with_the_cheapest() {
+    level_ = usual_ms_.size() - 1;
+    patience_s_ = least_patience_s;
+}
 
 void LevelChooser::fix(std::size_t level) {
     level_ = std::min(level, usual_ms_.size() - 1);
@@ -49,15 +56,21 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     usual_ms = usual_ms ? *usual_ms + mean_share * (work_ms - *usual_ms) : work_ms;
     if (is_fixed_ || level != level_) return;
     const double allowed_ms = share_ * time_ms;
-    misfits_ = work_ms > allowed_ms ? misfits_ + 1 : 0;
+    misfits_ = work_ms > far_off * allowed_ms ? misfits_ + 2
+               : work_ms > allowed_ms         ? misfits_ + 1
+                                              : 0;
     if (misfits_ >= most_misfits && level_ + 1 < usual_ms_.size()) {
         // One that was risen to and left soon: wait longer before the next try. One that held: its
         // times are past.
         if (seconds(*since_, now) >= mistake_s)
             patience_s_ = first_patience_s;
         else if (is_risen_to_)
-            patience_s_ = std::min(2 * patience_s_, longest_patience_s);
-        go_to(level_ + 1, now);
+            patience_s_ = std::clamp(2 * patience_s_, first_patience_s, longest_patience_s);
+        std::size_t cheaper = level_ + 1;
+        for (double ms = work_ms / untried_ratio; ms > allowed_ms && cheaper + 1 < usual_ms_.size();
+             ms /= untried_ratio)
+            ++cheaper;
+        go_to(cheaper, now);
         return;
     }
     if (level_ == 0) return;
@@ -95,7 +108,13 @@ Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish
       instant_ms_(1000 / pulse_rate_hz),
       render_(render_levels().size(), 0.8),
       prepare_(prepare_levels().size(), 0.9) {
-    if (!wish.level) return;
+    // What a GPU can do is found out from below: pictures that come in time first, better ones
+    // then.
+    if (!wish.level) {
+        render_.begin_with_the_cheapest();
+        prepare_.begin_with_the_cheapest();
+        return;
+    }
     render_.fix(*wish.level);
     prepare_.fix(*wish.level);
 }

@@ -11,14 +11,16 @@
 namespace vantage {
 
 /// Finds, among levels that get cheaper by rank, the best one whose work fits into a time. Falls as
-/// soon as several works in a row did not fit; rises only after a while of room, and the more
-/// cautiously the sooner it had to fall again, so that nothing pumps.
+/// soon as several works in a row did not fit, by as many levels as it takes; rises only after a
+/// while of room, and the more cautiously the sooner it had to fall again, so that nothing pumps.
 class LevelChooser {
   public:
     /// Works may take `share` of the time.
     LevelChooser(std::size_t levels, double share);
 
     std::size_t level() const { return level_; }
+    /// Before the first work: begins there, and is quick to rise until it first had to fall.
+    void begin_with_the_cheapest();
     /// From now on this one, whatever it takes.
     void fix(std::size_t level);
 
@@ -36,7 +38,7 @@ class LevelChooser {
     bool is_fixed_ = false, is_risen_to_ = false;
     std::vector<std::optional<double>> usual_ms_;  ///< of every level that was tried
     int misfits_ = 0;
-    std::optional<MonotonicTime> since_;       ///< of this level
+    std::optional<MonotonicTime> since_;  ///< of this level
     std::optional<MonotonicTime> fitting_since_;
     std::vector<double> spent_s_;
     double patience_s_;
