@@ -63,6 +63,8 @@ void read_view(TomlTable& table, StageConfig::View& view) {
     table.read("distance_m", view.distance_m, {0.05, 1000});
     table.read("azimuth_deg", view.azimuth_deg, {-360, 360});
     table.read("elevation_deg", view.elevation_deg, {-89, 89});
+    for (const char* key : {"target_m", "distance_m", "azimuth_deg", "elevation_deg"})
+        view.is_placed = view.is_placed || table.has(key);
     table.read("synthesiser", view.synthesiser);
 }
 

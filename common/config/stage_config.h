@@ -31,6 +31,7 @@ struct StageConfig {
         double target_m[3] = {0, 1.0, 0};  ///< pivot of the orbit, world
         double distance_m = 4.5;
         double azimuth_deg = 0, elevation_deg = 10;
+        bool is_placed = false;  ///< any of the four that place it is given
         std::string synthesiser = "fused";
     } view;
 };

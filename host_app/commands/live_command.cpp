@@ -53,7 +53,7 @@ OrbitView start_view(const StageConfig::View& view) {
     start.elevation_rad = view.elevation_deg * rad;
     start.distance_m = view.distance_m;
     start.field_of_view_rad = view.field_of_view_deg * rad;
-    return constrained(start, {});
+    return start;
 }
 
 LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage) {
@@ -145,7 +145,8 @@ void live(const LiveOptions& options) {
     StopSignal stop;
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
-    FlightPlan plan{.start = start_view(stage.view), .move = {}, .frames = {}, .seconds = {}};
+    FlightPlan plan;
+    if (stage.view.is_placed) plan.start = start_view(stage.view);
     if (!options.path.empty()) plan.move = Move::load(options.path);
     if (options.frames > 0) plan.frames = options.frames;
     if (options.seconds > 0) plan.seconds = options.seconds;

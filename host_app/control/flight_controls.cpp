@@ -16,15 +16,23 @@ HandsBox::Taken HandsBox::take() {
     return std::exchange(taken_, {});
 }
 
-FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view)
+FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing)
     : settings_(std::move(settings)),
-      helm_(settings_.plan.start, settings_.plan.move, settings_.has_past),
+      helm_(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move, settings_.has_past),
       deck_(deck),
-      rig_view_(std::move(rig_view)) {}
+      rig_view_(std::move(rig_view)),
+      framing_(std::move(framing)) {}
 
 PilotStep FlightControls::step(double time_s) {
     const double dt_s = time_s - last_s_;
     last_s_ = time_s;
+    if (framing_) {
+        if (const std::optional<StageFraming> framing = framing_()) {
+            helm_.settle(framing->limits,
+                         settings_.plan.start ? std::nullopt : std::optional(framing->start));
+            framing_ = {};
+        }
+    }
     auto [hands, since] = hands_.take();
     if (deck_) {
         while (const std::optional<DeckEvent> event = deck_->next()) {

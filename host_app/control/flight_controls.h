@@ -10,6 +10,7 @@
 #include "host_app/flight/flight_plan.h"
 #include "host_app/flight/helm.h"
 #include "host_app/flight/pilot.h"
+#include "host_app/flight/stage_framing.h"
 
 namespace vantage {
 
@@ -39,8 +40,11 @@ class FlightControls final : public Pilot {
     };
     /// What rig 1, 2, ... sees, for shots that nobody has stored; empty: no such rig.
     using RigView = std::function<std::optional<OrbitView>(int number)>;
-    /// Without a deck there are no wheels; else it must outlive this.
-    FlightControls(Settings settings, JogDeck* deck, RigView rig_view);
+    /// How the stage is framed, once that is known.
+    using Framing = std::function<std::optional<StageFraming>()>;
+    /// Without a deck there are no wheels; else it must outlive this. Without `framing` limits are
+    /// those of FlightLimits.
+    FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing = {});
 
     HandsBox& hands() { return hands_; }
     /// Throws what the deck throws.
@@ -60,6 +64,7 @@ class FlightControls final : public Pilot {
     Helm helm_;
     JogDeck* deck_;
     RigView rig_view_;
+    Framing framing_;  ///< empty once it has told
     JogMapper mapper_;
     HandsBox hands_;
     double last_s_ = 0;

@@ -9,7 +9,8 @@ namespace vantage {
 
 /// What a session is asked to fly.
 struct FlightPlan {
-    OrbitView start;
+    /// Nothing: where the stage's rigs say.
+    std::optional<OrbitView> start;
     std::optional<Move> move;             ///< in a window it plays until the operator takes over
     std::optional<std::uint64_t> frames;  ///< pictures after which the session ends by itself
     std::optional<double> seconds;        ///< time after which it does

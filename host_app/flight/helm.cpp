@@ -48,12 +48,18 @@ Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past)
     mode_ = WheelMode::move;
 }
 
+void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& start) {
+    limits_ = limits;
+    if (start) start_ = *start;
+    camera_ = OrbitCamera(start ? *start : camera_.view(), limits);
+}
+
 OrbitView Helm::view() const {
     if (!on_move_) return camera_.view();
     OrbitView on_move = move_->at(move_s_);
     if (joining_ <= 0) return on_move;
     const double gone = 1 - joining_;
-    return constrained(mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone)), {});
+    return constrained(mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone)), limits_);
 }
 
 std::optional<double> Helm::move_progress() const {

@@ -28,6 +28,9 @@ class Helm {
     /// through.
     Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false);
 
+    /// From now on within these limits and, unless it is nothing, as if it had begun at `start`.
+    void settle(const FlightLimits& limits, const std::optional<OrbitView>& start);
+
     /// `rig_view` gives what rig 1, 2, ... sees, for shots that nobody has stored; empty: no such
     /// rig.
     void take(const FlightInput& input,
@@ -50,6 +53,7 @@ class Helm {
 
     OrbitCamera camera_;
     OrbitView start_;
+    FlightLimits limits_;
     bool has_past_;
     WheelMode mode_ = WheelMode::orbit;
     std::array<std::optional<OrbitView>, 9> shots_;

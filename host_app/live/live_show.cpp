@@ -7,6 +7,8 @@
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
 #include "common/gl/limits.h"
+#include "host_app/instants/depth_views.h"
+#include "host_app/instants/surface_samples.h"
 #include "host_app/output/contact_sheet_sink.h"
 
 namespace vantage {
@@ -24,6 +26,10 @@ std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set)
         text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, full_state_of(rig));
     }
     return text;
+}
+
+double field_of_view_rad(const RigFrame& frame) {
+    return 2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
 }
 
 Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
@@ -55,8 +61,9 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .harmonise = settings.harmonise,
                  .colours = settings.colours},
                 std::move(feed), instants_context_),
-      controls_({plan, settings.pulse_rate_hz, settings.replay_bytes > 0}, deck,
-                [this](int number) { return rig_view(number); }),
+      controls_(
+          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0}, deck,
+          [this](int number) { return rig_view(number); }, [this] { return framing(); }),
       programme_({.format = settings.format,
                   .rate_hz = settings.rate_hz,
                   .pulse_rate_hz = settings.pulse_rate_hz,
@@ -109,14 +116,31 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
 }
 
 void LiveShow::start() {
-    programme_.start([this](std::uint64_t pictures, double time_s) {
-        return plan_.is_over(pictures, time_s);
-    });
+    programme_.start(
+        [this](std::uint64_t pictures, double time_s) { return plan_.is_over(pictures, time_s); });
 }
 
 void LiveShow::finish() {
     programme_.stop();
     last_status_ = instants_.close();
+}
+
+std::optional<StageFraming> LiveShow::framing() const {
+    const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+    if (!ready) return std::nullopt;
+    std::vector<FramedRig> rigs;
+    for (const FrameSet::Slot& slot : ready->set->slots) {
+        if (!slot.frame) continue;
+        const RigFrame& frame = *slot.frame;
+        if (frame.place_is_assumed)
+            log_warning(
+                "rig {} has no stage calibration: it is taken to stand level, {:.1f} m above the "
+                "floor; vantage-calib stage finds where it stands",
+                frame.rig, frame.world_from_camera.translation().y());
+        rigs.push_back({frame.rig, frame.world_from_camera, field_of_view_rad(frame),
+                        surface_samples(depth_view_of(frame)).median_depth_m});
+    }
+    return frame_stage(rigs);
 }
 
 std::optional<OrbitView> LiveShow::rig_view(int number) const {
@@ -125,13 +149,11 @@ std::optional<OrbitView> LiveShow::rig_view(int number) const {
     if (!ready || index >= ready->set->slots.size() || !ready->set->slots[index].frame)
         return std::nullopt;
     const RigFrame& frame = *ready->set->slots[index].frame;
-    const double field_of_view_rad =
-        2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
-    // The point on the rig's axis that is nearest to the stage's pivot.
+    // The point on the rig's axis that is nearest to the camera's pivot.
     const Eigen::Vector3d eye = frame.world_from_camera.translation();
     const Eigen::Vector3d axis = frame.world_from_camera.linear().col(2);
-    const double distance_m = std::max(0.5, axis.dot(plan_.start.pivot_m - eye));
-    return view_from_eye(eye, eye + distance_m * axis, field_of_view_rad);
+    const double distance_m = std::max(0.5, axis.dot(state().view.pivot_m - eye));
+    return view_from_eye(eye, eye + distance_m * axis, field_of_view_rad(frame));
 }
 
 SignalState LiveShow::signal_of(const ReceiverStatus& status, const ProgrammeState& state) const {

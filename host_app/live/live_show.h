@@ -19,9 +19,9 @@ namespace vantage {
 
 struct LiveSettings {
     PictureFormat format;
-    double rate_hz = 30;            ///< of the output
-    double pulse_rate_hz = 30;      ///< of the stage
-    std::size_t replay_bytes = 0;   ///< of frames kept to go back to; 0: none
+    double rate_hz = 30;           ///< of the output
+    double pulse_rate_hz = 30;     ///< of the stage
+    std::size_t replay_bytes = 0;  ///< of frames kept to go back to; 0: none
     std::string synthesiser = default_synthesiser;
     QualityWish quality;
     bool source_map = false;                    ///< shown at first
@@ -35,9 +35,9 @@ struct LiveSettings {
 /// another is made so; all work is done on threads of its own.
 class LiveShow {
   public:
-    /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show, or
-    /// there can be no stereoscopic picture of this width, or an output cannot be opened. Without a
-    /// deck no wheel flies; else it must outlive the show.
+    /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
+    /// or there can be no stereoscopic picture of this width, or an output cannot be opened.
+    /// Without a deck no wheel flies; else it must outlive the show.
     LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDeck* deck);
 
     /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
@@ -65,6 +65,8 @@ class LiveShow {
 
   private:
     std::optional<OrbitView> rig_view(int number) const;
+    /// Once an instant is ready.
+    std::optional<StageFraming> framing() const;
     SignalState signal_of(const ReceiverStatus& status, const ProgrammeState& state) const;
 
     LiveSettings settings_;

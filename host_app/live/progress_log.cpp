@@ -28,9 +28,8 @@ void ProgressLog::tell(const LiveShow& show) {
         "rigs, {:.0f} ms from exposure to picture, levels {}/{}, camera at azimuth {:.1f} degrees",
         books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
         static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
-        static_cast<double>(instants.prepared - instants_) / elapsed_s, giving,
-        status.rigs.size(), state.latency_ms, state.render_level, state.prepare_level,
-        state.view.azimuth_rad * deg);
+        static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
+        state.latency_ms, state.render_level, state.prepare_level, state.view.azimuth_rad * deg);
     pictures_ = books.pictures;
     repeated_ = books.repeated;
     instants_ = instants.prepared;

@@ -36,8 +36,7 @@ class FlightControlsTest : public testing::Test {
 
     static FlightPlan start() {
         FlightPlan plan;
-        plan.start.distance_m = 4.5;
-        plan.start.field_of_view_rad = 1.0;
+        plan.start = OrbitView{.distance_m = 4.5, .field_of_view_rad = 1.0};
         return plan;
     }
     static std::optional<OrbitView> rig_view(int number) {
@@ -216,9 +215,9 @@ TEST_F(FlightControlsTest, TellsWhatTheWheelDrives) {
 
 TEST(FlightControlsWithoutADeck, FlyThePlannedMove) {
     FlightPlan plan;
-    OrbitView end = plan.start;
+    OrbitView end = *plan.start;
     end.azimuth_rad = 0.4;
-    plan.move = Move({{0, plan.start, Easing::linear}, {2, end, Easing::linear}}, false);
+    plan.move = Move({{0, *plan.start, Easing::linear}, {2, end, Easing::linear}}, false);
     FlightControls controls({.plan = plan}, nullptr, [](int) { return std::nullopt; });
     EXPECT_NEAR(controls.step(1).view.azimuth_rad, 0.2, 1e-9);
     EXPECT_NEAR(*controls.lines().move_progress, 0.5, 1e-9);

@@ -24,8 +24,7 @@ class LiveShowTest : public testing::Test {
   protected:
     LiveShowTest() {
         // At the rigs' own place, which sees the wall through and through.
-        plan_.start.distance_m = 4.5;
-        plan_.start.field_of_view_rad = 1.0;
+        plan_.start = OrbitView{.distance_m = 4.5, .field_of_view_rad = 1.0};
     }
     LiveShow& show() {
         if (!show_) show_ = std::make_unique<LiveShow>(settings_, plan_, feed_.feed(), nullptr);
@@ -201,9 +200,9 @@ TEST_F(LiveShowTest, DoesNotCountAgainWhatIsLookedAtAgain) {
 TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
     settings_.film = folder_.path() / "flight.mkv";
     settings_.contact_sheet = folder_.path() / "sheet.png";
-    OrbitView end = plan_.start;
+    OrbitView end = *plan_.start;
     end.azimuth_rad = 0.1;
-    plan_.move = Move({{0, plan_.start, Easing::linear}, {10, end, Easing::linear}}, false);
+    plan_.move = Move({{0, *plan_.start, Easing::linear}, {10, end, Easing::linear}}, false);
     plan_.frames = 12;
     const LiveReport report = fly();
     EXPECT_GE(report.programme.pictures + report.programme.repeated, 12u);

@@ -1,0 +1,79 @@
+#include "host_app/flight/stage_framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace vantage {
+namespace {
+
+/// Axes that are more parallel than this say nothing of where they meet (1 / condition).
+constexpr double least_crossing = 0.01;
+/// Of the depth that is seen: how near the camera may come to its pivot, how far it may go, and how
+/// far the pivot may be moved.
+constexpr double nearest = 0.05, farthest = 6, reach = 4;
+constexpr double floor_margin_m = 0.05;
+
+/// The point that is nearest to all rigs' axes.
+std::optional<Eigen::Vector3d> crossing(std::span<const FramedRig> rigs) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const FramedRig& rig : rigs) {
+        const Eigen::Vector3d axis = rig.world_from_camera.linear().col(2);
+        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+        sum += across;
+        right += across * rig.world_from_camera.translation();
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum);
+    if (svd.singularValues()[2] < least_crossing * svd.singularValues()[0]) return std::nullopt;
+    return sum.inverse() * right;
+}
+
+}  // namespace
+
+std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
+    std::vector<FramedRig> rigs;
+    for (const FramedRig& rig : all)
+        if (rig.median_depth_m > 0) rigs.push_back(rig);
+    if (rigs.empty()) return std::nullopt;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    double lowest_m = 0, depth_m = 0;
+    for (const FramedRig& rig : rigs) {
+        const Eigen::Vector3d& at = rig.world_from_camera.translation();
+        mean += at / static_cast<double>(rigs.size());
+        lowest_m = std::min(lowest_m, at.y() - rig.median_depth_m);
+        depth_m = std::max(depth_m, rig.median_depth_m);
+    }
+    const FramedRig& middle =
+        *std::min_element(rigs.begin(), rigs.end(), [&](const FramedRig& a, const FramedRig& b) {
+            return (a.world_from_camera.translation() - mean).norm() <
+                   (b.world_from_camera.translation() - mean).norm();
+        });
+    const Eigen::Vector3d eye = middle.world_from_camera.translation();
+    const Eigen::Vector3d axis = middle.world_from_camera.linear().col(2);
+    Eigen::Vector3d pivot = eye + middle.median_depth_m * axis;
+    if (const std::optional<Eigen::Vector3d> meeting = crossing(rigs)) {
+        // Only what this rig looks at, about as far away as it sees, is a pivot for its view.
+        const double along_m = axis.dot(*meeting - eye);
+        if (along_m > 0.3 * middle.median_depth_m && along_m < 3 * middle.median_depth_m)
+            pivot = eye + along_m * axis;
+    }
+    StageFraming framing;
+    framing.start = view_from_eye(eye, pivot, middle.field_of_view_rad);
+    FlightLimits& limits = framing.limits;
+    // A rig that stands below the floor of a stage without one: the floor is where it sees none.
+    const bool has_floor = std::all_of(rigs.begin(), rigs.end(), [](const FramedRig& rig) {
+        return rig.world_from_camera.translation().y() > floor_margin_m;
+    });
+    limits.min_eye_height_m = has_floor ? floor_margin_m : lowest_m;
+    limits.min_distance_m = nearest * depth_m;
+    limits.max_distance_m = std::max(farthest * depth_m, framing.start.distance_m);
+    limits.max_pivot_offset_m = mean.cwiseAbs().maxCoeff() + reach * depth_m;
+    limits.max_speed_m_s = std::max(depth_m, 0.1);
+    return framing;
+}
+
+}  // namespace vantage
