@@ -20,6 +20,7 @@ const Texture& ViewPainter::render(const Instant& instant, const CameraState& ca
     const VirtualView target = view_of(camera, size);
     const auto eye = [&](const VirtualView& view) -> const Texture& {
         const Texture& plain = renderer_->render(instant, view, level);
+        last_eye_ = &plain;
         const PixelOrigins* origins = is_map ? renderer_->origins() : nullptr;
         return origins ? overlay_.lay(plain, *origins) : plain;
     };
@@ -52,7 +53,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
         SourceMap seen;
         seen.picture = map.download();
         for (const InstantRig& rig : instant.rigs) overlay_.name_rigs({rig.camera().name});
-        seen.shares = novelty_shares(seen.picture, *renderer_->origins());
+        seen.shares = novelty_shares(last_eye_->download(), *renderer_->origins());
         seen.legend = overlay_.legend();
         *sources = std::move(seen);
         renderer_->note_origins(false);

@@ -26,7 +26,7 @@ VirtualView view_of(const CameraState& camera, cv::Size size);
 /// The source map of a picture, for people and in numbers.
 struct SourceMap {
     ColourImage picture;
-    NoveltyShares shares;
+    NoveltyShares shares;  ///< of two eyes, the right one's
     std::vector<NoveltyOverlay::Key> legend;
 };
 
@@ -51,6 +51,7 @@ class ViewPainter {
     std::unique_ptr<ViewRenderer> renderer_;
     NoveltyOverlay overlay_;
     SideBySide side_by_side_;
+    const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
     double readback_ms_ = 0;
 };
 
