@@ -81,6 +81,8 @@ InstantThread::Books InstantThread::books() const {
     const std::lock_guard lock(mutex_);
     Books books = books_;
     books.superseded = sets_.superseded();
+    books.superseded.sets += failed_.sets;
+    for (const auto& [rig, frames] : failed_.frames) books.superseded.frames[rig] += frames;
     books.prepare_ms = prepare_ms_.summary();
     books.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
                        pack_ms_.summary()};
@@ -98,6 +100,11 @@ void InstantThread::run() {
         }
         std::unique_lock lock(mutex_);
         ++books_.faults;
+        if (unprepared_) {
+            ++failed_.sets;
+            count_frames(*unprepared_, failed_.frames);
+            unprepared_.reset();
+        }
         if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
     }
 }
@@ -155,15 +162,16 @@ void InstantThread::ask_for_rigs(std::span<const DepthView> views, const Virtual
     }
 }
 
-void InstantThread::publish(const InstantWish& wish, InstantPreparer& preparer,
+void InstantThread::publish(ReadyInstant ready, const InstantWish& wish, InstantPreparer& preparer,
                             MonotonicTime start) {
-    next_.instant = preparer.prepare(wish.target, wish.level);
+    ready.instant = preparer.prepare(wish.target, wish.level);
     glFinish();
     check_gl("preparing an instant");
-    next_.prepare_ms = ms_since(start);
-    ++next_.number;
+    ready.prepare_ms = ms_since(start);
+    ++ready.number;
+    last_ = std::move(ready);
     const std::lock_guard lock(mutex_);
-    newest_ = std::make_shared<const ReadyInstant>(next_);
+    newest_ = std::make_shared<const ReadyInstant>(last_);
 }
 
 void InstantThread::prepare_instants() {
@@ -182,15 +190,15 @@ void InstantThread::prepare_instants() {
             wish = wish_;
             maker = maker_;
         }
-        if (maker.make && (!preparer || next_.synthesiser != maker.synthesiser)) {
+        if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
             preparer = maker.make(shaders);
-            next_.synthesiser = maker.synthesiser;
+            last_.synthesiser = maker.synthesiser;
             last_pulse_.reset();
             prepared.reset();
-            if (next_.set) {
+            if (last_.set) {
                 const MonotonicTime start = MonotonicClock::now();
-                preparer->take(views_of(*next_.set, false), 0);
-                publish(wish, *preparer, start);
+                preparer->take(views_of(*last_.set, false), 0);
+                publish(last_, wish, *preparer, start);
                 prepared = wish;
             }
         }
@@ -199,11 +207,12 @@ void InstantThread::prepare_instants() {
             woken_.wait_for(lock, patience, [&] { return is_stopping_; });
             continue;
         }
-        const std::uint64_t shown = next_.set ? next_.set->trigger_index : 0;
-        std::optional<FrameSet> set = next_set(wish, next_.set ? shown : shown - 1);
+        const std::uint64_t shown = last_.set ? last_.set->trigger_index : 0;
+        std::optional<FrameSet> set = next_set(wish, last_.set ? shown : shown - 1);
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
             const bool is_live = !wish.pulse;
+            if (is_live) unprepared_ = *set;
             const std::uint64_t pulse = set->trigger_index;
             const double dt_s =
                 last_pulse_ && pulse > *last_pulse_
@@ -215,16 +224,18 @@ void InstantThread::prepare_instants() {
             // In the past the camera says nothing of what is needed live.
             if (is_live) ask_for_rigs(views, wish.target);
             preparer->take(views, std::min(dt_s, longest_gap_s));
-            next_.set = std::make_shared<const FrameSet>(std::move(*set));
-            next_.exposure = exposure_of(*next_.set);
-            next_.is_live = is_live;
-            publish(wish, *preparer, start);
+            ReadyInstant next = last_;
+            next.set = std::make_shared<const FrameSet>(std::move(*set));
+            next.exposure = exposure_of(*next.set);
+            next.is_live = is_live;
+            publish(std::move(next), wish, *preparer, start);
             prepared = wish;
+            unprepared_.reset();
             const std::lock_guard lock(mutex_);
             if (is_live) {
                 ++books_.prepared;
-                count_frames(*next_.set, books_.frames);
-                for (const FrameSet::Slot& slot : next_.set->slots) {
+                count_frames(*last_.set, books_.frames);
+                for (const FrameSet::Slot& slot : last_.set->slots) {
                     if (!slot.frame) continue;
                     capture_ms_.add(slot.frame->times.capture_ms);
                     rectify_ms_.add(slot.frame->times.rectify_ms);
@@ -233,10 +244,10 @@ void InstantThread::prepare_instants() {
                 }
             }
             books_.harmony = harmoniser_.rigs();
-            prepare_ms_.add(next_.prepare_ms);
+            prepare_ms_.add(last_.prepare_ms);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
-            publish(wish, *preparer, start);
+            publish(last_, wish, *preparer, start);
             prepared = wish;
             bettered = start;
         }
@@ -244,7 +255,7 @@ void InstantThread::prepare_instants() {
     // The pool's surfaces go with the preparer, on this context.
     const std::lock_guard lock(mutex_);
     newest_.reset();
-    next_ = {};
+    last_ = {};
 }
 
 }  // namespace vantage

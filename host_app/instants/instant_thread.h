@@ -75,9 +75,9 @@ class InstantThread {
     ReceiverStatus status() const { return sets_.status(); }
 
     struct Books {
-        std::uint64_t prepared = 0;  ///< live sets
-        RigCounts frames;            ///< of them
-        NewestSet::Superseded superseded;
+        std::uint64_t prepared = 0;        ///< live sets
+        RigCounts frames;                  ///< of them
+        NewestSet::Superseded superseded;  ///< also what could not be prepared for a fault
         std::map<std::string, ColourHarmoniser::Rig> harmony;
         Percentiles prepare_ms;
         RigSteps rig_steps;
@@ -98,7 +98,9 @@ class InstantThread {
     std::vector<DepthView> views_of(const FrameSet& set, bool is_live);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
-    void publish(const InstantWish& wish, InstantPreparer& preparer, MonotonicTime start);
+    /// `ready` but for its instant, which is prepared.
+    void publish(ReadyInstant ready, const InstantWish& wish, InstantPreparer& preparer,
+                 MonotonicTime start);
 
     Settings settings_;
     const EglContext* context_;
@@ -107,8 +109,9 @@ class InstantThread {
     ColourHarmoniser harmoniser_;  ///< of the thread
     RigDemand demand_;             ///< of the thread
     std::optional<std::uint64_t> last_pulse_, last_harmonised_;
-    std::optional<double> fetched_;  ///< the pulse that was looked up in the buffer last
-    ReadyInstant next_;              ///< of the thread: what is being prepared
+    std::optional<double> fetched_;       ///< the pulse that was looked up in the buffer last
+    ReadyInstant last_;                   ///< of the thread: what was prepared last
+    std::optional<FrameSet> unprepared_;  ///< of the thread: the live set that is being prepared
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;
@@ -118,6 +121,7 @@ class InstantThread {
     std::shared_ptr<const ReadyInstant> newest_;
     std::exception_ptr failure_;
     Books books_;
+    NewestSet::Superseded failed_;
     PercentileRecorder prepare_ms_, capture_ms_, rectify_ms_, match_ms_, pack_ms_;
     std::thread thread_;
 };

@@ -1,0 +1,216 @@
+#include "host_app/instants/instant_thread.h"
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/gl/egl_context.h"
+#include "tests/unit/sets/scripted_feed.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What the preparers of a test are asked, and what they do.
+struct Orders {
+    std::atomic<bool> fails_to_take = false;
+    std::atomic<bool> fails_to_prepare = false;
+    std::atomic<int> made = 0, taken = 0, prepared = 0, forgot = 0, rank = 0;
+    std::atomic<double> dt_s = 0;
+};
+
+class OrderedPreparer final : public InstantPreparer {
+  public:
+    explicit OrderedPreparer(std::shared_ptr<Orders> orders) : orders_(std::move(orders)) {
+        ++orders_->made;
+    }
+    void take(std::span<const DepthView> views, double dt_s) override {
+        if (orders_->fails_to_take) fail("the driver is lost");
+        // A picture that is marked cannot be prepared.
+        is_marked_ = !views.empty() && views.front().colour(0, 0)[3] == 7;
+        orders_->dt_s = dt_s;
+        ++orders_->taken;
+    }
+    std::shared_ptr<const Instant> prepare(const VirtualView&, const PrepareLevel& level) override {
+        if (orders_->fails_to_prepare || is_marked_) fail("the driver is lost");
+        orders_->rank = level.rank;
+        ++orders_->prepared;
+        return std::make_shared<Instant>();
+    }
+    void forget() override { ++orders_->forgot; }
+
+  private:
+    std::shared_ptr<Orders> orders_;
+    bool is_marked_ = false;
+};
+
+class InstantThreadTest : public testing::Test {
+  protected:
+    InstantThreadTest() {
+        thread_->prepare_for("ordered", [orders = orders_](const ShaderLibrary&) {
+            return std::make_unique<OrderedPreparer>(orders);
+        });
+    }
+    void push(std::uint64_t pulse) { feed_.push(feed_.set(pulse, {"north", "south"})); }
+    void push_marked(std::uint64_t pulse) {
+        FrameSet set = feed_.set(pulse, {"north", "south"});
+        for (FrameSet::Slot& slot : set.slots) {
+            auto frame = std::make_shared<RigFrame>(*slot.frame);
+            frame->colour = frame->colour.clone();
+            frame->colour(0, 0)[3] = 7;
+            slot.frame = frame;
+        }
+        feed_.push(set);
+    }
+    template <class Condition>
+    static bool wait_for(Condition condition) {
+        for (int i = 0; i < 15000; ++i) {
+            if (condition()) return true;
+            std::this_thread::sleep_for(2ms);
+        }
+        return false;
+    }
+    bool wait_for_pulse(std::uint64_t pulse) {
+        return wait_for([&] {
+            const auto newest = thread_->newest();
+            return newest && newest->set->trigger_index == pulse;
+        });
+    }
+
+    EglContext context_;
+    std::unique_ptr<EglContext> shared_{new EglContext(EglContext::sharing_with_current())};
+    ScriptedFeed feed_{{"north", "south"}};
+    std::shared_ptr<Orders> orders_ = std::make_shared<Orders>();
+    std::unique_ptr<InstantThread> thread_ = std::make_unique<InstantThread>(
+        InstantThread::Settings{.pulse_rate_hz = 10, .replay_bytes = 100'000'000}, feed_.feed(),
+        *shared_);
+};
+
+TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const auto first = thread_->newest();
+    EXPECT_TRUE(first->is_live);
+    EXPECT_EQ(first->synthesiser, "ordered");
+    ASSERT_TRUE(first->exposure);
+    for (const FrameSet::Slot& slot : first->set->slots)
+        EXPECT_LE(*first->exposure, slot.frame->exposure);
+    push(5);
+    ASSERT_TRUE(wait_for_pulse(5));
+    EXPECT_GT(thread_->newest()->number, first->number);
+}
+
+TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const int forgot = orders_->forgot;
+    push(7);
+    ASSERT_TRUE(wait_for_pulse(7));
+    EXPECT_NEAR(orders_->dt_s, 0.3, 1e-9);
+    EXPECT_EQ(orders_->forgot, forgot);
+    push(100);
+    ASSERT_TRUE(wait_for_pulse(100));
+    EXPECT_EQ(orders_->forgot, forgot + 1) << "after nine seconds nothing follows";
+    push(2);
+    ASSERT_TRUE(wait_for_pulse(2));
+    EXPECT_EQ(orders_->forgot, forgot + 2) << "the stage began anew";
+}
+
+TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
+    thread_->wish({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
+    push(1);
+    ASSERT_TRUE(wait_for([&] { return orders_->prepared > 0; }));
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto before = thread_->newest();
+    thread_->wish({.pulse = {}, .is_held = true, .target = {}, .level = prepare_levels()[0]});
+    ASSERT_TRUE(wait_for([&] { return thread_->newest()->number > before->number; }));
+    EXPECT_EQ(orders_->rank, 0);
+    EXPECT_EQ(thread_->newest()->set, before->set);
+    const int prepared = orders_->prepared;
+    push(2);
+    ASSERT_TRUE(wait_for([&] { return feed_.drained(); }));
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(thread_->newest()->set, before->set);
+    EXPECT_EQ(orders_->prepared, prepared) << "nothing better is wished for";
+    thread_->wish({.pulse = {}, .target = {}, .level = {}});
+    EXPECT_TRUE(wait_for_pulse(2));
+}
+
+TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    thread_->wish({.pulse = 1.7, .target = {}, .level = {}});
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_FALSE(thread_->newest()->is_live);
+    EXPECT_EQ(thread_->books().prepared, 3u);
+}
+
+TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    orders_->fails_to_take = true;
+    push(2);
+    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 2; })) << "it tries again";
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "what was ready stays";
+    orders_->fails_to_take = false;
+    push(3);
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_GE(orders_->made, 3);
+}
+
+TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    push(3);
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(thread_->books().faults, 1) << "it is not tried again";
+}
+
+TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    orders_->fails_to_take = true;
+    push(3);
+    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 3; }));
+    orders_->fails_to_take = false;
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(thread_->close().sets, 4u);
+    const InstantThread::Books books = thread_->books();
+    EXPECT_EQ(books.prepared + books.superseded.sets, 4u);
+    for (const char* rig : {"north", "south"})
+        EXPECT_EQ(books.frames.at(rig) + books.superseded.frames.at(rig), 4u);
+}
+
+TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {
+    feed_.fail_with("the receiver broke");
+    EXPECT_TRUE(wait_for([&] {
+        try {
+            thread_->newest();
+            return false;
+        } catch (const Error& error) {
+            return std::string(error.what()) == "the receiver broke";
+        }
+    }));
+}
+
+TEST_F(InstantThreadTest, WhatIsReadyOutlivesIt) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto kept = thread_->newest();
+    thread_.reset();
+    EXPECT_EQ(kept->set->trigger_index, 1u);
+}
+
+}  // namespace
+}  // namespace vantage
