@@ -123,9 +123,11 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
     show.start();
     PanelFeed panel;
     ProgressLog progress(plan);
-    // Hands are looked at and the screen is drawn at a rate of its own.
-    constexpr std::chrono::milliseconds period{16};
-    MonotonicTime last = MonotonicClock::now();
+    // Hands are looked at at a rate of its own; the screen is drawn with every new picture, and now
+    // and then without one: where the processor draws, it has better things to do.
+    constexpr std::chrono::milliseconds period{16}, longest_unchanged{200};
+    MonotonicTime last = MonotonicClock::now(), drawn{};
+    std::shared_ptr<const MadePicture> shown;
     while (!show.is_over() && !window.closed() &&
            !stop.wait_for(
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
@@ -133,7 +135,14 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
         show.controls().hands().put(window.poll(std::chrono::duration<double>(now - last).count()),
                                     now);
         last = now;
-        window.show(panel.state(show));
+        if (const auto picture = show.state().picture;
+            picture != shown || now - drawn > longest_unchanged) {
+            shown = picture;
+            drawn = now;
+            window.show(panel.state(show));
+        } else {
+            window.leave();
+        }
         progress.tell(show);
     }
     if (finish(options, show, deck) > 0 && !options.snapshot.empty())

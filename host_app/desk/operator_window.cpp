@@ -215,6 +215,8 @@ void OperatorWindow::show(PanelState state) {
     glfwSwapBuffers(window_.get());
 }
 
+void OperatorWindow::leave() { ImGui::EndFrame(); }
+
 ColourImage OperatorWindow::screenshot() const {
     return screen_ ? ColourImage(screen_->texture.download()) : ColourImage();
 }

@@ -44,6 +44,9 @@ class OperatorWindow {
     /// Draws the operator's screen and shows it. Whether panels and help show is the window's.
     void show(PanelState state);
 
+    /// In place of show(): what is shown stays.
+    void leave();
+
     /// What show() showed last, panels and all.
     ColourImage screenshot() const;
 
