@@ -138,7 +138,7 @@ TEST_F(LevelChooserTest, TellsWhatShareOfTheTimeEveryLevelWasTaken) {
     for (const double share : chooser_.shares(now_)) EXPECT_EQ(share, 0) << "before the first work";
     const MonotonicTime start = now_;
     run_for(30s, [](std::size_t) { return 2; });
-    for (int i = 0; i < 3; ++i) work(15);
+    for (int i = 0; i < 3; ++i) work(12);
     const double at_best_s = seconds_since(start);
     run_for(10s, [](std::size_t) { return 7; });
     const std::vector<double> shares = chooser_.shares(now_);
