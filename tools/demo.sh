@@ -234,7 +234,7 @@ host=(env -u LP_NUM_THREADS "$bin/vantage")
 if $headless; then
   # Nobody goes back in time here.
   "${host[@]}" "${live[@]}" --headless --past-mb 64 --seconds "$seconds" "${json[@]}" --path "$move" \
-    --record "$out/flight.mkv" --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
+    --record "$out/flight.mkv" --overwrite --contact-sheet "$out/contact_sheet.png" --snapshot "$out/last_view.png"
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 elif [ -n "$calibration" ]; then
   # The host begins where the rig stands.

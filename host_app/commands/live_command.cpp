@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -29,7 +30,7 @@ struct LiveOptions {
     std::string quality = "auto";
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
-    bool headless = false, json = false, novelty = false, harmonise = true;
+    bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
     StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
 };
@@ -75,10 +76,17 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         settings.format.width_px = size.width;
         settings.format.height_px = size.height;
     }
+    std::error_code ignored;
+    if (!settings.film.empty() && !options.overwrite &&
+        std::filesystem::exists(settings.film, ignored))
+        fail("{} is there already, and a film is not replaced without being asked: take another "
+             "name, or --overwrite",
+             settings.film.string());
     if (!settings.film.empty() &&
         (settings.format.width_px % 2 != 0 || settings.format.height_px % 2 != 0))
         fail("a film of {}x{} cannot be recorded: its sides have to be even",
              settings.format.width_px, settings.format.height_px);
+    (void)find_synthesiser(settings.synthesiser);
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     return settings;
@@ -118,8 +126,12 @@ void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan&
 
 void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
                     const JogDeck* deck, StopSignal& stop) {
-    OperatorWindow window("Vantage", show.settings().format.width_px,
-                          show.settings().format.height_px);
+    // However small the picture, there is room for what an operator reads.
+    constexpr double least_width_px = 960;
+    const PictureFormat& format = show.settings().format;
+    const double larger = std::max(1.0, least_width_px / format.width_px);
+    OperatorWindow window("Vantage", cvRound(larger * format.width_px),
+                          cvRound(larger * format.height_px));
     show.start();
     PanelFeed panel;
     ProgressLog progress(plan);
@@ -207,6 +219,8 @@ CommandEntry live_command_entry() {
                             "Of the picture, WIDTHxHEIGHT (default: the stage's)");
         command->add_option("--synth", options->synthesiser,
                             "Synthesiser (default: the stage's; see render --help)");
+        command->add_flag("--overwrite", options->overwrite,
+                          "Let --record replace a film that is there");
         command->add_flag_callback(
             "--no-harmonise", [options] { options->harmonise = false; },
             "Leave the rigs' colours as the calibration makes them; without this, small gains take "
