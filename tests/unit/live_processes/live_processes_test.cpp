@@ -207,7 +207,7 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
     screen.hands(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "448", "120", "mouseup", "1"});
     wait_for(host, "azimuth -36.0");
-    screen.hands({"key", "Escape"});
+    screen.hands({"key", "Escape", "Escape"});
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
