@@ -189,17 +189,13 @@ std::vector<StepTime> step_times(const LiveReport& report) {
 
 nlohmann::ordered_json to_json(const LiveReport& report) {
     const ProgrammeBooks& programme = report.programme;
-    nlohmann::ordered_json json{{"pictures", programme.pictures},
-                                {"width_px", report.format.width_px},
-                                {"height_px", report.format.height_px},
-                                {"rate_hz", report.rate_hz},
-                                {"pictures_a_second", pictures_a_second(programme)},
-                                {"duration_s", programme.duration_s},
-                                {"ticks", programme.ticks},
-                                {"repeated_ticks", programme.repeated},
-                                {"synthesiser", report.synthesiser},
-                                {"renderer", report.renderer},
-                                {"signal", key_of(report.signal)}};
+    nlohmann::ordered_json json{
+        {"pictures", programme.ticks},        {"new_pictures", programme.pictures},
+        {"width_px", report.format.width_px}, {"height_px", report.format.height_px},
+        {"rate_hz", report.rate_hz},          {"pictures_a_second", pictures_a_second(programme)},
+        {"duration_s", programme.duration_s}, {"repeated_ticks", programme.repeated},
+        {"synthesiser", report.synthesiser},  {"renderer", report.renderer},
+        {"signal", key_of(report.signal)}};
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);

@@ -21,15 +21,15 @@ struct PictureJob {
     std::shared_ptr<const ReadyInstant> instant;
     CameraState camera;
     RenderLevel level;
-    bool source_map = false;         ///< also which rigs its pixels come from
+    bool source_map = false;              ///< also which rigs its pixels come from
     std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in it
 };
 
 /// A picture of the virtual camera. Immutable.
 struct MadePicture {
     PictureJob job;
-    ColourImage picture;                ///< rgba8 of the programme's size
-    std::optional<SourceMap> sources;   ///< where it was wanted
+    ColourImage picture;               ///< rgba8 of the programme's size
+    std::optional<SourceMap> sources;  ///< where it was wanted
     double render_ms = 0, readback_ms = 0;
 };
 

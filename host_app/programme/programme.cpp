@@ -24,9 +24,7 @@ double ms_between(MonotonicTime start, MonotonicTime end) {
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-void sleep_until(MonotonicTime time) {
-    std::this_thread::sleep_for(time - MonotonicClock::now());
-}
+void sleep_until(MonotonicTime time) { std::this_thread::sleep_for(time - MonotonicClock::now()); }
 
 /// Whether a picture of one would be that of the other.
 bool is_same(const PictureJob& a, const PictureJob& b) {
@@ -98,6 +96,7 @@ void Programme::stop() {
     next_maker_.reset();
     retired_maker_.reset();
     still_maker_.reset();
+    retired_still_.reset();
     for (Sink& sink : sinks_) {
         if (!sink.state.failure.empty()) continue;
         try {
@@ -147,7 +146,7 @@ void Programme::run() {
         hand_over(next - tick, was_due);
         tick = next;
         const std::lock_guard lock(mutex_);
-        if (is_over_(books_.pictures + books_.repeated, due_s)) return;
+        if (is_over_(books_.ticks, due_s)) return;
     }
 }
 
@@ -161,7 +160,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
     if (step.past_pulses != 0 && instant_)
         transport_.travel(step.past_pulses, instant_->set->trigger_index, span);
     if (step.toggle_source_map) source_map_ = !source_map_;
-    if (step.next_synthesiser && !next_maker_ && !retired_maker_) {
+    if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
         const std::vector<SynthesiserEntry> all = synthesiser_entries();
         const auto at = std::find_if(all.begin(), all.end(), [&](const SynthesiserEntry& entry) {
             return entry.name == entry_.name;
@@ -169,12 +168,11 @@ bool Programme::look(double time_s, MonotonicTime now) {
         entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
         next_maker_ =
             std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[1 - context_]);
-        still_maker_.reset();
+        retired_still_ = std::move(still_maker_);
         begun_still_.reset();
     }
     const CameraState camera = step.view.camera();
-    if (!is_same_view(camera, camera_) || step.past_pulses != 0 || step.toggle_hold ||
-        step.to_live)
+    if (!is_same_view(camera, camera_) || step.past_pulses != 0 || step.toggle_hold || step.to_live)
         changed_ = now;
     view_ = step.view;
     camera_ = camera;
@@ -184,12 +182,11 @@ bool Programme::look(double time_s, MonotonicTime now) {
         state_.view = view_;
         state_.is_held = transport_.is_held();
         state_.source_map = source_map_;
-        state_.behind_s =
-            transport_.pulse() && span
-                ? std::optional(std::max(0.0, (static_cast<double>(span->newest) -
-                                               *transport_.pulse()) /
-                                                  settings_.pulse_rate_hz))
-                : std::nullopt;
+        state_.behind_s = transport_.pulse() && span
+                              ? std::optional(std::max(
+                                    0.0, (static_cast<double>(span->newest) - *transport_.pulse()) /
+                                             settings_.pulse_rate_hz))
+                              : std::nullopt;
         state_.render_level = governor_.render().rank;
         state_.prepare_level = governor_.prepare().rank;
         books_.render_shares = governor_.render_shares(now);
@@ -207,10 +204,10 @@ bool Programme::look(double time_s, MonotonicTime now) {
 
 void Programme::wish_for_instant(MonotonicTime now) {
     const bool is_resting = !transport_.is_live() && now - changed_ > rest;
-    instants_.wish({transport_.pulse(), transport_.is_held(),
-                    view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
-                    is_resting && !settings_.quality.level ? prepare_levels().front()
-                                                           : governor_.prepare()});
+    instants_.wish(
+        {transport_.pulse(), transport_.is_held(),
+         view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
+         is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare()});
     if (instant_ && instant_->is_live && instant_->number != seen_prepared_ &&
         transport_.is_live()) {
         seen_prepared_ = instant_->number;
@@ -228,6 +225,7 @@ void Programme::better_what_is_held(MonotonicTime now) {
     if (settings_.quality.level || transport_.is_live() || now - changed_ < rest || !instant_ ||
         !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
         return;
+    if (retired_still_) return;
     if (!still_maker_) {
         still_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, still_context_,
                                                       PictureMaker::Manner::in_slices);
@@ -240,7 +238,9 @@ void Programme::better_what_is_held(MonotonicTime now) {
 }
 
 void Programme::follow_synthesiser() {
+    // One that is at work would keep its destructor waiting.
     if (retired_maker_ && retired_maker_->is_idle()) retired_maker_.reset();
+    if (retired_still_ && retired_still_->is_idle()) retired_still_.reset();
     if (!next_maker_ || !next_maker_->is_idle()) return;
     instants_.prepare_for(entry_.name, entry_.make_preparer);
     if (!instant_ || instant_->synthesiser != entry_.name) return;

@@ -113,16 +113,16 @@ class Programme {
     // Of the programme's thread.
     Governor governor_;
     Transport transport_;
-    SynthesiserEntry entry_;  ///< that is wanted
+    SynthesiserEntry entry_;   ///< that is wanted
     std::size_t context_ = 0;  ///< of maker_
-    std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_;
+    std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;
     OrbitView view_;
     CameraState camera_;
-    std::optional<MonotonicTime> hand_;          ///< of an input that no picture has yet
+    std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_, begun_still_;
     std::shared_ptr<const MadePicture> shown_;
-    MonotonicTime changed_{};                    ///< camera or time, last
+    MonotonicTime changed_{};  ///< camera or time, last
     std::optional<MonotonicTime> first_picture_, last_new_;
     std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0;
     bool source_map_ = false;
