@@ -54,7 +54,7 @@ TEST(Confidence, IsThereAtTheEndOfTheSearchToo) {
         cv::theRNG().state = 7;
         cv::randu(wide, cv::Scalar(0, 0, 0, 255), cv::Scalar(255, 255, 255, 256));
         cv::GaussianBlur(wide, wide, {}, 1.5);
-        wide = (wide - cv::Scalar(96, 96, 96, 0)) * 4;
+        wide.convertTo(wide, -1, 4, -384);
         // What lies at x in the left picture lies at x - shift in the right one.
         const ColourImage left = wide.colRange(0, 161).clone();
         const ColourImage right = wide.colRange(shift, 161 + shift).clone();
