@@ -43,7 +43,7 @@ trap 'exit 130' INT TERM
 if "$bin/vantage-rig" probe --json 2>/dev/null | grep -q '"is_software": *false'; then
   rate_hz=25 fps=50 size=1920x1080 rig_size=960x720 disparities_of_stage=96 latency_budget_ms=200 preset=balanced
 else
-  rate_hz=5 fps=12.5 size=480x270 rig_size=320x240 disparities_of_stage=32 latency_budget_ms=600 preset=fast
+  rate_hz=5 fps=15 size=480x270 rig_size=320x240 disparities_of_stage=32 latency_budget_ms=600 preset=fast
   # Four rigs share the processor: one drawing thread each does the same work with less waiting.
   export LP_NUM_THREADS=1
 fi
