@@ -21,8 +21,8 @@ class SlicedDrawing {
     /// Of this thread; null: nothing is to be sliced.
     static const SlicedDrawing* current();
 
-    /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory of
-    /// a band's height; 0 at first.
+    /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory
+    /// of a band's height; 0 at first.
     void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
 
   private:

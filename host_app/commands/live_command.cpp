@@ -79,9 +79,10 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
     std::error_code ignored;
     if (!settings.film.empty() && !options.overwrite &&
         std::filesystem::exists(settings.film, ignored))
-        fail("{} is there already, and a film is not replaced without being asked: take another "
-             "name, or --overwrite",
-             settings.film.string());
+        fail(
+            "{} is there already, and a film is not replaced without being asked: take another "
+            "name, or --overwrite",
+            settings.film.string());
     if (!settings.film.empty() &&
         (settings.format.width_px % 2 != 0 || settings.format.height_px % 2 != 0))
         fail("a film of {}x{} cannot be recorded: its sides have to be even",

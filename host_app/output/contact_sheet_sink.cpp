@@ -40,8 +40,8 @@ void ContactSheetSink::finish() {
     std::vector<SheetMoment> rows;
     for (const Moment& moment : moments_.chosen()) rows.push_back(row_of(moment, rows.size()));
     if (rows.empty()) return;
-    write_colour_image(path_, compose_contact_sheet("Vantage: flight of the virtual camera", rows,
-                                                    sheet_cell_px));
+    write_colour_image(
+        path_, compose_contact_sheet("Vantage: flight of the virtual camera", rows, sheet_cell_px));
 }
 
 }  // namespace vantage

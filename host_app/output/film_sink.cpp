@@ -5,8 +5,9 @@
 namespace vantage {
 
 void FilmSink::take(const ProgrammePicture& picture) {
-    recorder_.add(picture.picture, std::chrono::nanoseconds(std::llround(
-                                       1e9 * static_cast<double>(picture.tick) / rate_hz_)));
+    recorder_.add(
+        picture.picture,
+        std::chrono::nanoseconds(std::llround(1e9 * static_cast<double>(picture.tick) / rate_hz_)));
 }
 
 }  // namespace vantage

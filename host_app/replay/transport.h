@@ -23,10 +23,8 @@ class Transport {
         if (!span) return;
         const double from = pulse_.value_or(static_cast<double>(shown_pulse));
         pulse_ = from + pulses;
-        if (*pulse_ < static_cast<double>(span->oldest))
-            pulse_ = static_cast<double>(span->oldest);
-        if (*pulse_ > static_cast<double>(span->newest))
-            pulse_ = static_cast<double>(span->newest);
+        if (*pulse_ < static_cast<double>(span->oldest)) pulse_ = static_cast<double>(span->oldest);
+        if (*pulse_ > static_cast<double>(span->newest)) pulse_ = static_cast<double>(span->newest);
     }
 
     bool is_live() const { return !pulse_ && !is_held_; }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/nearest_name.h"
+#include "common/base/pulse_grid.h"
 
 namespace vantage {
 namespace {
