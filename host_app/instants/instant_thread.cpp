@@ -1,6 +1,7 @@
 #include "host_app/instants/instant_thread.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/log.h"
 #include "common/gl/limits.h"
@@ -162,9 +163,10 @@ void InstantThread::ask_for_rigs(std::span<const DepthView> views, const Virtual
     }
 }
 
-void InstantThread::publish(ReadyInstant ready, const InstantWish& wish, InstantPreparer& preparer,
-                            MonotonicTime start) {
-    ready.instant = preparer.prepare(wish.target, wish.level);
+void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
+                            const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start) {
+    ready.instant = preparer->prepare(wish.target, wish.level);
+    ready.preparer = preparer;
     glFinish();
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
@@ -178,7 +180,7 @@ void InstantThread::prepare_instants() {
     const CurrentContext current(*context_);
     const SlicedDrawing slices(slice);
     const ShaderLibrary shaders;
-    std::unique_ptr<InstantPreparer> preparer;
+    std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
     MonotonicTime bettered{};
     for (;;) {
@@ -191,16 +193,19 @@ void InstantThread::prepare_instants() {
             maker = maker_;
         }
         if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
-            preparer = maker.make(shaders);
+            std::erase_if(preparers_, [](const auto& one) { return one.use_count() == 1; });
+            preparer = preparers_.emplace_back(maker.make(shaders));
             last_.synthesiser = maker.synthesiser;
             last_pulse_.reset();
             prepared.reset();
-            if (last_.set) {
+            // Once: where that fails the next set has to do.
+            if (last_.set && !std::exchange(is_retaking_, true)) {
                 const MonotonicTime start = MonotonicClock::now();
                 preparer->take(views_of(*last_.set, false), 0);
-                publish(last_, wish, *preparer, start);
+                publish(last_, wish, preparer, start);
                 prepared = wish;
             }
+            is_retaking_ = false;
         }
         if (!preparer) {
             std::unique_lock lock(mutex_);
@@ -228,7 +233,7 @@ void InstantThread::prepare_instants() {
             next.set = std::make_shared<const FrameSet>(std::move(*set));
             next.exposure = exposure_of(*next.set);
             next.is_live = is_live;
-            publish(std::move(next), wish, *preparer, start);
+            publish(std::move(next), wish, preparer, start);
             prepared = wish;
             unprepared_.reset();
             const std::lock_guard lock(mutex_);
@@ -247,15 +252,19 @@ void InstantThread::prepare_instants() {
             prepare_ms_.add(last_.prepare_ms);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
-            publish(last_, wish, *preparer, start);
+            publish(last_, wish, preparer, start);
             prepared = wish;
             bettered = start;
         }
     }
-    // The pool's surfaces go with the preparer, on this context.
-    const std::lock_guard lock(mutex_);
-    newest_.reset();
+    // What is left of them goes with its preparer, on this context.
+    {
+        const std::lock_guard lock(mutex_);
+        newest_.reset();
+    }
     last_ = {};
+    preparer.reset();
+    preparers_.clear();
 }
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/base/percentiles.h"
 #include "common/base/time.h"
@@ -23,6 +24,9 @@ namespace vantage {
 
 /// An instant with the frame set that it was made of. Immutable.
 struct ReadyInstant {
+    /// Whose textures and buffers it consists of: destroyed on its own thread, once nobody holds an
+    /// instant of it. The first, so that it is let go last.
+    std::shared_ptr<const InstantPreparer> preparer;
     std::shared_ptr<const Instant> instant;
     std::shared_ptr<const FrameSet> set;
     std::optional<TaiTime> exposure;  ///< the earliest of its frames
@@ -99,8 +103,8 @@ class InstantThread {
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
     /// `ready` but for its instant, which is prepared.
-    void publish(ReadyInstant ready, const InstantWish& wish, InstantPreparer& preparer,
-                 MonotonicTime start);
+    void publish(ReadyInstant ready, const InstantWish& wish,
+                 const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start);
 
     Settings settings_;
     const EglContext* context_;
@@ -109,7 +113,10 @@ class InstantThread {
     ColourHarmoniser harmoniser_;  ///< of the thread
     RigDemand demand_;             ///< of the thread
     std::optional<std::uint64_t> last_pulse_, last_harmonised_;
-    std::optional<double> fetched_;       ///< the pulse that was looked up in the buffer last
+    std::optional<double> fetched_;  ///< the pulse that was looked up in the buffer last
+    std::vector<std::shared_ptr<InstantPreparer>>
+        preparers_;                       ///< of the thread; the last is in use
+    bool is_retaking_ = false;            ///< of the thread: a new preparer takes what is shown
     ReadyInstant last_;                   ///< of the thread: what was prepared last
     std::optional<FrameSet> unprepared_;  ///< of the thread: the live set that is being prepared
 
