@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -30,9 +31,10 @@ StageCamera camera_at(double azimuth_deg, int width_px, int height_px) {
 }
 
 /// What an ideal rig knows: the picture of its left camera with exact depth.
-DepthView film(VirtualStage& stage, double azimuth_deg, int width_px = 320, int height_px = 240) {
+DepthView film(VirtualStage& stage, double azimuth_deg, int width_px = 320, int height_px = 240,
+               std::chrono::nanoseconds time = stage_time) {
     const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
-    StageRendering seen = stage.render(camera, stage_time);
+    StageRendering seen = stage.render(camera, time);
     return {.name = std::to_string(azimuth_deg),
             .colour = seen.colour,
             .K = camera.K,
@@ -49,10 +51,11 @@ struct Score {
 /// Renders the view at an azimuth and compares it with the stage's own picture; both go to
 /// $VANTAGE_TEST_PICTURES where that is set, for a person to look at.
 Score score(Synthesiser& synthesiser, VirtualStage& stage, double azimuth_deg,
-            const std::string& name, int width_px = 320, int height_px = 240) {
+            const std::string& name, int width_px = 320, int height_px = 240,
+            std::chrono::nanoseconds time = stage_time) {
     const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
     const ColourImage truth =
-        stage.render(camera, stage_time, {.pictures = StagePictures::colour}).colour;
+        stage.render(camera, time, {.pictures = StagePictures::colour}).colour;
     const ColourImage picture =
         synthesiser.render({camera.width_px, camera.height_px, camera.K, camera.world_from_camera})
             .download();
@@ -131,19 +134,22 @@ TEST(FusedStage, IsWithinThirtyDecibelsBetweenRigsTwentyDegreesApart) {
 }
 
 /// Four rigs twenty degrees apart; their depth is exact.
-std::vector<DepthView> film_arc(VirtualStage& stage, int width_px, int height_px) {
+std::vector<DepthView> film_arc(VirtualStage& stage, int width_px, int height_px,
+                                std::chrono::nanoseconds time = stage_time) {
     std::vector<DepthView> views;
     for (const double azimuth_deg : {-30, -10, 10, 30})
-        views.push_back(film(stage, azimuth_deg, width_px, height_px));
+        views.push_back(film(stage, azimuth_deg, width_px, height_px, time));
     return views;
 }
 
 /// The picture midway between rigs twenty degrees apart, against the stage's own.
 double midway_psnr_db(VirtualStage& stage, const ShaderLibrary& shaders,
-                      std::span<const DepthView> views, const std::string& name) {
+                      std::span<const DepthView> views, const std::string& name,
+                      std::chrono::nanoseconds time = stage_time) {
     const auto synthesiser = make_synthesiser("fused", shaders);
     synthesiser->set_views(views);
-    return score(*synthesiser, stage, 0, name, views[0].colour.cols, views[0].colour.rows).psnr_db;
+    return score(*synthesiser, stage, 0, name, views[0].colour.cols, views[0].colour.rows, time)
+        .psnr_db;
 }
 
 /// A third of a pixel of disparity is ten pixels in the picture of a rig far aside.
@@ -178,15 +184,21 @@ TEST(RigConsensusOnTheStage, CarvesAwayWhatOtherRigsSeeThrough) {
     const EglContext context;
     const ShaderLibrary shaders;
     VirtualStage stage(shaders);
-    std::vector<DepthView> views = film_arc(stage, width_px, height_px);
-    const double clean_db = midway_psnr_db(stage, shaders, views, "carving-clean");
-    // Blocks that hover in front of everything.
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        views[i].depth_m = views[i].depth_m.clone();
-        cv::rectangle(views[i].depth_m, cv::Rect(60 + 20 * static_cast<int>(i), 40, 30, 60),
-                      cv::Scalar(2.0), cv::FILLED);
+    // Who stands behind the blocks, and how many rigs see it, changes as performers walk.
+    constexpr std::array times{2s, 5s, 9s};
+    double lost_db = 0;
+    for (const auto time : times) {
+        std::vector<DepthView> views = film_arc(stage, width_px, height_px, time);
+        lost_db += midway_psnr_db(stage, shaders, views, "carving-clean", time) / times.size();
+        // Blocks that hover in front of everything.
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            views[i].depth_m = views[i].depth_m.clone();
+            cv::rectangle(views[i].depth_m, cv::Rect(60 + 20 * static_cast<int>(i), 40, 30, 60),
+                          cv::Scalar(2.0), cv::FILLED);
+        }
+        lost_db -= midway_psnr_db(stage, shaders, views, "carving-carved", time) / times.size();
     }
-    EXPECT_GE(midway_psnr_db(stage, shaders, views, "carving-carved"), clean_db - 2.6);
+    EXPECT_LE(lost_db, 2.6);
 }
 
 /// Halos are errors beside depth edges.
