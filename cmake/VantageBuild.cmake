@@ -127,8 +127,8 @@ add_custom_target(vantage_arm64_tests)
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
-# those that only the latter does. A test is a process, but for those of TOGETHER: these suites make something costly once
-# for all their tests, and each is a process and one test of CTest.
+# those that only the latter does, `e2e` those that run alone. A test is a process, but for those of TOGETHER: these
+# suites make something costly once for all their tests, and each is a process and one test of CTest.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;TOGETHER" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -149,6 +149,10 @@ function(vantage_unit_test name)
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
   string(JOIN "-" labels unit ${ARG_LABELS})
   set(properties LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+  # Several processes each that have to keep up with each other: not beside another test.
+  if("e2e" IN_LIST ARG_LABELS)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
   list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE together)
   string(JOIN ":" together ${together})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${together}" PROPERTIES ${properties})
