@@ -157,7 +157,8 @@ width_px = $width
 height_px = $height
 END
 
-port=5600
+# Two demos at a time begin to look for free ports at different places.
+port=$((20000 + $$ % 2000 * 10))
 if [ -z "$left" ]; then
   move=hw_config/moves/demo.toml
   i=0
