@@ -14,8 +14,9 @@ end_cameras() {
   rm -rf "$sockets"
 }
 trap end_cameras EXIT
-qemu=
+qemu= material=()
 if [ -d "$data/middlebury2003/teddy" ]; then
+  material=("VANTAGE_DATA=$(realpath "$data")")
   # The slot is part of libcamera's names: it is fixed.
   qemu="-device qemu-xhci,id=usb,addr=10"
   port=1
@@ -29,4 +30,4 @@ if [ -d "$data/middlebury2003/teddy" ]; then
   done
 fi
 HIL_QEMU=$qemu "$here/boot.sh" "$work" devices "HIL_TEST=$program" "HIL_CAPTURE_TEST=$capture_test" "HIL_RULES=$(realpath "$here/../../udev")" \
-  "GTEST_FILTER=${GTEST_FILTER:-*}" "VANTAGE_DATA=$data"
+  "GTEST_FILTER=${GTEST_FILTER:-*}" "${material[@]}"
