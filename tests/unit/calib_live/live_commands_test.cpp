@@ -353,20 +353,25 @@ TEST_F(LiveCheck, judges_a_running_stage_and_notices_a_rig_that_was_moved) {
     EXPECT_THAT(good.err, Not(HasSubstr("works with calibration"))) << good.err;
 
     StereoCalibration moved = load_calibration(file("B.yaml"));
-    // Far enough wherever on their way the performers are.
-    moved.world_from_left.translation() += Eigen::Vector3d(0.45, 0, 0.45);
+    moved.world_from_left.translation() += Eigen::Vector3d(0.3, 0, 0.3);
     save("B", moved);
-    const ProgramResult bad =
-        run("check", {"--history", file("history.jsonl"), "--html", file("health.html")});
-    ASSERT_EQ(bad.status, 0) << bad.err;
-    const auto of_moved = nlohmann::json::parse(bad.out);
-    EXPECT_EQ(of_moved.at("verdict"), "bad") << bad.out;
+    // One instant is judged, and how much both rigs see of it changes as performers walk: it is
+    // good at none, and bad at most.
+    ProgramResult bad;
+    int checks = 1;
+    for (std::string verdict; verdict != "bad" && checks < 6; ++checks) {
+        bad = run("check", {"--history", file("history.jsonl"), "--html", file("health.html")});
+        ASSERT_EQ(bad.status, 0) << bad.err;
+        verdict = nlohmann::json::parse(bad.out).at("verdict");
+        EXPECT_NE(verdict, "good") << bad.out;
+    }
+    EXPECT_EQ(nlohmann::json::parse(bad.out).at("verdict"), "bad") << bad.out;
     EXPECT_THAT(bad.out, HasSubstr("% of the surfaces that rig"));
     EXPECT_THAT(bad.err, HasSubstr("rig B works with calibration"));
     std::ifstream history(file("history.jsonl"));
     int lines = 0;
     for (std::string line; std::getline(history, line);) ++lines;
-    EXPECT_EQ(lines, 2);
+    EXPECT_EQ(lines, checks);
 }
 
 TEST_F(LiveCheck, matches_the_colours_of_a_running_stage) {
