@@ -15,7 +15,7 @@ constexpr double least_crossing = 0.01;
 /// Of the depth that is seen: how near the camera may come to its pivot, how far it may go, and how
 /// far the pivot may be moved.
 constexpr double nearest = 0.05, farthest = 6, reach = 4;
-constexpr double floor_margin_m = 0.05;
+constexpr double floor_margin_m = 0.05, same_place_m = 0.01;
 
 /// The point that is nearest to all rigs' axes.
 std::optional<Eigen::Vector3d> crossing(std::span<const FramedRig> rigs) {
@@ -47,11 +47,14 @@ std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
         lowest_m = std::min(lowest_m, at.y() - rig.median_depth_m);
         depth_m = std::max(depth_m, rig.median_depth_m);
     }
-    const FramedRig& middle =
-        *std::min_element(rigs.begin(), rigs.end(), [&](const FramedRig& a, const FramedRig& b) {
-            return (a.world_from_camera.translation() - mean).norm() <
-                   (b.world_from_camera.translation() - mean).norm();
-        });
+    const FramedRig* nearest_rig = &rigs.front();
+    const auto off_m = [&](const FramedRig& rig) {
+        return (rig.world_from_camera.translation() - mean).norm();
+    };
+    // Of two that are as near, the first.
+    for (const FramedRig& rig : rigs)
+        if (off_m(rig) < off_m(*nearest_rig) - same_place_m) nearest_rig = &rig;
+    const FramedRig& middle = *nearest_rig;
     const Eigen::Vector3d eye = middle.world_from_camera.translation();
     const Eigen::Vector3d axis = middle.world_from_camera.linear().col(2);
     Eigen::Vector3d pivot = eye + middle.median_depth_m * axis;

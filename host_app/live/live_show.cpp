@@ -14,6 +14,9 @@
 namespace vantage {
 namespace {
 
+/// Before the stage is framed by the rigs that are there.
+constexpr std::chrono::seconds patience_with_rigs{3};
+
 /// The states of the rigs that are not in the set; of all, without one.
 std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
     std::string text;
@@ -125,9 +128,14 @@ void LiveShow::finish() {
     last_status_ = instants_.close();
 }
 
-std::optional<StageFraming> LiveShow::framing() const {
+std::optional<StageFraming> LiveShow::framing() {
     const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
     if (!ready) return std::nullopt;
+    const MonotonicTime now = MonotonicClock::now();
+    if (!framing_since_) framing_since_ = now;
+    if (ready->set->present() < static_cast<int>(ready->set->slots.size()) &&
+        now - *framing_since_ < patience_with_rigs)
+        return std::nullopt;
     std::vector<FramedRig> rigs;
     for (const FrameSet::Slot& slot : ready->set->slots) {
         if (!slot.frame) continue;

@@ -66,7 +66,7 @@ class LiveShow {
   private:
     std::optional<OrbitView> rig_view(int number) const;
     /// Once an instant is ready.
-    std::optional<StageFraming> framing() const;
+    std::optional<StageFraming> framing();
     SignalState signal_of(const ReceiverStatus& status, const ProgrammeState& state) const;
 
     LiveSettings settings_;
@@ -77,7 +77,8 @@ class LiveShow {
     InstantThread instants_;
     FlightControls controls_;
     Programme programme_;
-    const FilmSink* film_ = nullptr;  ///< owned by the programme
+    const FilmSink* film_ = nullptr;              ///< owned by the programme
+    std::optional<MonotonicTime> framing_since_;  ///< of the programme's thread
     std::optional<ReceiverStatus> last_status_;
 };
 
