@@ -12,7 +12,6 @@
 #include "common/base/log.h"
 #include "common/base/time_zone.h"
 #include "common/colour/colour_file.h"
-#include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "host_app/commands/stereoscopic_options.h"

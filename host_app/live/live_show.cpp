@@ -35,6 +35,15 @@ double field_of_view_rad(const RigFrame& frame) {
     return 2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
 }
 
+void name_assumed_places(const FrameSet& set) {
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame && slot.frame->place_is_assumed)
+            log_warning(
+                "rig {} has no stage calibration: it is taken to stand level, {:.1f} m above the "
+                "floor; vantage-calib stage finds where it stands",
+                slot.rig, slot.frame->world_from_camera.translation().y());
+}
+
 Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
     Percentiles most;
     for (const RigStatus& rig : status.rigs)
@@ -140,15 +149,13 @@ std::optional<StageFraming> LiveShow::framing() {
     for (const FrameSet::Slot& slot : ready->set->slots) {
         if (!slot.frame) continue;
         const RigFrame& frame = *slot.frame;
-        if (frame.place_is_assumed)
-            log_warning(
-                "rig {} has no stage calibration: it is taken to stand level, {:.1f} m above the "
-                "floor; vantage-calib stage finds where it stands",
-                frame.rig, frame.world_from_camera.translation().y());
         rigs.push_back({frame.rig, frame.world_from_camera, field_of_view_rad(frame),
                         surface_samples(depth_view_of(frame)).median_depth_m});
     }
-    return frame_stage(rigs);
+    const std::optional<StageFraming> framing = frame_stage(rigs);
+    // Once, since nobody asks again after the answer.
+    if (framing) name_assumed_places(*ready->set);
+    return framing;
 }
 
 std::optional<OrbitView> LiveShow::rig_view(int number) const {

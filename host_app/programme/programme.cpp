@@ -106,9 +106,7 @@ void Programme::stop() {
             log_error("{}: {}", sink.state.name, error.what());
         }
     }
-    const std::lock_guard lock(mutex_);
-    books_.sinks.clear();
-    for (const Sink& sink : sinks_) books_.sinks.push_back(sink.state);
+    note_sinks();
 }
 
 std::chrono::nanoseconds Programme::lead() const {
@@ -122,14 +120,14 @@ std::chrono::nanoseconds Programme::lead() const {
 
 void Programme::run() {
     for (Sink& sink : sinks_) sink.state.name = sink.sink->name();
-    TickClock clock(settings_.rate_hz, MonotonicClock::now());
     const MonotonicTime start = MonotonicClock::now();
+    TickClock clock(settings_.rate_hz, start);
     std::uint64_t tick = clock.next_tick(start);
     while (!is_stopping_) {
         const MonotonicTime due = start + clock.time_of(tick + 1);
         const double due_s = std::chrono::duration<double>(clock.time_of(tick + 1)).count();
         sleep_until(due - lead());
-        bool was_due = look(due_s, MonotonicClock::now());
+        const bool was_due = look(due_s, MonotonicClock::now());
         bool is_begun = false;
         for (;;) {
             const MonotonicTime now = MonotonicClock::now();
@@ -216,9 +214,8 @@ void Programme::wish_for_instant(MonotonicTime now) {
 }
 
 void Programme::begin_picture() {
-    begun_ = PictureJob{instant_, camera_, governor_.render(), source_map_, hand_};
+    maker_->start({instant_, camera_, governor_.render(), source_map_, hand_});
     hand_.reset();
-    maker_->start(*begun_);
 }
 
 void Programme::better_what_is_held(MonotonicTime now) {
@@ -320,6 +317,10 @@ void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
             }
         }
     }
+    note_sinks();
+}
+
+void Programme::note_sinks() {
     const std::lock_guard lock(mutex_);
     books_.sinks.clear();
     for (const Sink& sink : sinks_) books_.sinks.push_back(sink.state);

@@ -99,6 +99,7 @@ class Programme {
     void follow_synthesiser();
     void hand_over(std::uint64_t passed_ticks, bool was_due);
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks);
+    void note_sinks();
     void note(const MadePicture& made, MonotonicTime now);
     /// How long before a tick its picture is to be begun.
     std::chrono::nanoseconds lead() const;
@@ -120,7 +121,7 @@ class Programme {
     CameraState camera_;
     std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
     std::shared_ptr<const ReadyInstant> instant_;
-    std::optional<PictureJob> begun_, begun_still_;
+    std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;
     MonotonicTime changed_{};  ///< camera or time, last
     std::optional<MonotonicTime> first_picture_, last_new_;
