@@ -15,6 +15,8 @@ namespace {
 constexpr std::chrono::milliseconds slice{4};
 /// How long the thread waits for a set before it looks at what is wished.
 constexpr std::chrono::milliseconds patience{5};
+/// For an instant, at the end.
+constexpr std::chrono::seconds longest_preparation{10};
 /// After a fault, before everything is made anew.
 constexpr std::chrono::milliseconds recovery{200};
 /// Between two looks at whether what is held could be better.
@@ -88,6 +90,16 @@ InstantThread::Books InstantThread::books() const {
     books.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
                        pack_ms_.summary()};
     return books;
+}
+
+ReceiverStatus InstantThread::close() {
+    const ReceiverStatus status = sets_.close();
+    // The look under way may have taken a set before that; the second one after it has none left.
+    std::unique_lock lock(mutex_);
+    const std::uint64_t before = looks_;
+    looked_.wait_for(lock, longest_preparation,
+                     [&] { return is_stopping_ || looks_ >= before + 2; });
+    return status;
 }
 
 void InstantThread::run() {
@@ -189,6 +201,8 @@ void InstantThread::prepare_instants() {
         {
             const std::lock_guard lock(mutex_);
             if (is_stopping_) break;
+            ++looks_;
+            looked_.notify_all();
             wish = wish_;
             maker = maker_;
         }

@@ -88,8 +88,9 @@ class InstantThread {
         int faults = 0;
     };
     Books books() const;
-    /// Ends the reading; whatever nobody took counts as superseded.
-    ReceiverStatus close() { return sets_.close(); }
+    /// Ends the reading, and waits for what is being prepared, so that the books are complete;
+    /// whatever nobody took counts as superseded.
+    ReceiverStatus close();
 
   private:
     struct Maker {
@@ -125,6 +126,8 @@ class InstantThread {
     Maker maker_;
     InstantWish wish_;
     bool is_stopping_ = false;
+    std::uint64_t looks_ = 0;  ///< at what is wished, each with nothing in hand
+    std::condition_variable looked_;
     std::shared_ptr<const ReadyInstant> newest_;
     std::exception_ptr failure_;
     Books books_;
