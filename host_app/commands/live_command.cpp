@@ -16,6 +16,7 @@
 #include "common/image/image_file.h"
 #include "host_app/commands/stereoscopic_options.h"
 #include "host_app/desk/operator_window.h"
+#include "host_app/live/corridor_watch.h"
 #include "host_app/live/live_show.h"
 #include "host_app/live/panel_feed.h"
 #include "host_app/live/progress_log.h"
@@ -30,6 +31,7 @@ struct LiveOptions {
     std::uint64_t frames = 0;
     double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
     bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
+    bool free_flight = false;
     StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
 };
@@ -69,6 +71,7 @@ LiveSettings live_settings(const LiveOptions& options, const StageConfig& stage)
         .source_map = options.novelty,
         .film = options.film,
         .contact_sheet = options.contact_sheet,
+        .free_flight = options.free_flight,
         .harmonise = options.harmonise};
     if (!options.size.empty()) {
         const cv::Size size = parse_size(options.size);
@@ -98,9 +101,11 @@ std::unique_ptr<JogDeck> make_deck(const LiveOptions& options) {
 }
 
 /// Ends the files, prints the summary. Returns how many pictures there were.
-std::uint64_t finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck) {
+std::uint64_t finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck,
+                     const CorridorWatch& corridor) {
     show.finish();
     LiveReport report = show.report();
+    report.uncovered = corridor.uncovered_parts();
     if (deck) report.wheels = deck->devices();
     if (options.json)
         std::cout << to_json(report).dump() << '\n';
@@ -116,8 +121,12 @@ void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan&
     if (!show.wait_for_rigs(limit, stop)) return;
     show.start();
     ProgressLog progress(plan);
-    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) progress.tell(show);
-    if (finish(options, show, deck) > 0 && !options.snapshot.empty()) {
+    CorridorWatch corridor(plan);
+    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) {
+        progress.tell(show);
+        corridor.tell(show);
+    }
+    if (finish(options, show, deck, corridor) > 0 && !options.snapshot.empty()) {
         const auto last = show.state().picture;
         write_colour_image(options.snapshot,
                            last->sources ? last->sources->picture : last->picture);
@@ -135,6 +144,7 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
     show.start();
     PanelFeed panel;
     ProgressLog progress(plan);
+    CorridorWatch corridor(plan);
     // Hands are looked at at a rate of its own; the screen is drawn with every new picture, and now
     // and then without one: where the processor draws, it has better things to do.
     constexpr std::chrono::milliseconds period{16}, longest_unchanged{200};
@@ -156,8 +166,9 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
             window.leave();
         }
         progress.tell(show);
+        corridor.tell(show);
     }
-    if (finish(options, show, deck) > 0 && !options.snapshot.empty())
+    if (finish(options, show, deck, corridor) > 0 && !options.snapshot.empty())
         write_colour_image(options.snapshot, window.screenshot());
 }
 
@@ -211,6 +222,9 @@ CommandEntry live_command_entry() {
         command->add_option("--record", options->film, "Write the flight as a film (.mkv, .mp4)");
         command->add_option("--contact-sheet", options->contact_sheet,
                             "Write stills of the flight, with a rig's colour and disparity");
+        command->add_flag("--free-flight", options->free_flight,
+                          "Let hands fly beyond what the rigs cover; without this the camera is "
+                          "slowed towards the end of its corridor and stands there");
         command
             ->add_option("--rate", options->rate_hz,
                          "Pictures a second (default: the stage's rate)")

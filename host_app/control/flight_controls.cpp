@@ -1,5 +1,7 @@
 #include "host_app/control/flight_controls.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace vantage {
@@ -16,12 +18,14 @@ HandsBox::Taken HandsBox::take() {
     return std::exchange(taken_, {});
 }
 
-FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing)
+FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing,
+                               CorridorNow corridor)
     : settings_(std::move(settings)),
       helm_(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move, settings_.has_past),
       deck_(deck),
       rig_view_(std::move(rig_view)),
-      framing_(std::move(framing)) {}
+      framing_(std::move(framing)),
+      corridor_now_(std::move(corridor)) {}
 
 PilotStep FlightControls::step(double time_s) {
     const double dt_s = time_s - last_s_;
@@ -33,6 +37,8 @@ PilotStep FlightControls::step(double time_s) {
             framing_ = {};
         }
     }
+    const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
+    if (!settings_.free_flight) helm_.keep_within(corridor);
     auto [hands, since] = hands_.take();
     if (deck_) {
         while (const std::optional<DeckEvent> event = deck_->next()) {
@@ -54,9 +60,27 @@ PilotStep FlightControls::step(double time_s) {
     helm_.take(hands, rig_view_);
     helm_.advance(dt_s);
     step.view = helm_.view();
+    note_coverage(corridor.get(), step.view, dt_s);
     const std::lock_guard lock(mutex_);
-    lines_ = {helm_.move_progress(), wheel_line()};
+    lines_ = {helm_.move_progress(), wheel_line(), corridor_books_};
     return step;
+}
+
+void FlightControls::note_coverage(const Corridor* corridor, const OrbitView& view, double dt_s) {
+    if (!corridor) return;
+    const Coverage now = corridor->of(view.camera());
+    corridor_books_.now = now;
+    corridor_books_.least_share = std::min(corridor_books_.least_share, now.share);
+    switch (Corridor::place_of(now.share)) {
+        case CorridorPlace::inside:
+            break;
+        case CorridorPlace::edge:
+            corridor_books_.edge_s += dt_s;
+            break;
+        case CorridorPlace::beyond:
+            corridor_books_.beyond_s += dt_s;
+            break;
+    }
 }
 
 FlightControls::Lines FlightControls::lines() const {

@@ -7,6 +7,7 @@
 
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/control/hid/jog_mapper.h"
+#include "host_app/flight/corridor_books.h"
 #include "host_app/flight/flight_plan.h"
 #include "host_app/flight/helm.h"
 #include "host_app/flight/pilot.h"
@@ -36,15 +37,19 @@ class FlightControls final : public Pilot {
     struct Settings {
         FlightPlan plan;
         double pulse_rate_hz = 30;
-        bool has_past = false;  ///< there is a past to go through
+        bool has_past = false;     ///< there is a past to go through
+        bool free_flight = false;  ///< hands may leave the corridor
     };
     /// What rig 1, 2, ... sees, for shots that nobody has stored; empty: no such rig.
     using RigView = std::function<std::optional<OrbitView>(int number)>;
     /// How the stage is framed, once that is known.
     using Framing = std::function<std::optional<StageFraming>()>;
+    /// What the rigs cover now; null: not known.
+    using CorridorNow = std::function<std::shared_ptr<const Corridor>()>;
     /// Without a deck there are no wheels; else it must outlive this. Without `framing` limits are
-    /// those of FlightLimits.
-    FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing = {});
+    /// those of FlightLimits, without `corridor` there is none.
+    FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing = {},
+                   CorridorNow corridor = {});
 
     HandsBox& hands() { return hands_; }
     /// Throws what the deck throws.
@@ -54,17 +59,21 @@ class FlightControls final : public Pilot {
     struct Lines {
         std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
         std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
+        CorridorBooks corridor;
     };
     Lines lines() const;
 
   private:
     std::string wheel_line() const;
+    void note_coverage(const Corridor* corridor, const OrbitView& view, double dt_s);
 
     Settings settings_;
     Helm helm_;
     JogDeck* deck_;
     RigView rig_view_;
     Framing framing_;  ///< empty once it has told
+    CorridorNow corridor_now_;
+    CorridorBooks corridor_books_;
     JogMapper mapper_;
     HandsBox hands_;
     double last_s_ = 0;

@@ -88,6 +88,34 @@ const ImVec4& colour_of(SignalState signal) {
     return palette::bad;
 }
 
+void draw_corridor_badge(const Coverage& coverage, const UiFonts& fonts) {
+    switch (Corridor::place_of(coverage.share)) {
+        case CorridorPlace::inside:
+            break;
+        case CorridorPlace::edge:
+            badge(fonts, "EDGE OF COVERAGE", palette::warn);
+            break;
+        case CorridorPlace::beyond:
+            badge(fonts, "BEYOND COVERAGE", palette::bad);
+            break;
+    }
+}
+
+/// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
+void draw_coverage(const Coverage& coverage) {
+    const CorridorPlace place = Corridor::place_of(coverage.share);
+    const ImVec4& colour = place == CorridorPlace::inside ? palette::dim
+                           : place == CorridorPlace::edge ? palette::warn
+                                                          : palette::bad;
+    ImGui::PushTextWrapPos(0);
+    if (place == CorridorPlace::inside)
+        text(colour, fmt::format("the rigs cover {:.0f} %", 100 * coverage.share));
+    else
+        text(colour, fmt::format("the rigs cover {:.0f} %; most of the rest {}",
+                                 100 * coverage.share, words_of(coverage.loss)));
+    ImGui::PopTextWrapPos();
+}
+
 void draw_picture(const PanelState& state) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImDrawList& ground = *ImGui::GetBackgroundDrawList();
@@ -121,6 +149,7 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         badge(fonts, fmt::format("{:.1f} s BACK", *state.behind_s).c_str(), palette::accent);
     else
         badge(fonts, title_of(state.signal), colour_of(state.signal));
+    if (state.coverage) draw_corridor_badge(*state.coverage, fonts);
     if (state.recording) badge(fonts, "REC", palette::bad);
     if (!state.waiting) {
         ImGui::PushFont(fonts.strong);
@@ -293,6 +322,7 @@ void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top)
                                  view.pivot_m.z()));
         ImGui::EndTable();
     }
+    if (state.coverage) draw_coverage(*state.coverage);
     if (state.move_progress) {
         text(palette::dim, "planned move; steer to take over");
         ImGui::ProgressBar(static_cast<float>(*state.move_progress), {-1, 0.4f * em()}, "");

@@ -8,6 +8,7 @@
 #include "common/gl/texture.h"
 #include "common/receive/signal_state.h"
 #include "host_app/desk/style.h"
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
@@ -58,6 +59,7 @@ struct PanelState {
     std::vector<PanelStage> stages;
     std::vector<PanelRig> rigs;
     OrbitView view;
+    std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
     std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
     std::optional<PanelNovelty> novelty;  ///< while it is asked for

@@ -52,6 +52,7 @@ void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& st
     limits_ = limits;
     if (start) start_ = *start;
     camera_ = OrbitCamera(start ? *start : camera_.view(), limits);
+    camera_.keep_within(corridor_);
 }
 
 OrbitView Helm::view() const {

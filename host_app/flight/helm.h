@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,12 @@ class Helm {
     /// From now on within these limits and, unless it is nothing, as if it had begun at `start`.
     void settle(const FlightLimits& limits, const std::optional<OrbitView>& start);
 
+    /// From now on hands fly within this corridor; null: anywhere. A planned move is not held up.
+    void keep_within(std::shared_ptr<const Corridor> corridor) {
+        corridor_ = corridor;
+        camera_.keep_within(std::move(corridor));
+    }
+
     /// `rig_view` gives what rig 1, 2, ... sees, for shots that nobody has stored; empty: no such
     /// rig.
     void take(const FlightInput& input,
@@ -52,6 +59,7 @@ class Helm {
     void travel(double seconds);
 
     OrbitCamera camera_;
+    std::shared_ptr<const Corridor> corridor_;
     OrbitView start_;
     FlightLimits limits_;
     bool has_past_;

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <memory>
+
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
 
 /// The virtual camera in an operator's hands. Inputs move a goal, within the limits; advance() lets
 /// the camera follow it smoothly and no faster than the limits allow, so that a jerk of the hand
-/// does not reach the picture.
+/// does not reach the picture. Within a corridor it is slowed on its way out and stands at the end;
+/// along the end and back it moves freely.
 class OrbitCamera {
   public:
     explicit OrbitCamera(const OrbitView& start, const FlightLimits& limits = {});
@@ -20,8 +24,11 @@ class OrbitCamera {
     void dolly(double nearer);
     /// Narrower by a factor of e for every 1.
     void zoom(double narrower);
-    /// Flies to a view, the shorter way round.
+    /// Flies to a view, the shorter way round; to one that the corridor holds, whatever lies
+    /// between.
     void fly_to(const OrbitView& view);
+    /// From now on within this corridor; null: anywhere.
+    void keep_within(std::shared_ptr<const Corridor> corridor) { corridor_ = std::move(corridor); }
     /// Is there at once.
     void jump_to(const OrbitView& view);
 
@@ -32,8 +39,14 @@ class OrbitCamera {
     const OrbitView& goal() const { return goal_; }
 
   private:
+    OrbitView followed(double dt_s) const;
+    /// Goes on to `next` as far as the corridor allows.
+    void go_within_corridor(const OrbitView& next, double dt_s);
+
     OrbitView goal_, current_;
     FlightLimits limits_;
+    std::shared_ptr<const Corridor> corridor_;
+    bool is_let_through_ = false;  ///< on a flight to a view that the corridor holds
 };
 
 }  // namespace vantage

@@ -15,6 +15,8 @@ constexpr double least_crossing = 0.01;
 /// Of the depth that is seen: how near the camera may come to its pivot, how far it may go, and how
 /// far the pivot may be moved.
 constexpr double nearest = 0.05, farthest = 6, reach = 4;
+/// Of the depth that is seen: how far from the middle performers are, and the set behind them.
+constexpr double performers = 0.4, background = 0.8;
 constexpr double floor_margin_m = 0.05, same_place_m = 0.01;
 
 /// The point that is nearest to all rigs' axes.
@@ -76,6 +78,7 @@ std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
     limits.max_distance_m = std::max(farthest * depth_m, framing.start.distance_m);
     limits.max_pivot_offset_m = mean.cwiseAbs().maxCoeff() + reach * depth_m;
     limits.max_speed_m_s = std::max(depth_m, 0.1);
+    framing.extent = {pivot, performers * depth_m, background * depth_m};
     return framing;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
@@ -20,12 +21,13 @@ struct FramedRig {
 struct StageFraming {
     OrbitView start;
     FlightLimits limits;
+    StageExtent extent;
 };
 
 /// The camera begins at the middle rig's place, with its pivot where the rigs' axes meet, or, if
 /// they don't, on its axis at the depth of what it sees. Limits are those of a stage that is as
-/// deep as the rigs see: the floor is y = 0, or below the lowest rig where one stands under that.
-/// Nothing without a rig that sees depth.
+/// deep as the rigs see, and so is its extent: the floor is y = 0, or below the lowest rig where
+/// one stands under that. Nothing without a rig that sees depth.
 std::optional<StageFraming> frame_stage(std::span<const FramedRig> rigs);
 
 }  // namespace vantage

@@ -116,6 +116,36 @@ std::string rig_remarks(const LiveReport& report) {
     return text;
 }
 
+nlohmann::ordered_json corridor_json(const LiveReport& report) {
+    const CorridorBooks& books = report.corridor;
+    nlohmann::ordered_json json{
+        {"coverage", books.now->share},     {"place", key_of(Corridor::place_of(books.now->share))},
+        {"loss", key_of(books.now->loss)},  {"least_coverage", books.least_share},
+        {"edge_s", books.edge_s},           {"beyond_s", books.beyond_s},
+        {"free_flight", report.free_flight}};
+    json["move_beyond"] = nlohmann::ordered_json::array();
+    for (const UncoveredPart& part : report.uncovered)
+        json["move_beyond"].push_back({{"from_s", part.from_s},
+                                       {"to_s", part.to_s},
+                                       {"least_coverage", part.least.share},
+                                       {"loss", key_of(part.least.loss)}});
+    return json;
+}
+
+std::string corridor_text(const LiveReport& report) {
+    const CorridorBooks& books = report.corridor;
+    if (!books.now) return "";
+    std::string text =
+        fmt::format("the rigs cover {:.0f} % of the last picture, {:.0f} % at the least",
+                    100 * books.now->share, 100 * books.least_share);
+    if (books.edge_s > 0 || books.beyond_s > 0)
+        text += fmt::format(
+            "; the camera was {:.1f} s at the edge of their corridor and {:.1f} s "
+            "beyond its end",
+            books.edge_s, books.beyond_s);
+    return text + '\n';
+}
+
 }  // namespace
 
 std::string state_of(const RigStatus& status) {
@@ -218,6 +248,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                       {"distance_m", view.distance_m},
                       {"field_of_view_deg", view.field_of_view_rad * deg},
                       {"pivot_m", {view.pivot_m.x(), view.pivot_m.y(), view.pivot_m.z()}}};
+    if (report.corridor.now) json["corridor"] = corridor_json(report);
     json["sets"] = {{"closed", report.sets_closed},
                     {"complete", report.sets_complete},
                     {"partial", report.sets_closed - report.sets_complete},
@@ -300,10 +331,10 @@ std::string to_text(const LiveReport& report) {
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));
     text += fmt::format(
         "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
-        "newer one, {} dropped\n\n",
+        "newer one, {} dropped\n",
         report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
         report.instants_prepared, report.sets_superseded, report.sets_dropped);
-    text += rig_tables(report);
+    text += corridor_text(report) + '\n' + rig_tables(report);
     if (!report.rigs.empty()) text += counters_legend() + '\n';
     text += fmt::format("signal at the end: {}\n", title_of(report.signal));
     text += rig_remarks(report);

@@ -11,6 +11,8 @@
 #include "common/receive/signal_state.h"
 #include "common/receive/stage_receiver.h"
 #include "host_app/control/hid/jog_deck.h"
+#include "host_app/flight/corridor_books.h"
+#include "host_app/flight/move_coverage.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/programme/programme.h"
@@ -35,6 +37,9 @@ struct LiveReport {
     std::string synthesiser, renderer;
     SignalState signal = SignalState::no_signal;  ///< at the end
     OrbitView view;                               ///< of the last picture
+    CorridorBooks corridor;
+    bool free_flight = false;              ///< hands may leave the corridor
+    std::vector<UncoveredPart> uncovered;  ///< of the planned move
     ProgrammeBooks programme;
     int faults = 0;  ///< renderers and preparers that were made anew
 

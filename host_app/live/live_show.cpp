@@ -73,9 +73,11 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .harmonise = settings.harmonise,
                  .colours = settings.colours},
                 std::move(feed), instants_context_),
+      stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
-          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0}, deck,
-          [this](int number) { return rig_view(number); }, [this] { return framing(); }),
+          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0, settings.free_flight}, deck,
+          [this](int number) { return rig_view(number); }, [this] { return framing(); },
+          [this] { return corridor_now(); }),
       programme_({.format = settings.format,
                   .rate_hz = settings.rate_hz,
                   .pulse_rate_hz = settings.pulse_rate_hz,
@@ -154,8 +156,18 @@ std::optional<StageFraming> LiveShow::framing() {
     }
     const std::optional<StageFraming> framing = frame_stage(rigs);
     // Once, since nobody asks again after the answer.
-    if (framing) name_assumed_places(*ready->set);
+    if (framing) {
+        name_assumed_places(*ready->set);
+        stage_corridor_.begin(framing->extent);
+    }
     return framing;
+}
+
+std::shared_ptr<const Corridor> LiveShow::corridor_now() {
+    if (const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        ready && ready->is_live)
+        stage_corridor_.look(*ready->set);
+    return stage_corridor_.now();
 }
 
 std::optional<OrbitView> LiveShow::rig_view(int number) const {
@@ -188,6 +200,8 @@ LiveReport LiveShow::report() const {
     report.view = state.view;
     report.renderer = renderer_;
     report.signal = signal_of(status, state);
+    report.corridor = controls_.lines().corridor;
+    report.free_flight = settings_.free_flight;
     report.instants_prepared = instants.prepared;
     report.prepare_ms = instants.prepare_ms;
     report.rig_steps = instants.rig_steps;

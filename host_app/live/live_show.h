@@ -11,6 +11,7 @@
 #include "common/gl/egl_context.h"
 #include "host_app/control/flight_controls.h"
 #include "host_app/live/live_report.h"
+#include "host_app/live/stage_corridor.h"
 #include "host_app/output/film_sink.h"
 #include "host_app/programme/programme.h"
 #include "host_app/sets/stage_feed.h"
@@ -26,6 +27,7 @@ struct LiveSettings {
     QualityWish quality;
     bool source_map = false;                    ///< shown at first
     std::filesystem::path film, contact_sheet;  ///< empty: none
+    bool free_flight = false;                   ///< hands may leave the corridor
     bool harmonise = true;                      ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
@@ -57,6 +59,9 @@ class LiveShow {
 
     const LiveSettings& settings() const { return settings_; }
     FlightControls& controls() { return controls_; }
+    const FlightControls& controls() const { return controls_; }
+    /// Null until the stage is known.
+    std::shared_ptr<const Corridor> corridor() const { return stage_corridor_.now(); }
     ProgrammeState state() const { return programme_.state(); }
     ProgrammeBooks books() const { return programme_.books(); }
     InstantThread::Books instant_books() const { return instants_.books(); }
@@ -67,6 +72,7 @@ class LiveShow {
     std::optional<OrbitView> rig_view(int number) const;
     /// Once an instant is ready.
     std::optional<StageFraming> framing();
+    std::shared_ptr<const Corridor> corridor_now();
     SignalState signal_of(const ReceiverStatus& status, const ProgrammeState& state) const;
 
     LiveSettings settings_;
@@ -75,6 +81,7 @@ class LiveShow {
     std::string renderer_;
     EglContext instants_context_;
     InstantThread instants_;
+    StageCorridor stage_corridor_;
     FlightControls controls_;
     Programme programme_;
     const FilmSink* film_ = nullptr;              ///< owned by the programme

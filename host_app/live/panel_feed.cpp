@@ -146,6 +146,7 @@ PanelState PanelFeed::state(LiveShow& show) {
     const FlightControls::Lines lines = show.controls().lines();
     state_.move_progress = lines.move_progress;
     state_.wheel = lines.wheel;
+    state_.coverage = lines.corridor.now;
     return state_;
 }
 

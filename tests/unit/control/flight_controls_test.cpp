@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/ring_of_rigs.h"
 #include "tests/unit/hid/scripted_port.h"
 
 namespace vantage {
@@ -223,6 +224,40 @@ TEST(FlightControlsWithoutADeck, FlyThePlannedMove) {
     EXPECT_NEAR(*controls.lines().move_progress, 0.5, 1e-9);
     EXPECT_NEAR(controls.step(3).view.azimuth_rad, 0.4, 1e-9);
     EXPECT_EQ(controls.lines().wheel, "");
+}
+
+/// Hands that turn the camera on and on, with what two rigs at 10 degrees cover.
+FlightControls::Lines lines_after_a_turn(bool free_flight, double turn_deg) {
+    FlightPlan plan;
+    plan.start = view_at(0);
+    const auto corridor = corridor_of({-10, 10});
+    FlightControls controls(
+        {.plan = plan, .free_flight = free_flight}, nullptr, [](int) { return std::nullopt; }, {},
+        [&] { return corridor; });
+    EXPECT_FALSE(controls.lines().corridor.now) << "before the first step";
+    for (int i = 1; i <= 500; ++i) {
+        controls.hands().put({.orbit_azimuth_rad = turn_deg / 500 * M_PI / 180}, {});
+        controls.step(0.02 * i);
+    }
+    return controls.lines();
+}
+
+TEST(FlightControlsInACorridor, StandAtItsEndAndSayThatTheyAreAtItsEdge) {
+    const CorridorBooks books = lines_after_a_turn(false, 180).corridor;
+    ASSERT_TRUE(books.now);
+    EXPECT_GE(books.now->share, Corridor::end);
+    EXPECT_EQ(Corridor::place_of(books.now->share), CorridorPlace::edge);
+    EXPECT_GT(books.edge_s, 1);
+    EXPECT_EQ(books.beyond_s, 0);
+}
+
+TEST(FlightControlsInACorridor, FreeFlightGoesBeyondAndSaysSo) {
+    const CorridorBooks books = lines_after_a_turn(true, 120).corridor;
+    ASSERT_TRUE(books.now);
+    EXPECT_EQ(Corridor::place_of(books.now->share), CorridorPlace::beyond);
+    EXPECT_EQ(books.now->loss, CoverageLoss::aside);
+    EXPECT_GT(books.beyond_s, 1);
+    EXPECT_EQ(books.least_share, books.now->share);
 }
 
 }  // namespace

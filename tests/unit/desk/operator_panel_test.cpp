@@ -160,5 +160,19 @@ TEST_F(OperatorScreen, DrawsWithNothingToShow) {
     EXPECT_GT(most, 200) << "the title";
 }
 
+TEST_F(OperatorScreen, WarnsBesideTheSignalWhereTheRigsCoverTooLittle) {
+    const cv::Rect bar(0, 0, width_px, 33);
+    state_.coverage = Coverage{.share = 0.99};
+    const ColourImage inside = draw(state_);
+    state_.coverage = Coverage{.share = 0.75, .loss = CoverageLoss::aside};
+    const ColourImage edge = draw(state_);
+    state_.coverage = Coverage{.share = 0.3, .loss = CoverageLoss::aside};
+    const ColourImage beyond = draw(state_);
+    EXPECT_GT(differing(inside, edge, bar), 500);
+    EXPECT_GT(differing(edge, beyond, bar), 500);
+    const cv::Rect camera_panel(width_px - 250, 40, 250, 250);
+    EXPECT_GT(differing(inside, beyond, camera_panel), 100) << "with the reason";
+}
+
 }  // namespace
 }  // namespace vantage

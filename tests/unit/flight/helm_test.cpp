@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/ring_of_rigs.h"
+
 namespace vantage {
 namespace {
 
@@ -196,6 +198,26 @@ TEST(FlightInput, TwoHandsOnOneSwitchUndoEachOther) {
     a.add(b);
     EXPECT_FALSE(a.toggle_freeze);
     EXPECT_EQ(a.wheel_steps, 3);
+}
+
+TEST(HelmInACorridor, APlannedMoveIsNotHeldUp) {
+    Helm helm(view_at(0),
+              Move({{0, view_at(0), Easing::linear}, {4, view_at(120), Easing::linear}}, false));
+    helm.keep_within(corridor_of({-10, 10}));
+    for (int i = 0; i < 250; ++i) helm.advance(0.02);
+    EXPECT_NEAR(helm.view().azimuth_rad, view_at(120).azimuth_rad, 1e-9);
+}
+
+TEST(HelmInACorridor, IsKeptInItAfterTheStageIsKnown) {
+    Helm helm(view_at(0), std::nullopt);
+    const auto corridor = corridor_of({-10, 10});
+    helm.keep_within(corridor);
+    helm.settle({}, std::nullopt);
+    for (int i = 0; i < 500; ++i) {
+        helm.take({.orbit_azimuth_rad = 0.01}, [](int) { return std::nullopt; });
+        helm.advance(0.02);
+    }
+    EXPECT_GE(corridor->of(helm.view().camera()).share, Corridor::end);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/ring_of_rigs.h"
+
 namespace vantage {
 namespace {
 
@@ -93,6 +95,100 @@ TEST(OrbitCamera, StandsStillWhileNoTimePasses) {
     camera.orbit(1, 0);
     camera.advance(0);
     EXPECT_EQ(camera.view().azimuth_rad, 0);
+}
+
+constexpr double deg = M_PI / 180;
+
+/// Turns it by a wheel that is turned on and on, and gives how far it came a step.
+std::vector<double> steps_of_a_turning_hand(OrbitCamera& camera, int steps, double turn_deg) {
+    std::vector<double> way_deg;
+    for (int i = 0; i < steps; ++i) {
+        camera.orbit(turn_deg * deg, 0);
+        const double before_rad = camera.view().azimuth_rad;
+        camera.advance(0.02);
+        way_deg.push_back((camera.view().azimuth_rad - before_rad) / deg);
+    }
+    return way_deg;
+}
+
+TEST(OrbitCameraInACorridor, IsSlowedWithoutAJerkAndStandsAtItsEnd) {
+    const auto corridor = corridor_of({-10, 10});
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor);
+    const std::vector<double> way_deg = steps_of_a_turning_hand(camera, 500, 0.5);
+    for (std::size_t i = 20; i < way_deg.size(); ++i) {
+        EXPECT_LT(way_deg[i], way_deg[i - 1] + 0.02) << "step " << i;
+        EXPECT_GT(way_deg[i], way_deg[i - 1] - 0.1) << "step " << i << ": a jerk";
+    }
+    EXPECT_NEAR(way_deg.back(), 0, 0.01);
+    const double share = corridor->of(camera.view().camera()).share;
+    EXPECT_GE(share, Corridor::end);
+    EXPECT_LT(share, Corridor::end + 0.05);
+}
+
+TEST(OrbitCameraInACorridor, ComesBackAtOnceWhenTheHandTurnsBack) {
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor_of({-10, 10}));
+    steps_of_a_turning_hand(camera, 500, 2);
+    const std::vector<double> back_deg = steps_of_a_turning_hand(camera, 10, -2);
+    EXPECT_LT(back_deg.back(), -0.5);
+}
+
+TEST(OrbitCameraInACorridor, MovesFreelyAlongItsEnd) {
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor_of({-10, 10}));
+    steps_of_a_turning_hand(camera, 500, 0.5);
+    const double before_rad = camera.view().field_of_view_rad;
+    camera.zoom(0.3);
+    settle(camera);
+    EXPECT_NEAR(camera.view().field_of_view_rad, before_rad * std::exp(-0.3), 1e-6);
+}
+
+TEST(OrbitCameraInACorridor, DoesNotCrossTheEndInOneLongStep) {
+    const auto corridor = corridor_of({-10, 10});
+    OrbitCamera camera{view_at(50)};
+    camera.keep_within(corridor);
+    camera.orbit(M_PI / 2, 0);
+    camera.advance(1);
+    EXPECT_GE(corridor->of(camera.view().camera()).share, Corridor::end);
+}
+
+TEST(OrbitCameraInACorridor, FromBeyondGoesOnlyInwards) {
+    OrbitCamera camera{view_at(100)};
+    camera.keep_within(corridor_of({-10, 10}));
+    steps_of_a_turning_hand(camera, 100, 1);
+    EXPECT_NEAR(camera.view().azimuth_rad, 100 * deg, 1e-9);
+    steps_of_a_turning_hand(camera, 100, -1);
+    EXPECT_LT(camera.view().azimuth_rad, 70 * deg);
+}
+
+TEST(OrbitCameraInACorridor, FliesToAShotInsideItAcrossWhatNoRigCovers) {
+    const auto corridor = corridor_of({0, 180});
+    ASSERT_LT(corridor->of(view_at(90).camera()).share, Corridor::end);
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor);
+    camera.fly_to(view_at(179));
+    settle(camera);
+    EXPECT_NEAR(camera.view().azimuth_rad, 179 * deg, 1e-6);
+}
+
+TEST(OrbitCameraInACorridor, FliesOnlyToTheEndForAShotBeyondIt) {
+    const auto corridor = corridor_of({-10, 10});
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor);
+    camera.fly_to(view_at(120));
+    settle(camera);
+    EXPECT_GE(corridor->of(camera.view().camera()).share, Corridor::end);
+    EXPECT_GT(camera.view().azimuth_rad, 30 * deg);
+}
+
+TEST(OrbitCameraInACorridor, FliesAnywhereOnceItIsTakenAway) {
+    OrbitCamera camera{view_at(0)};
+    camera.keep_within(corridor_of({-10, 10}));
+    camera.keep_within(nullptr);
+    camera.orbit(2, 0);
+    settle(camera);
+    EXPECT_NEAR(camera.view().azimuth_rad, 2, 1e-6);
 }
 
 }  // namespace

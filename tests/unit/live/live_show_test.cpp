@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "host_app/live/corridor_watch.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/output/probed_film.h"
@@ -278,6 +279,48 @@ TEST_F(LiveShowTest, EndsAfterTheSecondsOfThePlan) {
     const LiveReport report = fly();
     EXPECT_GE(report.programme.ticks, 5u);
     EXPECT_LE(report.programme.ticks, 26u) << "of 40 ms";
+}
+
+TEST_F(LiveShowTest, KnowsTheCorridorOfTheRigsThatAreThere) {
+    plan_.frames = 3;
+    const LiveReport report = fly();
+    ASSERT_TRUE(show().corridor());
+    const nlohmann::ordered_json json = to_json(report);
+    EXPECT_EQ(json["corridor"]["place"], "inside");
+    EXPECT_GT(json["corridor"]["coverage"], 0.9);
+    EXPECT_EQ(json["corridor"]["beyond_s"], 0);
+    EXPECT_NE(to_text(report).find("the rigs cover "), std::string::npos);
+}
+
+TEST_F(LiveShowTest, WarnsWhereAPlannedMoveLeavesTheCorridorAndFliesIt) {
+    // The rigs' place again, about a point of the wall.
+    plan_.start = OrbitView{.pivot_m = {0, 1, 2.5}, .distance_m = 2, .field_of_view_rad = 1.0};
+    OrbitView aside = *plan_.start;
+    aside.azimuth_rad = 1.9;
+    plan_.move = Move({{0, *plan_.start, Easing::linear}, {1, aside, Easing::linear}}, false);
+    plan_.seconds = 2;
+    push(1);
+    ASSERT_TRUE(show().wait_for_rigs(30s, stop_));
+    show().start();
+    CorridorWatch watch(plan_);
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(wait_for([&] {
+        watch.tell(show());
+        return show().is_over();
+    }));
+    show().finish();
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find("the planned move is beyond what the rigs cover from 0."), std::string::npos)
+        << log;
+    EXPECT_NE(log.find("the camera is beyond what the rigs cover"), std::string::npos) << log;
+    EXPECT_EQ(log.find("the camera is beyond"), log.rfind("the camera is beyond")) << "once";
+    LiveReport report = show().report();
+    report.uncovered = watch.uncovered_parts();
+    EXPECT_NEAR(report.view.azimuth_rad, 1.9, 1e-6);
+    const nlohmann::ordered_json json = to_json(report);
+    EXPECT_EQ(json["corridor"]["place"], "beyond");
+    EXPECT_GT(json["corridor"]["beyond_s"], 0.2);
+    EXPECT_EQ(json["corridor"]["move_beyond"].at(0)["loss"], "aside");
 }
 
 TEST_F(LiveShowTest, HandsOnWhatTheFeedThrew) {
