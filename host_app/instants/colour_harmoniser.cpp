@@ -48,14 +48,14 @@ class Lookup {
   public:
     explicit Lookup(const DepthView& view)
         : view_(&view),
-          scale_x_(static_cast<double>(view.depth_m.cols) / view.colour.cols),
-          scale_y_(static_cast<double>(view.depth_m.rows) / view.colour.rows),
+          scale_x_(static_cast<double>(view.depth_size().width) / view.colour.cols),
+          scale_y_(static_cast<double>(view.depth_size().height) / view.colour.rows),
           K_(scaled_intrinsics(view.K, scale_x_, scale_y_)),
           ray_from_pixel_(K_.inverse()),
           camera_from_world_(view.world_from_camera.inverse()) {}
 
     Eigen::Vector3d centre() const { return view_->world_from_camera.translation(); }
-    cv::Size size() const { return view_->depth_m.size(); }
+    cv::Size size() const { return view_->depth_size(); }
 
     struct Sample {
         Eigen::Vector3d point;   ///< in the world
@@ -64,18 +64,19 @@ class Lookup {
     /// What is at a pixel of the depth map; nothing at an edge, where depth is unknown, or where
     /// the colour says nothing.
     std::optional<Sample> at(int x, int y) const {
-        const DepthImage& depth_m = view_->depth_m;
-        if (x < 1 || y < 1 || x >= depth_m.cols - 1 || y >= depth_m.rows - 1) return std::nullopt;
-        float nearest = depth_m(y, x), farthest = nearest;
+        if (x < 1 || y < 1 || x >= size().width - 1 || y >= size().height - 1) return std::nullopt;
+        const float here_m = view_->depth_m_at(x, y);
+        float nearest = here_m, farthest = nearest;
         for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
-                nearest = std::min(nearest, depth_m(y + dy, x + dx));
-                farthest = std::max(farthest, depth_m(y + dy, x + dx));
+                const float z_m = view_->depth_m_at(x + dx, y + dy);
+                nearest = std::min(nearest, z_m);
+                farthest = std::max(farthest, z_m);
             }
         if (!(nearest > 0) || farthest > smooth_ratio * nearest) return std::nullopt;
         const std::optional<Eigen::Vector3d> colour = colour_at(x, y);
         if (!colour) return std::nullopt;
-        const Eigen::Vector3d point = depth_m(y, x) * (ray_from_pixel_ * Eigen::Vector3d(x, y, 1));
+        const Eigen::Vector3d point = here_m * (ray_from_pixel_ * Eigen::Vector3d(x, y, 1));
         return Sample{view_->world_from_camera * point, *colour};
     }
 
@@ -89,7 +90,7 @@ class Lookup {
             return std::nullopt;
         const int x = cvRound(pixel.x()), y = cvRound(pixel.y());
         std::optional<Sample> here = at(x, y);
-        if (!here || std::abs(view_->depth_m(y, x) / point.z() - 1) > same_surface)
+        if (!here || std::abs(view_->depth_m_at(x, y) / point.z() - 1) > same_surface)
             return std::nullopt;
         return here;
     }
@@ -197,7 +198,7 @@ void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
     std::vector<Lookup> lookups;
     std::vector<Rig*> rigs;
     for (const DepthView& view : views) {
-        if (view.depth_m.empty() || view.colour.empty()) continue;
+        if (!view.has_depth() || view.colour.empty()) continue;
         lookups.emplace_back(view);
         rigs.push_back(&rigs_[view.name]);
         rigs.back()->samples = 0;

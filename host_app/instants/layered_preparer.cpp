@@ -5,10 +5,10 @@ namespace vantage {
 void LayeredPreparer::take(std::span<const DepthView> views, double /*dt_s*/) {
     auto instant = std::make_shared<Instant>();
     for (const DepthView& view : views) {
-        if (view.depth_m.empty() || view.colour.empty()) continue;
+        if (!view.has_depth() || view.colour.empty()) continue;
         const std::shared_ptr<RigSurface> source = surfaces_.take(), main = surfaces_.take(),
                                           boundary = surfaces_.take();
-        source->upload(view, corrector_);
+        source->upload(view, corrector_, uploader_);
         splitter_.split(*source, *main, *boundary);
         for (const auto& layer : {main, boundary}) triangles_.build(layer->grid(QuadGrid::fine));
         instant->rigs.push_back({main, boundary});

@@ -20,6 +20,7 @@ class LayeredPreparer final : public InstantPreparer {
   private:
     RecyclePool<RigSurface> surfaces_;
     std::unique_ptr<ColourCorrector> corrector_;
+    std::unique_ptr<DepthUploader> uploader_;
     LayerSplitter splitter_;
     TriangleBuilder triangles_;
     std::shared_ptr<const Instant> instant_ = std::make_shared<Instant>();

@@ -5,9 +5,9 @@ namespace vantage {
 void PlainPreparer::take(std::span<const DepthView> views, double /*dt_s*/) {
     auto instant = std::make_shared<Instant>();
     for (const DepthView& view : views) {
-        if (view.depth_m.empty() || view.colour.empty()) continue;
+        if (!view.has_depth() || view.colour.empty()) continue;
         const std::shared_ptr<RigSurface> surface = surfaces_.take();
-        surface->upload(view, corrector_);
+        surface->upload(view, corrector_, uploader_);
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})
             triangles_.build(surface->grid(grid));
         instant->rigs.push_back({surface});

@@ -18,6 +18,7 @@ class PlainPreparer final : public InstantPreparer {
   private:
     RecyclePool<RigSurface> surfaces_;
     std::unique_ptr<ColourCorrector> corrector_;
+    std::unique_ptr<DepthUploader> uploader_;
     TriangleBuilder triangles_;
     std::shared_ptr<const Instant> instant_ = std::make_shared<Instant>();
 };

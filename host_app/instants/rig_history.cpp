@@ -15,8 +15,8 @@ void RigHistory::forget() {
 
 void RigHistory::upload(const DepthView& view, double dt_s) {
     const bool is_same_camera =
-        colour_ && depth_ && colour_->size() == view.colour.size() &&
-        depth_->size() == view.depth_m.size() && camera_.K == view.K &&
+        colour_ && colour_->size() == view.colour.size() && depth().size() == view.depth_size() &&
+        camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
     dt_s_ = dt_s;
     if (!is_same_camera) forget();
@@ -28,21 +28,18 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     if (!is_depth_steady_) steady_.forget();
     is_colour_steady_ = is_depth_steady_ = false;
     camera_ = view;
-    camera_.colour.release();
-    camera_.depth_m.release();
+    camera_.release_pictures();
     if (!colour_ || colour_->size() != view.colour.size())
         colour_.emplace(TextureFormat::rgba8, view.colour.cols, view.colour.rows, Filter::linear);
-    if (!depth_ || depth_->size() != view.depth_m.size())
-        depth_.emplace(TextureFormat::r32f, view.depth_m.cols, view.depth_m.rows);
     upload_colour(view, corrector_, *colour_);
-    depth_->upload(view.depth_m);
+    upload_depth(view, uploader_, depth_);
     samples_ = surface_samples(view);
 }
 
 Eigen::Matrix3d RigHistory::K_depth() const {
     return scaled_intrinsics(camera_.K,
-                             static_cast<double>(depth_->width_px()) / colour_->width_px(),
-                             static_cast<double>(depth_->height_px()) / colour_->height_px());
+                             static_cast<double>(depth().width_px()) / colour_->width_px(),
+                             static_cast<double>(depth().height_px()) / colour_->height_px());
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host_app/instants/depth_uploader.h"
 #include "host_app/instants/rig_surface.h"
 #include "host_app/instants/steady_colour.h"
 
@@ -25,7 +26,7 @@ class RigHistory {
 
     /// Camera, name and sizes as in the last upload; its pictures are empty.
     const DepthView& camera() const { return camera_; }
-    const Texture& depth() const { return *depth_; }  ///< r32f, metres, 0 = unknown
+    const Texture& depth() const { return depth_.texture(); }  ///< r32f, metres, 0 = unknown
     /// rgba8: fresh_colour(), without mip levels, or, trilinear, what finish_colour() saw drawn of
     /// it since.
     const Texture& colour() const {
@@ -43,11 +44,11 @@ class RigHistory {
     /// depth() filtered along time, with a second channel of the filter's own: what
     /// finish_steady_depth() saw drawn last into next_steady_target(). depth() itself where nothing
     /// was.
-    const Texture& steady_depth() const { return is_depth_steady_ ? steady_.texture() : *depth_; }
+    const Texture& steady_depth() const { return is_depth_steady_ ? steady_.texture() : depth(); }
     bool has_steady_before() const { return steady_.is_drawn(); }
     /// Precondition: has_steady_before().
     const Texture& steady_before() const { return steady_.texture(); }
-    const Framebuffer& next_steady_target() { return steady_.next_target(depth_->size()); }
+    const Framebuffer& next_steady_target() { return steady_.next_target(depth().size()); }
     void finish_steady_depth() {
         steady_.finish();
         is_depth_steady_ = true;
@@ -92,8 +93,10 @@ class RigHistory {
   private:
     DepthView camera_;
     double dt_s_ = nominal_dt_s;
-    std::optional<Texture> colour_, depth_;
+    std::optional<Texture> colour_;
+    DrawnTexture depth_{TextureFormat::r32f};
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
+    std::unique_ptr<DepthUploader> uploader_;     ///< likewise
     DrawnInTurn steady_{TextureFormat::rg32f};
     SteadyColour steady_colour_;
     bool is_colour_steady_ = false, is_depth_steady_ = false;

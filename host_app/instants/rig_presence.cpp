@@ -22,7 +22,7 @@ std::vector<RigHistory*> upload_with_fades(std::span<const DepthView> views, dou
     const bool is_first = before.empty();
     std::vector<RigHistory*> uploaded;
     for (const DepthView& view : views) {
-        if (view.depth_m.empty() || view.colour.empty()) continue;
+        if (!view.has_depth() || view.colour.empty()) continue;
         const auto found = known(view);
         if (found != before.end()) {
             rigs.push_back(std::move(*found));

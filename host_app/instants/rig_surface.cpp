@@ -29,8 +29,7 @@ void upload_colour(const DepthView& view, std::unique_ptr<ColourCorrector>& corr
 void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
                        const SurfaceSamples& samples) {
     camera_ = camera;
-    camera_.colour.release();
-    camera_.depth_m.release();
+    camera_.release_pictures();
     samples_ = samples;
     is_settled_ = has_rims_ = false;
     has_fine_grid_ = true;
@@ -49,9 +48,10 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     grid_size_ = depth_size;
 }
 
-void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector) {
-    begin(view, view.colour.size(), view.depth_m.size(), surface_samples(view));
-    drawn_.texture().upload(view.depth_m);
+void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
+                        std::unique_ptr<DepthUploader>& uploader) {
+    begin(view, view.colour.size(), view.depth_size(), surface_samples(view));
+    upload_depth(view, uploader, drawn_);
     upload_colour(view, corrector, colour_.texture());
     colour_.generate_mipmaps();
 }

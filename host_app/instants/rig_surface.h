@@ -6,6 +6,7 @@
 
 #include "common/colour/colour_corrector.h"
 #include "host_app/instants/depth_grid.h"
+#include "host_app/instants/depth_uploader.h"
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/drawn_texture.h"
 #include "host_app/instants/rig_plate.h"
@@ -52,7 +53,8 @@ class RigSurface {
     void begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
                const SurfaceSamples& samples);
     /// The view as it came. Precondition: it has depth.
-    void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector);
+    void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
+                std::unique_ptr<DepthUploader>& uploader);
     const Framebuffer& depth_target() const { return drawn_.target(); }
     /// What was drawn into depth_target().
     const Texture& fresh_depth() const { return drawn_.texture(); }

@@ -15,18 +15,18 @@ constexpr int samples_a_side = 12;
 
 SurfaceSamples surface_samples(const DepthView& view) {
     SurfaceSamples samples;
-    const DepthImage& depth_m = view.depth_m;
-    if (depth_m.empty() || view.colour.empty()) return samples;
+    if (!view.has_depth() || view.colour.empty()) return samples;
+    const cv::Size size = view.depth_size();
     const Eigen::Matrix3d ray_from_pixel =
-        scaled_intrinsics(view.K, static_cast<double>(depth_m.cols) / view.colour.cols,
-                          static_cast<double>(depth_m.rows) / view.colour.rows)
+        scaled_intrinsics(view.K, static_cast<double>(size.width) / view.colour.cols,
+                          static_cast<double>(size.height) / view.colour.rows)
             .inverse();
     std::vector<double> depths_m;
     for (int j = 0; j < samples_a_side; ++j)
         for (int i = 0; i < samples_a_side; ++i) {
-            const int x = (2 * i + 1) * depth_m.cols / (2 * samples_a_side);
-            const int y = (2 * j + 1) * depth_m.rows / (2 * samples_a_side);
-            const double z = depth_m(y, x);
+            const int x = (2 * i + 1) * size.width / (2 * samples_a_side);
+            const int y = (2 * j + 1) * size.height / (2 * samples_a_side);
+            const double z = view.depth_m_at(x, y);
             if (!(z > 0)) continue;
             depths_m.push_back(z);
             const Eigen::Vector3d point = z * (ray_from_pixel * Eigen::Vector3d(x, y, 1));

@@ -14,6 +14,7 @@
 #include "common/gl/limits.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "host_app/instants/depth_views.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/cpu_time.h"
 
@@ -27,12 +28,17 @@ cv::Size size_of(const std::string& text) {
     return {width, height};
 }
 
-StageCamera camera_at(double azimuth_deg, cv::Size size) {
+struct BenchRig {
+    StageCamera film;  ///< the rectified left one
+    RectifiedStereo geometry;
+};
+
+BenchRig rig_at(double azimuth_deg, cv::Size size) {
     const StereoCalibration rig =
         ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
                            .width_px = size.width,
                            .height_px = size.height});
-    return {size.width, size.height, rig.left.K(), rig.world_from_left};
+    return {{size.width, size.height, rig.left.K(), rig.world_from_left}, rig.rectified};
 }
 
 /// The median of some runs.
@@ -57,8 +63,16 @@ struct Cost {
 struct Options {
     std::vector<std::size_t> rigs{1, 2, 4, 8, 16};
     std::string rig_size = "320x240", output_size = "480x270", synthesiser = default_synthesiser;
+    double rate_hz = 0;  ///< 0: not asked
     int repeats = 5;
 };
+
+/// The best level of which the median fits into a tick.
+std::string level_within(double tick_ms, const std::vector<Cost>& levels) {
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        if (Cost::median(levels[level].wall_ms) <= tick_ms) return std::to_string(level);
+    return "none";
+}
 
 std::string table(const Options& options) {
     EglContext context;
@@ -75,8 +89,10 @@ std::string table(const Options& options) {
         text += fmt::format(" prepare {} |", level.rank);
     for (const RenderLevel& level : render_levels())
         text += fmt::format(" render {} |", level.rank);
+    if (options.rate_hz > 0) text += fmt::format(" renders at {:g} Hz |", options.rate_hz);
     text += "\n| --- | --- |";
-    for (std::size_t i = 0; i < prepare_levels().size() + render_levels().size(); ++i)
+    const std::size_t asked = options.rate_hz > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < prepare_levels().size() + render_levels().size() + asked; ++i)
         text += " --- |";
     text += "\n";
 
@@ -85,23 +101,25 @@ std::string table(const Options& options) {
     std::vector<std::vector<DepthView>> films(instants);
     for (int i = 0; i < instants; ++i)
         for (std::size_t rig = 0; rig < most; ++rig) {
-            const StageCamera camera = camera_at(
+            const BenchRig camera = rig_at(
                 20.0 * (static_cast<double>(rig) - 0.5 * static_cast<double>(most - 1)), rig_size);
-            StageRendering seen = stage.render(camera, std::chrono::milliseconds(2000 + 100 * i));
-            films[static_cast<std::size_t>(i)].push_back(
-                {.name = std::to_string(rig),
-                 .colour = seen.colour,
-                 .K = camera.K,
-                 .world_from_camera = camera.world_from_camera,
-                 .depth_m = seen.depth_m,
-                 .baseline_m = VirtualRigPlacement{}.baseline_m});
+            StageRendering seen =
+                stage.render(camera.film, std::chrono::milliseconds(2000 + 100 * i));
+            // As it would have come over the wire.
+            RigFrame frame;
+            frame.rig = std::to_string(rig);
+            frame.geometry = camera.geometry;
+            frame.world_from_camera = camera.film.world_from_camera;
+            frame.colour = seen.colour;
+            frame.disparity = disparity_from_depth(seen.depth_m, camera.geometry);
+            films[static_cast<std::size_t>(i)].push_back(depth_view_of(frame));
         }
     for (const std::size_t rigs : options.rigs) {
         const auto preparer = entry.make_preparer(shaders);
         const auto renderer = entry.make_renderer(shaders);
         const auto view_at = [&](double scale) {
             const cv::Size size(cvRound(output.width * scale), cvRound(output.height * scale));
-            const StageCamera camera = camera_at(3, size);
+            const StageCamera camera = rig_at(3, size).film;
             return VirtualView{size.width, size.height, camera.K, camera.world_from_camera};
         };
         Cost take;
@@ -129,6 +147,8 @@ std::string table(const Options& options) {
         text += fmt::format("| {} | {} |", rigs, take.text());
         for (const Cost& cost : prepare) text += " " + cost.text() + " |";
         for (const Cost& cost : render) text += " " + cost.text() + " |";
+        if (options.rate_hz > 0)
+            text += fmt::format(" {} |", level_within(1000 / options.rate_hz, render));
         text += "\n";
     }
     return text;
@@ -144,7 +164,11 @@ int main(int argc, char** argv) {
     app.add_option("--rig-size", options.rig_size, "Of colour and depth");
     app.add_option("--size", options.output_size, "Of the picture");
     app.add_option("--synth", options.synthesiser, "The synthesiser");
-    app.add_option("--repeats", options.repeats)->check(CLI::Range(1, 1000));
+    app.add_option("--rate", options.rate_hz,
+                   "Pictures a second: says the best level whose rendering fits into a tick")
+        ->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--repeats", options.repeats, "Of which the medians are taken")
+        ->check(CLI::Range(1, 1000));
     CLI11_PARSE(app, argc, argv);
     try {
         std::cout << vantage::table(options);

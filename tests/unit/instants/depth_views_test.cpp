@@ -17,23 +17,21 @@ RectifiedStereo geometry() {
     return g;
 }
 
-TEST(DepthFromDisparity, AgreesWithTheGeometryAtEveryStep) {
-    DisparityImage disparity(46, 62);
-    for (int i = 0; i < 46 * 62; ++i) disparity(i / 62, i % 62) = static_cast<unsigned short>(i);
-    const DepthImage depth_m = depth_from_disparity(disparity, geometry());
-    for (int y = 0; y < 46; ++y)
-        for (int x = 0; x < 62; ++x) {
-            const int steps = disparity(y, x);
-            const double expected = steps == 0 ? 0 : geometry().depth_m(steps / 32.0);
-            EXPECT_NEAR(depth_m(y, x), expected, 1e-5 * std::max(1.0, expected)) << steps;
-        }
+TEST(DisparityScale, AgreesWithTheGeometryAtEveryStep) {
+    const DisparityScale scale(geometry(), 62);
+    EXPECT_EQ(scale.depth_m(0), 0) << "unknown";
+    EXPECT_EQ(scale.depth_m(2 * 32), 0) << "at infinity";
+    EXPECT_EQ(scale.depth_m(1 * 32), 0) << "beyond it";
+    for (int steps = 2 * 32 + 1; steps < 65536; ++steps) {
+        const double expected = geometry().depth_m(steps / 32.0);
+        EXPECT_NEAR(scale.depth_m(static_cast<std::uint16_t>(steps)), expected,
+                    1e-5 * std::max(1.0, expected))
+            << steps;
+    }
 }
 
-TEST(DepthFromDisparity, BringsASmallerMapToTheColoursPixels) {
-    const DisparityImage half(23, 31, static_cast<unsigned short>(5 * 32));
-    const DepthImage depth_m = depth_from_disparity(half, geometry());
-    ASSERT_EQ(depth_m.size(), half.size());
-    EXPECT_NEAR(depth_m(7, 9), geometry().depth_m(10), 1e-6);
+TEST(DisparityScale, BringsASmallerMapToTheColoursPixels) {
+    EXPECT_NEAR(DisparityScale(geometry(), 31).depth_m(5 * 32), geometry().depth_m(10), 1e-6);
 }
 
 TEST(DepthViewOf, TakesOverTheFramesGeometryAndSharesItsPicture) {
@@ -50,7 +48,9 @@ TEST(DepthViewOf, TakesOverTheFramesGeometryAndSharesItsPicture) {
     EXPECT_EQ(view.world_from_camera.translation(), Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(view.baseline_m, 0.1);
     EXPECT_EQ(view.doffs_px, -2);
-    EXPECT_NEAR(view.depth_m(0, 0), 0.75, 1e-6);
+    EXPECT_EQ(view.disparity.data, frame.disparity.data);
+    EXPECT_EQ(view.depth_size(), cv::Size(62, 46));
+    EXPECT_NEAR(view.depth_m_at(0, 0), 0.75, 1e-6);
 }
 
 }  // namespace
