@@ -124,10 +124,13 @@ endfunction()
 add_custom_target(vantage_unit_tests)
 add_custom_target(vantage_thread_tests)
 add_custom_target(vantage_arm64_tests)
+add_custom_target(vantage_gl_tests)
+file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
-# those that only the latter does, `e2e` those that run alone. A test is a process, but for those of TOGETHER: these
+# those that only the latter does, `e2e` those that run alone, `gl` those that draw: tests/bench/gpu_day.sh
+# runs them on a GPU, by the names in build/PRESET/gl_tests. A test is a process, but for those of TOGETHER: these
 # suites make something costly once for all their tests, and each is a process and one test of CTest.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;TOGETHER" ${ARGN})
@@ -145,6 +148,10 @@ function(vantage_unit_test name)
   endif()
   if(ARG_LABELS MATCHES "threads|arm64")
     add_dependencies(vantage_arm64_tests ${name})
+  endif()
+  if("gl" IN_LIST ARG_LABELS)
+    add_dependencies(vantage_gl_tests ${name})
+    file(APPEND ${CMAKE_BINARY_DIR}/gl_tests ${name}\n)
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
   string(JOIN "-" labels unit ${ARG_LABELS})

@@ -17,6 +17,7 @@
 
 #include "common/base/error.h"
 #include "common/gl/egl_context.h"
+#include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
 #include "common/image/colour_map.h"
 #include "common/image/image_file.h"
@@ -289,6 +290,27 @@ void print_memory_of(MatchPreset preset, const std::string& matcher) {
     fmt::print("| {:.0f} | {:.0f} | {:.0f} |\n", gl, grown, counted_already ? grown : gl + grown);
 }
 
+/// What the matching takes on the GPU, at the sizes of a demo's rig and of a global-shutter camera.
+void print_gpu_times(const ShaderLibrary& library, const std::string& matcher, int repeats) {
+    fmt::print(
+        "GPU time, ms, median of {}; of a generated scene\n\n"
+        "| size | quality | balanced | fast |\n| --- | --- | --- | --- |\n",
+        repeats);
+    for (const RandomSceneLook& look : {RandomSceneLook{.width_px = 960, .height_px = 720},
+                                        RandomSceneLook{.width_px = 1456, .height_px = 1088}}) {
+        const StereoScene scene = make_random_scene(first_held_out_seed, look, {});
+        fmt::print("| {}x{}x{} |", scene.left.cols, scene.left.rows, scene.disparities);
+        for (const Preset& preset : presets) {
+            Bench bench(library, matcher, preset.preset, scene.left.size(), scene.disparities);
+            bench.upload(scene);
+            bench.run();
+            fmt::print(" {:.2f} |", median_gpu_ms(repeats, [&] { bench.run(); }));
+            std::fflush(stdout);
+        }
+        fmt::print("\n");
+    }
+}
+
 void print_memory(const std::string& matcher) {
     fmt::print(
         "| memory at 1456x1088x128 | GL objects, MB | resident growth, MB | together, each byte "
@@ -310,7 +332,7 @@ int run(int argc, char** argv) {
     std::string data = data_folder().value_or("").string(), pictures, matcher, only, memory_of;
     int repeats = 11, random_scenes = 6;
     std::uint64_t first_seed = first_held_out_seed;
-    bool no_times = false;
+    bool no_times = false, gpu_times = false;
     std::string document, stage_picture;
     app.add_option("--write", document, "Markdown file whose tables are written anew");
     app.add_option("--stage-picture", stage_picture,
@@ -324,6 +346,7 @@ int run(int argc, char** argv) {
     app.add_option("--random-scenes", random_scenes, "generated scenes to judge as well");
     app.add_option("--first-seed", first_seed, "of the generated scenes");
     app.add_flag("--quality-only", no_times, "leave out times, memory and robustness");
+    app.add_flag("--gpu-times", gpu_times, "print only what matching takes on the GPU");
     app.add_option("--memory-of", memory_of, "print only this preset's memory, as a row's end");
     CLI11_PARSE(app, argc, argv);
     if (!memory_of.empty()) {
@@ -337,6 +360,11 @@ int run(int argc, char** argv) {
     cv::setNumThreads(1);
     const EglContext context;
     const ShaderLibrary library;
+    if (gpu_times) {
+        fmt::print("{}\n\n", GlInfo::query().renderer);
+        print_gpu_times(library, matcher, repeats);
+        return 0;
+    }
     std::optional<PrintedText> printed;
     if (!document.empty()) printed.emplace();
     const auto write_document = [&] {

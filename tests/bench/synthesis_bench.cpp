@@ -232,13 +232,14 @@ class Bench {
 int run(int argc, char** argv) {
     CLI::App app("Quality and time of the synthesisers");
     std::string document, picture;
-    bool without_times = false;
+    bool without_times = false, stage_only = false;
     app.add_option("--write", document, "Markdown file whose tables are written anew");
     app.add_option("--picture", picture, "Comparison picture to write (.jpg or .png)");
     app.add_flag("--without-times", without_times, "Quality only");
+    app.add_flag("--stage-only", stage_only, "Of the virtual stage, without real pictures");
     CLI11_PARSE(app, argc, argv);
     Bench bench;
-    if (const auto data = data_folder()) bench.held_out_views(*data);
+    if (const auto data = data_folder(); data && !stage_only) bench.held_out_views(*data);
     bench.stage_views();
     bench.own_matching();
     if (!without_times) bench.times();
