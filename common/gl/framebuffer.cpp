@@ -43,45 +43,61 @@ void Framebuffer::bind() const {
     glViewport(0, 0, size_.width, size_.height);
 }
 
-void Framebuffer::read(int target, cv::Mat& image) const {
+namespace {
+
+/// What the driver gives of the target that is bound for reading.
+PixelLayout readable_layout(TextureFormat format) {
+    const TextureFormatInfo info = format_info(format);
+    GLint native_format = 0, native_type = 0;
+    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &native_format);
+    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &native_type);
+    if (static_cast<GLenum>(native_format) == info.format &&
+        static_cast<GLenum>(native_type) == info.type)
+        return {info.format, info.type, info.cv_type};
+    // ES promises only four-channel reads: RGBA8, RGBA_INTEGER 32-bit, RGBA float.
+    const int depth = CV_MAT_DEPTH(info.cv_type);
+    if (depth == CV_32F || depth == CV_16F) return {GL_RGBA, GL_FLOAT, CV_32FC4};
+    if (info.format == GL_RED_INTEGER || info.format == GL_RG_INTEGER ||
+        info.format == GL_RGBA_INTEGER)
+        return {GL_RGBA_INTEGER, GL_UNSIGNED_INT, CV_32SC4};
+    return {GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4};
+}
+
+}  // namespace
+
+cv::Mat in_format(const cv::Mat& pixels, TextureFormat format) {
+    const int type = format_info(format).cv_type;
+    if (pixels.type() == type) return pixels;
+    const int channels = CV_MAT_CN(type);
+    cv::Mat narrow(pixels.size(), CV_MAKETYPE(pixels.depth(), channels));
+    const int pairs[] = {0, 0, 1, 1, 2, 2, 3, 3};
+    cv::mixChannels(&pixels, 1, &narrow, 1, pairs, static_cast<std::size_t>(channels));
+    cv::Mat image;
+    narrow.convertTo(image, CV_MAT_DEPTH(type));
+    return image;
+}
+
+void Framebuffer::read_with(int target, const std::function<void(const PixelLayout&)>& read) const {
     CV_Assert(target >= 0 && target < colour_targets_);
-    const TextureFormatInfo info = format_info(formats_[target]);
-    CV_Assert(image.type() == info.cv_type && image.size() == size_);
     GLint previous = 0;
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &previous);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
     glReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(target));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-
-    GLint native_format = 0, native_type = 0;
-    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &native_format);
-    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &native_type);
-    if (static_cast<GLenum>(native_format) == info.format &&
-        static_cast<GLenum>(native_type) == info.type) {
-        cv::Mat packed = image.isContinuous() ? image : cv::Mat(size_, info.cv_type);
-        glReadPixels(0, 0, size_.width, size_.height, info.format, info.type, packed.data);
-        if (packed.data != image.data) packed.copyTo(image);
-    } else {
-        // ES promises only four-channel reads: RGBA8, RGBA_INTEGER 32-bit, RGBA float. Read wide,
-        // keep our channels.
-        const int depth = CV_MAT_DEPTH(info.cv_type);
-        const bool is_float = depth == CV_32F || depth == CV_16F;
-        const bool is_integer = info.format == GL_RED_INTEGER || info.format == GL_RG_INTEGER ||
-                                info.format == GL_RGBA_INTEGER;
-        const GLenum wide_format = is_integer ? GL_RGBA_INTEGER : GL_RGBA;
-        const GLenum wide_type = is_float     ? GL_FLOAT
-                                 : is_integer ? GL_UNSIGNED_INT
-                                              : GL_UNSIGNED_BYTE;
-        cv::Mat wide(size_, is_float ? CV_32FC4 : is_integer ? CV_32SC4 : CV_8UC4);
-        glReadPixels(0, 0, size_.width, size_.height, wide_format, wide_type, wide.data);
-        const int channels = CV_MAT_CN(info.cv_type);
-        cv::Mat narrow(size_, CV_MAKETYPE(wide.depth(), channels));
-        const int pairs[] = {0, 0, 1, 1, 2, 2, 3, 3};
-        cv::mixChannels(&wide, 1, &narrow, 1, pairs, static_cast<std::size_t>(channels));
-        narrow.convertTo(image, depth);
-    }
+    read(readable_layout(formats_[target]));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(previous));
     check_gl("reading a picture back");
+}
+
+void Framebuffer::read(int target, cv::Mat& image) const {
+    CV_Assert(target >= 0 && target < colour_targets_ && image.size() == size_ &&
+              image.type() == format_info(formats_[target]).cv_type);
+    read_with(target, [&](const PixelLayout& layout) {
+        const bool directly = image.isContinuous() && image.type() == layout.cv_type;
+        cv::Mat pixels = directly ? image : cv::Mat(size_, layout.cv_type);
+        glReadPixels(0, 0, size_.width, size_.height, layout.format, layout.type, pixels.data);
+        if (!directly) in_format(pixels, formats_[target]).copyTo(image);
+    });
 }
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 
 #include <GLES3/gl31.h>
@@ -11,6 +12,14 @@
 namespace vantage {
 
 inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+
+/// Pixels as a driver reads them back; their channels may be more and wider than the texture's.
+struct PixelLayout {
+    GLenum format = 0, type = 0;
+    int cv_type = 0;
+};
+/// Pixels of such a layout as the format's own cv_type; shared where they are that.
+cv::Mat in_format(const cv::Mat& pixels, TextureFormat format);
 
 /// Draws into one to four textures of one size, with an optional depth texture. The textures must
 /// outlive it.
@@ -27,6 +36,10 @@ class Framebuffer {
     /// Reads one colour target back into `image` (of the texture's size and cv_type; rows top-down
     /// as drawn). The previous framebuffer binding is restored. Waits for the GPU.
     void read(int target, cv::Mat& image) const;
+
+    /// For those that read on their own: called with the target bound for reading and with what
+    /// glReadPixels gives of it.
+    void read_with(int target, const std::function<void(const PixelLayout&)>& read) const;
 
     cv::Size size() const { return size_; }
     GLuint name() const { return handle_.name(); }

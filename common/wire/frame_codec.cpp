@@ -124,7 +124,37 @@ void check_payload(std::string_view what, bool expected, std::size_t bytes, std:
              raw_bytes + payload_slack_bytes);
 }
 
+int checked_quality(int jpeg_quality) {
+    if (jpeg_quality < 0 || jpeg_quality > 100)
+        fail("jpeg_quality = {} is outside 0..100; 0 is lossless colour", jpeg_quality);
+    return jpeg_quality;
+}
+
+float milliseconds_since(MonotonicTime start) {
+    return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
+}
+
 }  // namespace
+
+struct ColourPacker::Impl {
+    int jpeg_quality;
+    JpegEncoder jpeg;
+    LosslessColourEncoder lossless;
+};
+
+ColourPacker::ColourPacker(int jpeg_quality) : impl_(std::make_unique<Impl>()) {
+    impl_->jpeg_quality = checked_quality(jpeg_quality);
+}
+
+ColourPacker::~ColourPacker() = default;
+
+void ColourPacker::pack(RigFrame& frame) {
+    const MonotonicTime start = MonotonicClock::now();
+    frame.packed_colour = impl_->jpeg_quality == 0
+                              ? impl_->lossless.encode(frame.colour)
+                              : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+    frame.times.pack_ms = milliseconds_since(start);
+}
 
 struct FrameEncoder::Impl {
     int jpeg_quality;
@@ -134,9 +164,7 @@ struct FrameEncoder::Impl {
 };
 
 FrameEncoder::FrameEncoder(int jpeg_quality) : impl_(std::make_unique<Impl>()) {
-    if (jpeg_quality < 0 || jpeg_quality > 100)
-        fail("jpeg_quality = {} is outside 0..100; 0 is lossless colour", jpeg_quality);
-    impl_->jpeg_quality = jpeg_quality;
+    impl_->jpeg_quality = checked_quality(jpeg_quality);
 }
 
 FrameEncoder::~FrameEncoder() = default;
@@ -196,14 +224,17 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     PackedFrame packed;
     packed.trigger_index = frame.trigger_index;
     packed.is_raw_pair = is_raw_pair;
-    if (!frame.colour.empty())
+    const bool is_packed_ahead = !frame.packed_colour.empty();
+    if (is_packed_ahead)
+        packed.colour = std::move(frame.packed_colour);
+    else if (!frame.colour.empty())
         packed.colour = lossless ? impl_->lossless_colour.encode(frame.colour)
                                  : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
     if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.raw_right);
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 
-    const std::chrono::duration<float, std::milli> spent = MonotonicClock::now() - start;
-    frame.times.pack_ms = spent.count();
+    frame.times.pack_ms =
+        milliseconds_since(start) + (is_packed_ahead ? frame.times.pack_ms : 0.0f);
     frame.published = TaiClock::now();
     header.mutable_times()->set_pack_ms(frame.times.pack_ms);
     header.set_published_tai_ns(to_ns(frame.published));

@@ -20,6 +20,22 @@ struct PackedFrame {
                                        ///< raw pair: the right picture
 };
 
+/// Packs a view's colour ahead of the rest, on another thread than its FrameEncoder's. Not
+/// thread-safe.
+class ColourPacker {
+  public:
+    /// As the FrameEncoder's that packs the rest.
+    explicit ColourPacker(int jpeg_quality);
+    ~ColourPacker();
+
+    /// Sets frame.packed_colour and frame.times.pack_ms. Precondition: the frame has colour.
+    void pack(RigFrame& frame);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
 /// RigFrame to parts. Keeps its codecs between frames. Not thread-safe.
 class FrameEncoder {
   public:
@@ -27,8 +43,9 @@ class FrameEncoder {
     explicit FrameEncoder(int jpeg_quality);
     ~FrameEncoder();
 
-    /// Fills in frame.times.pack_ms and frame.published. Throws Error naming the first value that
-    /// may not travel: what it packs, every decoder takes.
+    /// Takes over packed_colour, where there is one. Fills in frame.times.pack_ms and
+    /// frame.published. Throws Error naming the first value that may not travel: what it packs,
+    /// every decoder takes.
     PackedFrame encode(RigFrame& frame);
 
   private:

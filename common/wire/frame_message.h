@@ -81,7 +81,9 @@ struct RigFrame {
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left
     bool place_is_assumed = false;  ///< as StereoCalibration's: nobody said where the rig stands
     ColourImage colour;             ///< rectified left picture, may be empty; or the raw left one
-    ColourImage raw_right;          ///< of a raw pair: the right one, of the same size
+    /// At a rig: colour as it travels, where a ColourPacker packed it ahead.
+    std::vector<std::byte> packed_colour;
+    ColourImage raw_right;  ///< of a raw pair: the right one, of the same size
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)
     float max_disparity_px = 0;

@@ -38,10 +38,14 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     const cv::Size full(format_.width_px, format_.height_px);
     const cv::Size size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
     const Texture& texture = render(instant, camera, size, level, false);
-    glFinish();
     check_gl("rendering the virtual view");
+    // The way back is under way before this thread waits for the picture.
+    const Fence rendered = Fence::insert();
+    readback_.begin(texture);
+    while (!rendered.reached_within(std::chrono::seconds(1))) {
+    }
     const MonotonicTime start = MonotonicClock::now();
-    ColourImage picture = texture.download();
+    ColourImage picture = readback_.take();
     if (size != full) {
         ColourImage enlarged;
         cv::resize(picture, enlarged, full, 0, 0, cv::INTER_CUBIC);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/gl/readback.h"
 #include "common/image/image.h"
 #include "host_app/flight/camera_state.h"
 #include "host_app/synthesis/novelty_overlay.h"
@@ -52,6 +53,7 @@ class ViewPainter {
     NoveltyOverlay overlay_;
     SideBySide side_by_side_;
     const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
+    Readback readback_;
     double readback_ms_ = 0;
 };
 

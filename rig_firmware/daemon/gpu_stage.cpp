@@ -45,6 +45,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       right_intake_(context_, shaders_, {calibration.right.width_px, calibration.right.height_px}),
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
+      packer_(config.stream.jpeg_quality),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
     prepare_intakes(config.source.buffers, specimens);
@@ -103,7 +104,9 @@ RigFrame GpuStage::process(StereoFrame frame) {
             fail("the source delivers no exact disparity: name a real matcher");
         result.disparity = std::move(frame.exact_disparity);
     }
-    result.times.match_ms = milliseconds_since(start) - result.times.rectify_ms;
+    if (result.packed_colour.empty()) packer_.pack(result);
+    result.times.match_ms =
+        milliseconds_since(start) - result.times.rectify_ms - result.times.pack_ms;
 
     result.synchronized = frame.synchronized;
     result.trigger_index = frame.trigger_index;
@@ -127,12 +130,15 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     if (matcher_)
         right = &rectify_right_.rectify(bring(right_intake_, frame.right, frame.lent_right));
     rectify_timer_.end();
+    const bool has_colour = rectified_already_ && !frame.lent_left;
+    if (!has_colour) colour_readback_.begin(left);
     const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
     if (disparity && steady_) disparity = &steady_->run(*disparity, left);
-    // Everything is under way before the first read waits for the GPU.
-    const bool has_colour = rectified_already_ && !frame.lent_left;
-    result.colour = has_colour ? frame.left : ColourImage(left.download());
-    if (disparity) result.disparity = disparity->download();
+    // Everything is under way; what comes first is packed while the GPU matches.
+    if (disparity) disparity_readback_.begin(*disparity);
+    result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take());
+    packer_.pack(result);
+    if (disparity) result.disparity = disparity_readback_.take();
     result.times.rectify_ms = static_cast<float>(rectify_timer_.wait_ms());
 }
 

@@ -10,9 +10,10 @@
 #include "common/gl/egl_context.h"
 #include "common/gl/gpu_timer.h"
 #include "common/gl/limits.h"
+#include "common/gl/readback.h"
 #include "common/gl/shader_library.h"
 #include "common/rectification/rectify_pass.h"
-#include "common/wire/frame_message.h"
+#include "common/wire/frame_codec.h"
 #include "rig_firmware/capture/camera_intake.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "rig_firmware/stereo/matcher.h"
@@ -30,8 +31,8 @@ class GpuStage {
     GpuStage(const RigConfig& config, const StereoCalibration& calibration,
              std::span<const LentPicture> specimens = {});
 
-    /// Rectifies and matches one instant. Fills picture, disparity, geometry, pose and two of the
-    /// times.
+    /// Rectifies and matches one instant, and packs its colour while the GPU matches. Fills
+    /// picture, disparity, geometry, pose and the times of these steps.
     RigFrame process(StereoFrame frame);
 
     /// Lent pictures of both sides so far.
@@ -55,6 +56,8 @@ class GpuStage {
     std::string intake_report_;  ///< empty: the source lends no pictures
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_;
+    Readback colour_readback_, disparity_readback_;
+    ColourPacker packer_;
     std::optional<TemporalPass> steady_;
     std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")
 };

@@ -362,7 +362,8 @@ void RigDaemon::Impl::publish() {
         capture_ms.add(times.capture_ms);
         rectify_ms.add(times.rectify_ms);
         match_ms.add(times.match_ms);
-        pack_ms.add(std::chrono::duration<double, std::milli>(packing).count());
+        // And what of it was done while the GPU matched.
+        pack_ms.add(std::chrono::duration<double, std::milli>(packing).count() + times.pack_ms);
         latency_ms.add(std::chrono::duration<double, std::milli>(latency).count());
     }
 }

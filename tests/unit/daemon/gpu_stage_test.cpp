@@ -51,6 +51,39 @@ TEST_F(GpuStageTest, MatchesRectifiedPicturesAsTheyAre) {
     EXPECT_FALSE(gpu.report().empty());
 }
 
+TEST_F(GpuStageTest, PacksTheColourOfEveryFrameAsThePublisherWould) {
+    GpuStage gpu(config_, ideal_rig(config_, {width, height}));
+    for (int i = 0; i < 3; ++i) {
+        RigFrame result = gpu.process(frame_);
+        const std::vector<std::byte> ahead = result.packed_colour;
+        result.packed_colour.clear();
+        result.rig = "rig";
+        result.session = 1;
+        EXPECT_EQ(FrameEncoder(config_.stream.jpeg_quality).encode(result).colour, ahead);
+        EXPECT_GT(result.times.pack_ms, 0);
+        cv::bitwise_not(frame_.left, frame_.left);
+        cv::bitwise_not(frame_.right, frame_.right);
+        for (ColourImage* side : {&frame_.left, &frame_.right})
+            for (cv::Vec4b& pixel : *side) pixel[3] = 255;
+        frame_.left = frame_.left.clone();
+    }
+}
+
+TEST_F(GpuStageTest, EveryFrameHasItsOwnColourAndDisparity) {
+    StereoCalibration calibration = ideal_rig(config_, {width, height});
+    calibration.left.distortion = calibration.right.distortion = {-0.2, 0.05, 0, 0};
+    GpuStage gpu(config_, calibration);
+    const RigFrame first = gpu.process(frame_);
+    StereoFrame dark = frame_;
+    dark.left = ColourImage(height, width, cv::Vec4b(0, 0, 0, 255));
+    dark.right = dark.left;
+    const RigFrame second = gpu.process(dark);
+    EXPECT_GT(cv::norm(first.colour, second.colour, cv::NORM_INF), 100);
+    for (const cv::Vec4b& pixel : second.colour) ASSERT_EQ(pixel[0] + pixel[1] + pixel[2], 0);
+    const RigFrame again = gpu.process(frame_);
+    EXPECT_EQ(cv::norm(first.colour, again.colour, cv::NORM_INF), 0);
+}
+
 TEST_F(GpuStageTest, RectifiesWhatIsNot) {
     StereoCalibration calibration = ideal_rig(config_, {width, height});
     calibration.left.distortion = calibration.right.distortion = {-0.2, 0.05, 0, 0};

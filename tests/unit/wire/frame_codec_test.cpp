@@ -74,6 +74,21 @@ TEST(FrameCodec, JpegColourLeavesTheRestExact) {
     EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
 }
 
+TEST(FrameCodec, ColourThatWasPackedAheadTravelsAsIfItWereNot) {
+    for (const int quality : {lossless, 85}) {
+        RigFrame at_once = make_frame(3), ahead = make_frame(3);
+        ColourPacker packer(quality);
+        packer.pack(ahead);
+        const float ahead_ms = ahead.times.pack_ms;
+        EXPECT_GT(ahead_ms, 0);
+        FrameEncoder encoder(quality);
+        const PackedFrame packed_ahead = encoder.encode(ahead);
+        EXPECT_EQ(packed_ahead.colour, encoder.encode(at_once).colour);
+        EXPECT_GT(ahead.times.pack_ms, ahead_ms) << "the rest takes its time too";
+        expect_same_numbers(decode(packed_ahead), ahead);
+    }
+}
+
 TEST(FrameCodec, DisparityMayBeSmallerThanColourAndEitherMayBeMissing) {
     FrameEncoder encoder(lossless);
     FrameDecoder decoder;
