@@ -44,6 +44,7 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("field_of_view_deg", rig.field_of_view_deg, {1, 150});
     table.read("doffs_px", rig.doffs_px, {-4096, 4096});
     table.read("set", rig.set, {0, 1000000});
+    table.read("loop_mb", rig.loop_mb, {0, 1e6});
 }
 
 void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {

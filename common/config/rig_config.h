@@ -48,6 +48,7 @@ struct RigConfig {
                field_of_view_deg = 50;
         double doffs_px = 0;  ///< cx_right - cx_left; files only
         int set = 0;          ///< of the virtual stage: 0 the show, others generated
+        double loop_mb = 64;  ///< memory for pairs of the stage's loop; virtual only
     } virtual_rig;
 
     struct Trigger {

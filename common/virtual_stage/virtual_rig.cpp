@@ -169,6 +169,13 @@ ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
 
 VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
                                       std::uint64_t frame_index) const {
+    VirtualStereoFrame frame = render_noiseless(stage, stage_time);
+    add_noise(frame, frame_index);
+    return frame;
+}
+
+VirtualStereoFrame VirtualRig::render_noiseless(VirtualStage& stage,
+                                                std::chrono::nanoseconds stage_time) const {
     VirtualStereoFrame frame;
     frame.left = see(left_, stage, stage_time);
     frame.right = see(right_, stage, stage_time);
@@ -177,9 +184,12 @@ VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseco
             rectified_left_, stage_time, {.pictures = StagePictures::depth, .stands_still = true});
         frame.exact_disparity = disparity_from_depth(exact.depth_m, rectified_);
     }
+    return frame;
+}
+
+void VirtualRig::add_noise(VirtualStereoFrame& frame, std::uint64_t frame_index) const {
     add_sensor_noise(frame.left, noise_, 0, frame_index);
     add_sensor_noise(frame.right, noise_, 1, frame_index);
-    return frame;
 }
 
 VirtualStereoFrame render_virtual_rig(VirtualStage& stage, const StereoCalibration& calibration,

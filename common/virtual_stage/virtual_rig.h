@@ -51,6 +51,11 @@ class VirtualRig {
     VirtualStereoFrame render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
                               std::uint64_t frame_index) const;
 
+    /// The same in two steps: what is the same a whole loop of the stage later, and the noise.
+    VirtualStereoFrame render_noiseless(VirtualStage& stage,
+                                        std::chrono::nanoseconds stage_time) const;
+    void add_noise(VirtualStereoFrame& frame, std::uint64_t frame_index) const;
+
   private:
     struct Sensor {
         StageCamera camera;   ///< the pinhole camera to render

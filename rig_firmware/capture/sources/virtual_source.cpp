@@ -2,8 +2,10 @@
 #include "common/config/rig_config.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/shader_library.h"
+#include "common/virtual_stage/performer.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "rig_firmware/capture/pair_loop.h"
 #include "rig_firmware/capture/pulse_pacer.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/capture/stereo_source.h"
@@ -22,6 +24,11 @@ class VirtualSource final : public StereoSource {
           set_(config.virtual_rig.set),
           stage_(shaders_, static_cast<std::uint64_t>(set_)),
           pacer_(PulseGrid(config.source.rate_hz)),
+          // Exact depth comes with every frame anew.
+          loop_(size(), stage_loop, PulseGrid(config.source.rate_hz).period(),
+                config.match.matcher == exact_matcher
+                    ? 0
+                    : static_cast<std::size_t>(config.virtual_rig.loop_mb * 1e6)),
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
         if (config.virtual_rig.doffs_px != 0)
             fail(
@@ -39,8 +46,8 @@ class VirtualSource final : public StereoSource {
     std::optional<StereoFrame> next(std::chrono::nanoseconds timeout) override {
         const std::optional<Pulse> pulse = pacer_.wait_next(timeout);
         if (!pulse) return std::nullopt;
-        VirtualStereoFrame picture =
-            rig_.render(stage_, pulse->time.time_since_epoch(), pulse->index);
+        VirtualStereoFrame picture = film(pulse->time.time_since_epoch());
+        rig_.add_noise(picture, pulse->index);
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
                            .exposure = pulse->time,
@@ -57,11 +64,25 @@ class VirtualSource final : public StereoSource {
 
     std::vector<std::string> report() const override {
         return {fmt::format(
-            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels", set_,
-            size().width, size().height, rate_hz_, noise_.sigma)};
+            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels, room to "
+            "keep {} pairs of its loop",
+            set_, size().width, size().height, rate_hz_, noise_.sigma, loop_.room())};
     }
 
   private:
+    /// Without noise: as it was kept a loop of the stage ago, or else drawn.
+    VirtualStereoFrame film(std::chrono::nanoseconds time) {
+        VirtualStereoFrame picture;
+        if (std::optional<PairLoop::Pair> known = loop_.find(time)) {
+            picture.left = std::move(known->left);
+            picture.right = std::move(known->right);
+            return picture;
+        }
+        picture = rig_.render_noiseless(stage_, time);
+        loop_.keep(time, picture.left, picture.right);
+        return picture;
+    }
+
     EglContext context_;
     ShaderLibrary shaders_;
     StereoCalibration calibration_;
@@ -70,6 +91,7 @@ class VirtualSource final : public StereoSource {
     int set_;
     VirtualStage stage_;
     PulsePacer pacer_;
+    PairLoop loop_;
     double rate_hz_;
 };
 
