@@ -88,7 +88,8 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
         auto film = std::make_unique<FilmSink>(settings.film,
                                                VideoSettings{.width_px = settings.format.width_px,
                                                              .height_px = settings.format.height_px,
-                                                             .rate_hz = settings.rate_hz});
+                                                             .rate_hz = settings.rate_hz},
+                                               settings.pulse_rate_hz);
         film_ = film.get();
         programme_.add(std::move(film));
     }
