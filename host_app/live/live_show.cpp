@@ -153,7 +153,7 @@ std::optional<StageFraming> LiveShow::framing() {
         rigs.push_back({frame.rig, frame.world_from_camera, field_of_view_rad(frame),
                         surface_samples(depth_view_of(frame)).median_depth_m});
     }
-    const std::optional<StageFraming> framing = frame_stage(rigs);
+    std::optional<StageFraming> framing = frame_stage(rigs);
     // Once, since nobody asks again after the answer.
     if (framing) name_assumed_places(*ready->set);
     return framing;
