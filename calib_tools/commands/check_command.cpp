@@ -2,11 +2,13 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
 #include "calib_tools/commands/snapshots.h"
 #include "calib_tools/health/health_report.h"
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/command.h"
+#include "common/base/error.h"
 #include "common/base/log.h"
 
 namespace vantage {
@@ -37,6 +39,11 @@ void run(const Options& options) {
         std::cout << to_json(health, date).dump(2) << '\n';
     else
         std::cout << describe(health);
+    if (health.verdict() == Verdict::unknown)
+        throw Undecided(
+            fmt::format("the stage's health is unknown ({}): film something with texture that "
+                        "neighbouring rigs see both",
+                        fmt::join(health.not_known(), "; ")));
 }
 
 }  // namespace
@@ -44,7 +51,9 @@ void run(const Options& options) {
 CommandEntry check_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
-            "check", "Say how well a stage still fits its calibration, without any board");
+            "check",
+            "Say how well a stage still fits its calibration, without any board; exit status 0 "
+            "where that can be told (good, warn or bad), 3 where it cannot");
         const auto options = std::make_shared<Options>();
         command
             ->add_option("--rig", options->rigs,

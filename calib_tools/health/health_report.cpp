@@ -51,13 +51,14 @@ nlohmann::json to_json(const StageHealth& health, const std::string& date) {
         measures.push_back(entry);
     }
     return {{"date", date},
-            {"verdict", verdict_name(health.worst())},
+            {"verdict", verdict_name(health.verdict())},
+            {"not_known", health.not_known()},
             {"rigs", health.rig_names},
             {"measures", measures}};
 }
 
 std::string describe(const StageHealth& health) {
-    std::string text = fmt::format("the stage is {}\n", verdict_name(health.worst()));
+    std::string text = fmt::format("the stage is {}\n", verdict_name(health.verdict()));
     for (const HealthMeasure& m : health.measures)
         text += fmt::format(
             "{:7} {:7} {:>8} {:14} {:7} ({} places; warn from {:.2f}, bad from {:.2f})\n", m.what,
@@ -71,8 +72,12 @@ HtmlPage health_page(const StageHealth& health, const std::vector<RigSnapshot>& 
                      const std::vector<PastCheck>& past, const std::string& date) {
     HtmlPage page("Health of the stage");
     page.paragraph(date);
-    page.paragraph(fmt::format("The stage is {}.", verdict_name(health.worst())),
-                   mark_of(health.worst()));
+    page.paragraph(fmt::format("The stage is {}.", verdict_name(health.verdict())),
+                   mark_of(health.verdict()));
+    if (const std::vector<std::string> not_known = health.not_known(); !not_known.empty()) {
+        page.heading("Not known");
+        page.list(not_known);
+    }
     std::vector<std::vector<HtmlPage::Cell>> rows;
     std::vector<std::string> sentences;
     for (const HealthMeasure& m : health.measures) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/ranges.h>
+
 #include "calib_tools/board/median.h"
 #include "calib_tools/colour/cielab.h"
 #include "calib_tools/health/place_tracking.h"
@@ -34,7 +36,8 @@ constexpr double place_warn_px = 0.5, place_warn_share_of_width = 0.0007;
 HealthMeasure judged(HealthMeasure m, int fewest, std::string_view too_few, std::string not_good) {
     if (m.samples < fewest) {
         m.verdict = Verdict::unknown;
-        m.sentence = fmt::format("{} ({} places, {} are needed)", too_few, m.samples, fewest);
+        m.sentence = fmt::format("{} of {}: unknown, {} ({} places, {} are needed)", m.what, m.rigs,
+                                 too_few, m.samples, fewest);
         return m;
     }
     m.verdict = m.value >= m.bad_at    ? Verdict::bad
@@ -193,6 +196,25 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
                            names, apart)));
 }
 
+constexpr std::string_view pair_measures[] = {"depth", "through", "place", "colour"};
+
+/// The rigs that no chain of pairs with a known `what` leads to from the first one.
+std::vector<std::string> not_tied_to_first(const StageHealth& health, std::string_view what) {
+    std::vector<std::string> tied{health.rig_names.front()},
+        rest(health.rig_names.begin() + 1, health.rig_names.end());
+    for (std::size_t next = 0; next < tied.size(); ++next)
+        for (const HealthMeasure& m : health.measures) {
+            if (m.what != what || m.verdict == Verdict::unknown) continue;
+            const auto other = std::find_if(rest.begin(), rest.end(), [&](const std::string& rig) {
+                return m.rigs == tied[next] + "-" + rig || m.rigs == rig + "-" + tied[next];
+            });
+            if (other == rest.end()) continue;
+            tied.push_back(*other);
+            rest.erase(other);
+        }
+    return rest;
+}
+
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
@@ -209,13 +231,24 @@ std::string_view verdict_name(Verdict verdict) {
     return "unknown";
 }
 
-Verdict StageHealth::worst() const {
-    Verdict worst = Verdict::unknown;
-    for (const HealthMeasure& m : measures) {
-        if (m.verdict == Verdict::unknown) continue;
-        if (worst == Verdict::unknown || m.verdict > worst) worst = m.verdict;
+Verdict StageHealth::verdict() const {
+    Verdict worst = Verdict::good;
+    for (const HealthMeasure& m : measures)
+        if (m.verdict != Verdict::unknown) worst = std::max(worst, m.verdict);
+    return worst == Verdict::good && !not_known().empty() ? Verdict::unknown : worst;
+}
+
+std::vector<std::string> StageHealth::not_known() const {
+    std::vector<std::string> sentences;
+    for (const HealthMeasure& m : measures)
+        if (m.what == "rows" && m.verdict == Verdict::unknown) sentences.push_back(m.sentence);
+    for (const std::string_view what : pair_measures) {
+        const std::vector<std::string> alone = not_tied_to_first(*this, what);
+        if (!alone.empty())
+            sentences.push_back(fmt::format("{}: nothing ties {} to {}", what,
+                                            fmt::join(alone, ", "), rig_names.front()));
     }
-    return worst;
+    return sentences;
 }
 
 StageHealth check_stage(const std::vector<RigSnapshot>& rigs) {

@@ -29,7 +29,11 @@ struct StageHealth {
     std::vector<std::string> rig_names;
     std::vector<std::vector<TrackedRow>> rows;  ///< of every rig
     std::vector<OverlapSample> overlap;
-    Verdict worst() const;  ///< unknown only if nothing could be measured
+    /// The worst of all measures; but good only where enough is known for it: the rows of every
+    /// rig, and each measure of two rigs for so many pairs that they tie all rigs together.
+    Verdict verdict() const;
+    /// A sentence for each thing that is not known enough; none where the stage can be judged.
+    std::vector<std::string> not_known() const;
 };
 
 /// Without any board: rows (RMS, px, of features tracked from the left to the right picture, the

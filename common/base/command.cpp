@@ -16,6 +16,7 @@ namespace vantage {
 namespace {
 
 constexpr int words_do_not_fit = 2;
+constexpr int cannot_be_told = 3;
 /// 128 and the number of SIGINT, as shells say it.
 constexpr int interrupted = 130;
 
@@ -64,6 +65,10 @@ int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& comm
     } catch (const CLI::ParseError& error) {
         say_error(misfit_sentence(program, words, error.what()));
         return words_do_not_fit;
+    } catch (const Undecided& error) {
+        std::cout.flush();
+        say_error(error.what());
+        return cannot_be_told;
     } catch (const std::exception& error) {
         say_error(error.what());
         return StopSignal::was_interrupted() ? interrupted : 1;

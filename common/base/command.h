@@ -25,8 +25,9 @@ struct ProgramFacts {
 };
 
 /// Parses and runs. Results go to stdout, the log to stderr. Returns the exit status: 0, or 1 with
-/// one clear sentence on stderr, or 2 for words on the command line that do not fit, or 130 after
-/// Ctrl-C. `help COMMAND` is COMMAND --help. Two options that nobody types, --man-page and
+/// one clear sentence on stderr, or 2 for words on the command line that do not fit, or 3 with a
+/// sentence where the answer is that nothing can be told (Undecided), or 130 after Ctrl-C. `help
+/// COMMAND` is COMMAND --help. Two options that nobody types, --man-page and
 /// --bash-completion, print what the packages bring beside the program.
 int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
                 char** argv);

@@ -17,6 +17,13 @@ class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The work was done, and what it was to find out cannot be told from what there is: a status of
+/// its own (run_program), so that nobody's script takes it for a yes or for a fault.
+class Undecided : public Error {
+  public:
+    using Error::Error;
+};
+
 /// Throws Error with a formatted sentence.
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {

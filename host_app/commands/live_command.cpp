@@ -219,7 +219,8 @@ CommandEntry live_command_entry() {
         command->add_option("--path", options->path, "Fly this move (TOML)");
         command->add_option("--snapshot", options->snapshot,
                             "Write the last picture (.png, .jpg); of a window, the panels too");
-        command->add_option("--record", options->film, "Write the flight as a film (.mkv, .mp4)");
+        command->add_option("--record", options->film,
+                            "Write the flight as a film (.mkv, .mp4), with the house's time code");
         command->add_option("--contact-sheet", options->contact_sheet,
                             "Write stills of the flight, with a rig's colour and disparity");
         command->add_flag("--free-flight", options->free_flight,

@@ -90,7 +90,8 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
         auto film = std::make_unique<FilmSink>(settings.film,
                                                VideoSettings{.width_px = settings.format.width_px,
                                                              .height_px = settings.format.height_px,
-                                                             .rate_hz = settings.rate_hz});
+                                                             .rate_hz = settings.rate_hz},
+                                               settings.pulse_rate_hz);
         film_ = film.get();
         programme_.add(std::move(film));
     }
@@ -154,7 +155,7 @@ std::optional<StageFraming> LiveShow::framing() {
         rigs.push_back({frame.rig, frame.world_from_camera, field_of_view_rad(frame),
                         surface_samples(depth_view_of(frame)).median_depth_m});
     }
-    const std::optional<StageFraming> framing = frame_stage(rigs);
+    std::optional<StageFraming> framing = frame_stage(rigs);
     // Once, since nobody asks again after the answer.
     if (framing) {
         name_assumed_places(*ready->set);

@@ -107,7 +107,8 @@ void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const F
 PanelState PanelFeed::state(LiveShow& show) {
     const MonotonicTime now = MonotonicClock::now();
     const ProgrammeState programme = show.state();
-    if (!timecodes_) timecodes_.emplace(show.settings().pulse_rate_hz);
+    if (!timecodes_)
+        timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
     if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
     if (programme.latency_ms > 0 && programme.latency_ms != last_latency_ms_) {
         last_latency_ms_ = programme.latency_ms;
@@ -131,10 +132,7 @@ PanelState PanelFeed::state(LiveShow& show) {
     state_.waiting = set == nullptr;
     if (set) {
         state_.pulse = set->trigger_index;
-        for (const FrameSet::Slot& slot : set->slots)
-            if (slot.frame)
-                state_.timecode =
-                    timecodes_->of_pulse(set->trigger_index, slot.frame->sync.tai_offset_s);
+        state_.timecode = timecodes_->of(*set);
     }
     state_.behind_s = programme.behind_s;
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "common/base/timecode.h"
 #include "host_app/desk/operator_panel.h"
 #include "host_app/live/live_show.h"
 #include "host_app/live/rate_meter.h"
@@ -36,7 +35,7 @@ class PanelFeed {
     std::string renderer_;
     std::optional<Texture> picture_;
     std::shared_ptr<const MadePicture> uploaded_;
-    std::optional<TimecodeClock> timecodes_;  ///< of the stage's pulses
+    std::optional<SetTimecode> timecodes_;  ///< of the stage's pulses
     PanelState state_;
 };
 

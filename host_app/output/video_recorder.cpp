@@ -18,9 +18,10 @@ VideoRecorder::~VideoRecorder() {
     if (thread_.joinable()) thread_.join();
 }
 
-void VideoRecorder::add(const ColourImage& picture, std::chrono::nanoseconds time) {
+void VideoRecorder::add(const ColourImage& picture, std::chrono::nanoseconds time,
+                        std::string timecode) {
     if (failed_) std::rethrow_exception(failure_);
-    queue_.push({picture, time});
+    queue_.push({picture, time, std::move(timecode)});
 }
 
 void VideoRecorder::finish() {
@@ -50,7 +51,7 @@ void VideoRecorder::write() {
                 continue;
             }
             const auto start = std::chrono::steady_clock::now();
-            writer_.add(picture->image, picture->time);
+            writer_.add(picture->image, picture->time, picture->timecode);
             encode_ms_.add(
                 std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                     .count());

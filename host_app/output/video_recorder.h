@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <string>
 #include <thread>
 
 #include "common/base/bounded_queue.h"
@@ -23,9 +24,9 @@ class VideoRecorder {
     VideoRecorder(const std::filesystem::path& path, const VideoSettings& settings);
     ~VideoRecorder();
 
-    /// Shares the picture, which must not be changed afterwards. Throws Error if the writing thread
-    /// has failed.
-    void add(const ColourImage& picture, std::chrono::nanoseconds time);
+    /// Shares the picture, which must not be changed afterwards; else as VideoWriter::add. Throws
+    /// Error if the writing thread has failed.
+    void add(const ColourImage& picture, std::chrono::nanoseconds time, std::string timecode = {});
 
     /// Writes what waits, ends the film. Throws Error if anything failed.
     void finish();
@@ -39,6 +40,7 @@ class VideoRecorder {
     struct Picture {
         ColourImage image;
         std::chrono::nanoseconds time{};
+        std::string timecode;
     };
     void write();
     /// Keeps what can be kept; what to throw.

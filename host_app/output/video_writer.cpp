@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/pulse_grid.h"
+#include "host_app/output/mp4_fragments.h"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -73,7 +75,8 @@ void VideoWriter::open_encoder(const VideoSettings& settings) {
     encoder_->height = settings.height_px & ~1;
     encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
     encoder_->time_base = time_base;
-    encoder_->framerate = av_d2q(settings.rate_hz, 100000);
+    // 29.97 is 30000/1001, as drop-frame time code wants it.
+    encoder_->framerate = av_d2q(PulseGrid(settings.rate_hz).rate_hz(), 120'000);
     encoder_->gop_size = std::max(1, static_cast<int>(std::lround(2 * settings.rate_hz)));
     encoder_->colorspace = AVCOL_SPC_BT709;
     encoder_->color_primaries = AVCOL_PRI_BT709;
@@ -119,18 +122,24 @@ void VideoWriter::open_file() {
     avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
     if (const int code = avio_open(&output_->pb, partial_.c_str(), AVIO_FLAG_WRITE); code < 0)
         fail_writing(code);
-    // Matroska keeps a cluster in memory until it is whole: what a failure may cost.
+    // What a failure may cost: a cluster of Matroska, a fragment of MP4.
     av_opt_set_int(output_->priv_data, "cluster_time_limit", 1000, 0);
-    if (const int code = avformat_write_header(output_.get(), nullptr); code < 0) {
-        output_.reset();
-        std::error_code ignored;
-        std::filesystem::remove(partial_, ignored);
-        fail_writing(code);
-    }
+    av_opt_set_int(output_->priv_data, "frag_duration", 1'000'000, 0);
+    // The head waits for the first fragment, which says when the film begins.
+    av_opt_set(output_->priv_data, "movflags", "delay_moov+default_base_moof", 0);
 }
 
-void VideoWriter::add(const ColourImage& picture, std::chrono::nanoseconds time) {
+void VideoWriter::begin(const std::string& timecode) {
+    if (!timecode.empty()) av_dict_set(&stream_->metadata, "timecode", timecode.c_str(), 0);
+    if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
+        fail_writing(code);
+    has_begun_ = true;
+}
+
+void VideoWriter::add(const ColourImage& picture, std::chrono::nanoseconds time,
+                      const std::string& timecode) {
     assert(!finished_);
+    if (!has_begun_) begin(timecode);
     assert(picture.cols >= frame_->width && picture.rows >= frame_->height);
     if (const int code = av_frame_make_writable(frame_.get()); code < 0) fail_writing(code);
     const std::uint8_t* rows[] = {picture.data};
@@ -174,10 +183,15 @@ void VideoWriter::drain() {
 
 bool VideoWriter::keep_what_is_written() noexcept {
     if (finished_) return true;
-    // Without its index, a Matroska file still opens; an MP4 file does not.
-    if (!is_ended_) av_write_trailer(output_.get());
+    // Without the index that an end would write, the file still opens.
+    if (has_begun_ && !is_ended_) av_write_trailer(output_.get());
     is_ended_ = true;
     avio_closep(&output_->pb);
+    try {
+        if (path_.extension() == ".mp4") cut_to_whole_fragments(partial_);
+    } catch (const Error&) {
+        return false;
+    }
     if (!is_readable(partial_)) return false;
     std::error_code error;
     std::filesystem::rename(partial_, path_, error);

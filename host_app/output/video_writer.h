@@ -31,14 +31,18 @@ class VideoWriter {
     /// Takes the picture that is shown from `time` on, counted from the start of the film and later
     /// than the picture's before it. Times are kept to 1/90000 s (Matroska stores milliseconds).
     /// Throws Error if the disk or the encoder fails.
-    void add(const ColourImage& picture, std::chrono::nanoseconds time);
+    ///
+    /// `timecode` is the film's at its start, as TimecodeClock writes it, or empty: the first
+    /// picture's is kept, in Matroska as the stream's tag `timecode`, in MP4 as a time code track.
+    void add(const ColourImage& picture, std::chrono::nanoseconds time,
+             const std::string& timecode = {});
 
     /// Ends the film and puts the file in its place. Throws Error if the disk fails, or if no
     /// picture was added.
     void finish();
 
     /// After a failure, the last call: puts what was written until then in its place, if it can be
-    /// read (Matroska can, MP4 cannot). False: it cannot, and a file that stood there stays.
+    /// read. False: it cannot, and a file that stood there stays.
     bool keep_what_is_written() noexcept;
 
     std::uint64_t frames() const { return frames_; }
@@ -47,6 +51,7 @@ class VideoWriter {
   private:
     void open_encoder(const VideoSettings& settings);
     void open_file();
+    void begin(const std::string& timecode);
     void drain();
     [[noreturn]] void fail_writing(int code) const;
 
@@ -59,7 +64,7 @@ class VideoWriter {
     AVStream* stream_ = nullptr;  ///< owned by output_
     std::uint64_t frames_ = 0;
     std::int64_t last_pts_ = -1;
-    bool is_ended_ = false, finished_ = false;
+    bool has_begun_ = false, is_ended_ = false, finished_ = false;
 };
 
 }  // namespace vantage

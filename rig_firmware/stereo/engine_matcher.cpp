@@ -27,9 +27,13 @@ CheckAndFill::CheckAndFill(const ShaderLibrary& library, const StereoLayout& lay
     if (fill == Fill::along_paths_of_two_px) path_fill_.emplace(library, layout, FillCell::two_px);
 }
 
-const Buffer& CheckAndFill::run(PassProfiler& profiler, const Buffer& luma, const Buffer& winners,
-                                const Buffer* weight) {
+const Buffer& CheckAndFill::check(PassProfiler& profiler, const Buffer& winners,
+                                  const Buffer* weight) {
     check_.run(profiler, winners, weight);
+    return check_.disparity();
+}
+
+const Buffer& CheckAndFill::fill(PassProfiler& profiler, const Buffer& luma) {
     const Buffer *disparity = &check_.disparity(), *other = &check_.scratch();
     if (row_fill_) row_fill_->run(profiler, *disparity, *other);
     if (path_fill_) path_fill_->run(profiler, luma, *disparity, *other);

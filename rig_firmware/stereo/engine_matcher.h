@@ -61,7 +61,13 @@ class CheckAndFill {
 
     /// luma: of the left picture at the search's size, in LumaPass's form.
     const Buffer& run(PassProfiler& profiler, const Buffer& luma, const Buffer& winners,
-                      const Buffer* weight);
+                      const Buffer* weight) {
+        check(profiler, winners, weight);
+        return fill(profiler, luma);
+    }
+    /// The two halves of run(): what the check leaves may be changed before the fill.
+    const Buffer& check(PassProfiler& profiler, const Buffer& winners, const Buffer* weight);
+    const Buffer& fill(PassProfiler& profiler, const Buffer& luma);
     std::size_t gpu_bytes() const {
         return check_.gpu_bytes() + (path_fill_ ? path_fill_->gpu_bytes() : 0) +
                smooth_.gpu_bytes();

@@ -18,5 +18,5 @@ if ! command -v lintian >/dev/null; then
   exit 1
 fi
 lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/packages-first/*.deb || exit 1
-HIL_INIT=init_systemd HIL_TIMEOUT_S=2700 exec "$here/boot.sh" "$work" packages \
+HIL_QEMU="-netdev user,id=card,restrict=on -device e1000e,netdev=card" HIL_INIT=init_systemd HIL_TIMEOUT_S=2700 exec "$here/boot.sh" "$work" packages \
   "HIL_DOCUMENTS=$(realpath "$here/../documents")" "PACKAGES=$(realpath "$work/packages-first")" "UPGRADE=$(realpath "$work"/packages-next/vantage-rig_*.deb)"

@@ -1,6 +1,7 @@
 #include "rig_firmware/stereo/engine_matcher.h"
 #include "rig_firmware/stereo/passes/perm_pass.h"
 #include "rig_firmware/stereo/passes/sgm_pass.h"
+#include "rig_firmware/stereo/passes/streak_pass.h"
 
 namespace vantage {
 namespace {
@@ -17,6 +18,7 @@ class PermSgmMatcher : public EngineMatcher {
           paths_(library, layout_of(settings), settings.disparities,
                  {.p1 = 5, .p2 = 26, .columns = false}, perm_.large_scratch(),
                  perm_.small_scratch()),
+          streaks_(library, layout_of(settings), settings.disparities),
           check_(library, layout_of(settings), fill_at_full_size(settings)) {}
 
     std::size_t cost_volume_bytes() const override {
@@ -32,7 +34,8 @@ class PermSgmMatcher : public EngineMatcher {
         permeability_.run(profiler, luma.left());
         perm_.run(profiler, features_, permeability_);
         paths_.run(profiler, perm_.costs());
-        return check_.run(profiler, luma.left(), paths_.winners(), nullptr);
+        streaks_.run(profiler, check_.check(profiler, paths_.winners(), nullptr), perm_.costs());
+        return check_.fill(profiler, luma.left());
     }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +
@@ -43,6 +46,7 @@ class PermSgmMatcher : public EngineMatcher {
     PermeabilityPass permeability_;
     PermPass perm_;
     SgmPass paths_;
+    StreakPass streaks_;
     CheckAndFill check_;
 };
 

@@ -22,7 +22,7 @@
 namespace vantage {
 namespace {
 
-/// A program with a command `double N` that fails for negative N, and `series add|count`.
+/// A program with a command `double N` that fails for negative N, and `series add|sum|count`.
 struct Outcome {
     int status = -1;
     std::string out, err;
@@ -46,6 +46,10 @@ Outcome run(std::vector<std::string> words) {
             kill(getpid(), SIGINT);
             stop.wait_for(std::chrono::seconds(10));
             std::cout << "so far\n";
+        });
+        sub->add_subcommand("sum", "Of all of them.")->callback([] {
+            std::cout << "1 + 2 + ...\n";
+            throw Undecided("the sum cannot be told: there is no end");
         });
         sub->add_subcommand("count", "How many.")
             ->add_option("--first", "where to begin")
@@ -142,6 +146,13 @@ TEST(RunProgram, CtrlCEndsWith130AndWhatWasDoneIsKept) {
     EXPECT_EQ(outcome.out, "so far\n");
 }
 
+TEST(RunProgram, AnAnswerThatCannotBeToldHasAStatusOfItsOwn) {
+    const Outcome outcome = run({"series", "sum"});
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_EQ(outcome.out, "1 + 2 + ...\n");
+    EXPECT_EQ(outcome.err, "base_test: error: the sum cannot be told: there is no end\n");
+}
+
 TEST(RunProgram, PrintsAManPageOfEveryCommandAndOption) {
     const Outcome outcome = run({"--man-page"});
     EXPECT_EQ(outcome.status, 0);
@@ -175,7 +186,7 @@ TEST(RunProgram, PrintsACompletionThatBashTakes) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(completed(outcome.out, "calculator \"\""), "double series\n");
     EXPECT_EQ(completed(outcome.out, "calculator ser"), "series\n");
-    EXPECT_EQ(completed(outcome.out, "calculator series \"\""), "add count\n");
+    EXPECT_EQ(completed(outcome.out, "calculator series \"\""), "add sum count\n");
     EXPECT_EQ(completed(outcome.out, "calculator series count --fi"), "--first\n");
     EXPECT_EQ(completed(outcome.out, "calculator double 3 --ti"), "--times\n");
     EXPECT_EQ(completed(outcome.out, "calculator double x"), "\n") << "files, by bash itself";

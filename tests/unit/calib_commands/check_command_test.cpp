@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "calib_tools/health/stage_health.h"
 #include "common/colour/colour_file.h"
 #include "common/config/calibration_file.h"
 #include "common/gl/egl_context.h"
@@ -174,6 +175,71 @@ TEST_F(CheckCommandTest, names_rigs_one_of_which_was_knocked_by_half_a_degree_or
     const ProgramResult result = run("check", {});
     EXPECT_THAT(verdict(result, "place", "A-B"), testing::StartsWith("warn"));
     EXPECT_THAT(result.out, HasSubstr("moved or turned"));
+}
+
+TEST_F(CheckCommandTest, a_stage_of_which_too_little_is_seen_is_unknown_and_not_good) {
+    // By its file B looks the other way, and what the two see is never one surface.
+    StereoCalibration away = rigs_[1];
+    away.world_from_left = away.world_from_left * Eigen::AngleAxisd(3.1, Eigen::Vector3d::UnitY());
+    write(away);
+    const std::string html = folder_.path() / "health.html";
+    ProgramResult result = run("check", {"--html", html});
+    EXPECT_EQ(result.status, 3);
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.at("verdict"), "unknown");
+    EXPECT_THAT(verdict(result, "rows", "B"), testing::StartsWith("good"));
+    EXPECT_EQ(json.at("not_known").size(), 4u) << result.out;
+    for (const char* part : {"depth: nothing ties B to A", "colour: nothing ties B to A"})
+        EXPECT_THAT(result.err, HasSubstr(part));
+    std::ifstream page(html);
+    EXPECT_THAT((std::string{std::istreambuf_iterator<char>(page), {}}),
+                HasSubstr("The stage is unknown"));
+
+    write(rigs_[1]);
+    write_colour_image(rig(1) / "left0.png", ColourImage(360, 480, cv::Vec4b(90, 90, 90, 255)));
+    write_colour_image(rig(1) / "right0.png", ColourImage(360, 480, cv::Vec4b(90, 90, 90, 255)));
+    result = run("check", {});
+    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(nlohmann::json::parse(result.out).at("verdict"), "unknown");
+    EXPECT_THAT(result.err, HasSubstr("rows of B: unknown, too few features"));
+}
+
+HealthMeasure measure(const std::string& what, const std::string& rigs, Verdict verdict) {
+    HealthMeasure measure;
+    measure.what = what;
+    measure.rigs = rigs;
+    measure.verdict = verdict;
+    return measure;
+}
+
+StageHealth health_of_three_rigs(Verdict of_ab, Verdict of_bc, Verdict of_ac) {
+    StageHealth health;
+    health.rig_names = {"A", "B", "C"};
+    for (const std::string& rig : health.rig_names)
+        health.measures.push_back(measure("rows", rig, Verdict::good));
+    for (const char* what : {"depth", "through", "place", "colour"}) {
+        health.measures.push_back(measure(what, "A-B", of_ab));
+        health.measures.push_back(measure(what, "B-C", of_bc));
+        health.measures.push_back(measure(what, "A-C", of_ac));
+    }
+    return health;
+}
+
+TEST(StageHealth, is_good_where_known_pairs_tie_all_rigs_and_no_pair_is_worse) {
+    using enum Verdict;
+    EXPECT_EQ(health_of_three_rigs(good, good, unknown).verdict(), good);
+    EXPECT_EQ(health_of_three_rigs(unknown, good, good).verdict(), good);
+    EXPECT_EQ(health_of_three_rigs(good, unknown, unknown).verdict(), unknown);
+    EXPECT_EQ(health_of_three_rigs(warn, unknown, unknown).verdict(), warn);
+    EXPECT_EQ(health_of_three_rigs(good, bad, warn).verdict(), bad);
+    StageHealth health = health_of_three_rigs(good, good, good);
+    EXPECT_THAT(health.not_known(), testing::IsEmpty());
+    health.measures[2].verdict = unknown;
+    health.measures[2].sentence = "rows of C are unknown";
+    EXPECT_EQ(health.verdict(), unknown);
+    EXPECT_THAT(health.not_known(), testing::ElementsAre("rows of C are unknown"));
+    EXPECT_THAT(health_of_three_rigs(unknown, good, unknown).not_known(),
+                testing::Contains(HasSubstr("depth: nothing ties B, C to A")));
 }
 
 TEST_F(CheckCommandTest, refuses_damaged_files_in_one_sentence) {

@@ -340,13 +340,16 @@ class LiveCheck : public LiveCalibration {
 
 TEST_F(LiveCheck, judges_a_running_stage_and_notices_a_rig_that_was_moved) {
     const ProgramResult good = run("check", {"--history", file("history.jsonl")});
-    ASSERT_EQ(good.status, 0) << good.err << rigs_[0]->err();
-    const auto measures = nlohmann::json::parse(good.out).at("measures");
+    const auto judged = nlohmann::json::parse(good.out);
+    // Pictures as small as these hold few features that both rigs see.
+    const bool place_is_known = judged.at("not_known").empty();
+    EXPECT_EQ(good.status, place_is_known ? 0 : 3) << good.err << rigs_[0]->err();
+    EXPECT_EQ(judged.at("verdict"), place_is_known ? "good" : "unknown");
+    const auto measures = judged.at("measures");
     ASSERT_EQ(measures.size(), 6u);
     for (const auto& m : measures) {
-        // Pictures as small as these hold few features that both rigs see.
         EXPECT_TRUE(m.at("verdict") == "good" ||
-                    (m.at("what") == "place" && m.at("verdict") == "unknown"))
+                    (m.at("what") == "place" && !place_is_known && m.at("verdict") == "unknown"))
             << m;
         EXPECT_FALSE(m.at("unit").get<std::string>().empty());
     }
@@ -361,7 +364,7 @@ TEST_F(LiveCheck, judges_a_running_stage_and_notices_a_rig_that_was_moved) {
     int checks = 1;
     for (std::string verdict; verdict != "bad" && checks < 6; ++checks) {
         bad = run("check", {"--history", file("history.jsonl"), "--html", file("health.html")});
-        ASSERT_EQ(bad.status, 0) << bad.err;
+        ASSERT_NE(bad.out, "") << bad.err;
         verdict = nlohmann::json::parse(bad.out).at("verdict");
         EXPECT_NE(verdict, "good") << bad.out;
     }

@@ -30,6 +30,8 @@ ProbedFilm probe_film(const std::filesystem::path& path) {
     ProbedFilm film;
     film.codec = avcodec_get_name(stream->codecpar->codec_id);
     film.container = input->iformat->name;
+    if (const AVDictionaryEntry* tag = av_dict_get(stream->metadata, "timecode", nullptr, 0))
+        film.timecode = tag->value;
     film.width_px = stream->codecpar->width;
     film.height_px = stream->codecpar->height;
     film.duration_s = static_cast<double>(input->duration) / AV_TIME_BASE;
@@ -43,7 +45,9 @@ ProbedFilm probe_film(const std::filesystem::path& path) {
         }
     };
     while (av_read_frame(input.get(), packet.get()) == 0) {
-        require(avcodec_send_packet(decoder.get(), packet.get()), path);
+        // Beside the pictures there may be a track of time code.
+        if (packet->stream_index == stream->index)
+            require(avcodec_send_packet(decoder.get(), packet.get()), path);
         av_packet_unref(packet.get());
         take_pictures();
     }

@@ -10,6 +10,7 @@ namespace vantage {
 /// What a video file holds, as FFmpeg's demuxer and decoder find it.
 struct ProbedFilm {
     std::string codec, container;
+    std::string timecode;  ///< of the stream of pictures
     int width_px = 0, height_px = 0;
     double duration_s = 0;
     std::vector<double> times_s;             ///< of every decoded picture

@@ -54,6 +54,23 @@ TEST_P(VideoWriterTest, KeepsEveryPictureItsTimeAndItsLight) {
     EXPECT_EQ(files_in(folder_.path()), 1u);
 }
 
+TEST_P(VideoWriterTest, CarriesTheTimeCodeOfItsFirstPicture) {
+    for (const auto& [rate_hz, code] : {std::pair(25.0, "23:59:59:24"),
+                                        {29.97, "10:20:00;02"},
+                                        {59.94, "00:00:00;59"},
+                                        {14.0, "01:02:03:13"}}) {
+        VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = rate_hz});
+        for (int i = 0; i < 3; ++i)
+            writer.add(grey_picture(64, 48, 100), i * 80ms, i == 0 ? code : "00:00:00:00");
+        writer.finish();
+        EXPECT_EQ(probe_film(path_).timecode, code);
+    }
+    VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = 25});
+    writer.add(grey_picture(64, 48, 100), 0ms);
+    writer.finish();
+    EXPECT_EQ(probe_film(path_).timecode, "");
+}
+
 TEST_P(VideoWriterTest, KeepsAGapInTimeAsAGap) {
     VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = 25});
     for (const int tick : {0, 1, 2, 7, 8}) writer.add(grey_picture(64, 48, 100), tick * 40ms);
@@ -179,11 +196,7 @@ TEST_P(FullDiskTest, LeavesTheOldFileWhereNothingCanBeRead) {
     EXPECT_EQ(text, "the last take");
 }
 
-INSTANTIATE_TEST_SUITE_P(Containers, FullDiskTest, testing::Values(".mkv", ".mp4"));
-
-using FullDiskMatroskaTest = FullDiskTest;
-
-TEST_P(FullDiskMatroskaTest, LeavesWhatWasWrittenReadableAndSaysSo) {
+TEST_P(FullDiskTest, LeavesWhatWasWrittenReadableAndSaysSo) {
     std::ofstream(path_) << "the last take";
     std::string sentence;
     {
@@ -198,7 +211,7 @@ TEST_P(FullDiskMatroskaTest, LeavesWhatWasWrittenReadableAndSaysSo) {
     EXPECT_GE(film.times_s.size(), 5u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Containers, FullDiskMatroskaTest, testing::Values(".mkv"));
+INSTANTIATE_TEST_SUITE_P(Containers, FullDiskTest, testing::Values(".mkv", ".mp4"));
 
 TEST(VideoRecorder, LeavesNoFileBehindWhenAbandoned) {
     const TemporaryFolder folder;

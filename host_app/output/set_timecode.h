@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "common/base/timecode.h"
+#include "common/receive/frame_set.h"
+
+namespace vantage {
+
+/// Gives sets of frames the house's time of day. `rate_hz` is that of what is counted: of the
+/// pulses on the screen, of the film in a film.
+class SetTimecode {
+  public:
+    SetTimecode(double pulse_rate_hz, double rate_hz) : pulses_(pulse_rate_hz), clock_(rate_hz) {}
+
+    /// Empty for a set that no rig is in.
+    std::string of(const FrameSet& set) const;
+
+  private:
+    PulseGrid pulses_;
+    TimecodeClock clock_;
+};
+
+}  // namespace vantage
