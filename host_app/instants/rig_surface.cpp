@@ -32,7 +32,7 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     camera_.colour.release();
     camera_.depth_m.release();
     samples_ = samples;
-    is_settled_ = has_rims_ = false;
+    has_rims_ = false;
     has_fine_grid_ = true;
     plate_.reset();
     colour_.resize(colour_size);
@@ -54,11 +54,6 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
     drawn_.texture().upload(view.depth_m);
     upload_colour(view, corrector, colour_.texture());
     colour_.generate_mipmaps();
-}
-
-const Framebuffer& RigSurface::settled_target() {
-    settled_.resize(drawn_.texture().size());
-    return settled_.target();
 }
 
 const SurfaceRims& RigSurface::rims_to_build() {
