@@ -1,5 +1,5 @@
 // How far the colour of every pixel of a rig's picture can be trusted: lens and sensor mix the colours of both sides of
-// a depth edge. Copies the colours; alpha is the trust.
+// a depth edge. Copies the colours; alpha is the trust, times what the picture has there.
 #ifndef REACH
 #define REACH 2  // px from a depth edge to which colours are mixed
 #endif
@@ -28,5 +28,6 @@ void main() {
             if (max(z, own) > min(z, own) * edge_ratio) nearest = min(nearest, float(x * x + y * y));
         }
     float pure = (sqrt(nearest) - 1.0) / float(REACH);
-    trusted = vec4(texelFetch(picture, at, 0).rgb, mix(least_trust, 1.0, pure * pure));
+    vec4 own_colour = texelFetch(picture, at, 0);
+    trusted = vec4(own_colour.rgb, own_colour.a * mix(least_trust, 1.0, pure * pure));
 }

@@ -4,12 +4,12 @@
 
 namespace vantage {
 
-void EdgeTrust::judge(const RigHistory& view, RigSurface& surface) {
+void EdgeTrust::judge(const Texture& picture, RigSurface& surface) {
     Program& program = pass_.use();
     program.set("picture", 0);
     program.set("depth_map", 1);
     program.set("edge_ratio", depth_edge_ratio);
-    view.colour().bind(0);
+    picture.bind(0);
     surface.depth().bind(1);
     pass_.draw(surface.colour_target());
     surface.finish_colour();

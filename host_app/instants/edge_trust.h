@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/instants/rig_history.h"
+#include "host_app/instants/rig_surface.h"
 
 namespace vantage {
 
@@ -13,8 +13,8 @@ class EdgeTrust {
   public:
     explicit EdgeTrust(const ShaderLibrary& library) : pass_(library, "edge_trust.frag") {}
 
-    /// Fills the surface's colour() from the view's colour and its own depth.
-    void judge(const RigHistory& view, RigSurface& surface);
+    /// Fills the surface's colour() from a picture and its own depth.
+    void judge(const Texture& picture, RigSurface& surface);
 
   private:
     FullscreenPass pass_;

@@ -40,6 +40,10 @@ class InstantPreparer {
     virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                                    const PrepareLevel& level) = 0;
 
+    /// Does a piece of work that betters later instants, when there is time for it. `target`: what
+    /// they are wished for.
+    virtual void improve(const VirtualView& /*target*/) {}
+
     /// The next instant does not follow the last one (a cut, or time that is gone through): what
     /// was learnt along time is not to be used for it.
     virtual void forget() {}

@@ -269,6 +269,8 @@ void InstantThread::prepare_instants() {
             publish(last_, wish, preparer, start);
             prepared = wish;
             bettered = start;
+        } else if (prepared && !wish.pulse && !wish.is_held) {
+            preparer->improve(wish.target);
         }
     }
     // What is left of them goes with its preparer, on this context.

@@ -22,20 +22,36 @@ constexpr double coarse_step_px = 2, fine_step_px = 1;
 constexpr double exact_px = 0.7, least_change_px = 0.5;
 
 /// The view's camera for a depth map of some size.
-VirtualView depth_camera(const RigHistory& view, cv::Size size) {
+VirtualView depth_camera(const ComparedView& view, cv::Size size) {
     return {size.width, size.height,
             scaled_intrinsics(view.camera().K,
-                              static_cast<double>(size.width) / view.colour().width_px(),
-                              static_cast<double>(size.height) / view.colour().height_px()),
+                              static_cast<double>(size.width) / view.colour->width_px(),
+                              static_cast<double>(size.height) / view.colour->height_px()),
             view.camera().world_from_camera};
 }
 
-double own_parallax_px(const RigHistory& view) {
+double own_parallax_px(const ComparedView& view) {
     const double z = view.median_depth_m();
     return z > 0 ? view.K_depth()(0, 0) * view.camera().baseline_m / z : 0;
 }
 
 }  // namespace
+
+Eigen::Matrix3d ComparedView::K_depth() const {
+    return scaled_intrinsics(seen_by->K,
+                             static_cast<double>(depth_m->width_px()) / colour->width_px(),
+                             static_cast<double>(depth_m->height_px()) / colour->height_px());
+}
+
+ComparedView compared(const RigHistory& rig) {
+    return {&rig.camera(), &rig.colour(), &rig.steady_depth(), &rig.samples()};
+}
+
+std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> rigs) {
+    std::vector<ComparedView> all;
+    for (const auto& rig : rigs) all.push_back(compared(*rig));
+    return all;
+}
 
 RigConsensus::Sweep::Sweep(cv::Size size)
     : unlike{Texture(TextureFormat::rgba8, size.width, size.height),
@@ -60,44 +76,44 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
 }
 
 void RigConsensus::bind_view(Program& program, const Texture& depth_m,
-                             const RigHistory& view) const {
+                             const ComparedView& view) const {
     program.set("depth_map", 0);
     program.set("picture", 1);
     program.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
-    view.colour().bind(1);
+    view.colour->bind(1);
 }
 
 int RigConsensus::bind_others(Program& program, const Texture& depth_m,
-                              const RigHistory& view) const {
+                              const ComparedView& view) const {
     bind_view(program, depth_m, view);
     const VirtualView camera = depth_camera(view, depth_m.size());
     program.set("spread", depth_spread(view.camera()));
     int unit = 2;
     for (std::size_t i = 0; i < others_.size(); ++i) {
-        const RigHistory& other = *others_[i];
+        const ComparedView& other = *others_[i];
         const auto set = [&](const char* name, const auto& value) {
             program.set(fmt::format("{}[{}]", name, i), value);
         };
         set("other_depth", unit);
-        other.steady_depth().bind(unit++);
+        other.depth_m->bind(unit++);
         set("other_colour", unit);
-        other.colour().bind(unit++);
+        other.colour->bind(unit++);
         set("other_from_pixel",
             Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
-        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
-                                          static_cast<float>(other.colour().height_px())));
+        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour->width_px()),
+                                          static_cast<float>(other.colour->height_px())));
         set("other_spread", depth_spread(other.camera()));
     }
     return unit;
 }
 
-double RigConsensus::parallax_px(const RigHistory& view) const {
+double RigConsensus::parallax_px(const ComparedView& view) const {
     constexpr double small = 0.01;
-    const VirtualView camera = depth_camera(view, view.depth().size());
+    const VirtualView camera = depth_camera(view, view.depth_m->size());
     const double z = view.median_depth_m();
     double largest = 0;
-    for (const RigHistory* other : others_) {
+    for (const ComparedView* other : others_) {
         const Eigen::Matrix4d map = pixel_from_target_pixel(other->camera(), camera);
         const auto project = [&](double depth_m) {
             const Eigen::Vector4d q =
@@ -111,13 +127,13 @@ double RigConsensus::parallax_px(const RigHistory& view) const {
     return largest;
 }
 
-void RigConsensus::smooth(FullscreenPass& pass, const Texture& depth_m, const RigHistory& view,
+void RigConsensus::smooth(FullscreenPass& pass, const Texture& depth_m, const ComparedView& view,
                           const Framebuffer& target) const {
     bind_view(pass.use(), depth_m, view);
     pass.draw(target);
 }
 
-void RigConsensus::sweep(const RigHistory& view, double relative_step) {
+void RigConsensus::sweep(const ComparedView& view, double relative_step) {
     const cv::Size size = half_.texture().size();
     // Asked for before anything is bound: making a texture binds it.
     const Framebuffer& refined = half_.next_target(size);
@@ -125,7 +141,7 @@ void RigConsensus::sweep(const RigHistory& view, double relative_step) {
     Program& compare = comparing.use();
     bind_others(compare, half_.texture(), view);
     compare.set("relative_step", static_cast<float>(relative_step));
-    compare.set("lod", std::log2(static_cast<float>(view.colour().width_px()) /
+    compare.set("lod", std::log2(static_cast<float>(view.colour->width_px()) /
                                  static_cast<float>(size.width)));
     comparing.draw(costs_->target);
 
@@ -140,8 +156,8 @@ void RigConsensus::sweep(const RigHistory& view, double relative_step) {
     half_.finish();
 }
 
-void RigConsensus::refine(const RigHistory& view, double parallax_px) {
-    const Texture& depth_m = view.steady_depth();
+void RigConsensus::refine(const ComparedView& view, double parallax_px) {
+    const Texture& depth_m = *view.depth_m;
     const cv::Size half((depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2);
     half_before_.resize(half);
     if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
@@ -155,8 +171,8 @@ void RigConsensus::refine(const RigHistory& view, double parallax_px) {
     sweep(view, fine_step_px / parallax_px);
 }
 
-void RigConsensus::compare(const RigHistory& view, double parallax_px) {
-    const Texture& depth_m = view.steady_depth();
+void RigConsensus::compare(const ComparedView& view, double parallax_px) {
+    const Texture& depth_m = *view.depth_m;
     agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
     FullscreenPass& comparing = agreement_pass_[others_.size() - 1];
     Program& agreement = comparing.use();
@@ -166,14 +182,13 @@ void RigConsensus::compare(const RigHistory& view, double parallax_px) {
     agreement_.generate_mipmaps();
 }
 
-const Texture& RigConsensus::better(const RigHistory& view,
-                                    std::span<const std::unique_ptr<RigHistory>> all,
+const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all,
                                     PrepareLevel::Refinement refinement) {
-    const Texture& depth_m = view.steady_depth();
-    others_.clear();
-    for (const RigHistory* other :
-         most_useful(all, depth_camera(view, depth_m.size()), max_others + 1))
-        if (other != &view && others_.size() < max_others) others_.push_back(other);
+    const Texture& depth_m = *view.depth_m;
+    std::vector<const ComparedView*> looked_at;
+    for (const ComparedView& one : all)
+        if (one.seen_by != view.seen_by) looked_at.push_back(&one);
+    others_ = most_useful(looked_at, depth_camera(view, depth_m.size()), max_others);
     if (others_.empty()) return depth_m;
     // Before anything is bound: making a texture binds it.
     result_.resize(depth_m.size());

@@ -12,6 +12,23 @@
 
 namespace vantage {
 
+/// What is to be compared of a rig: a picture with depth. Lives no longer than what it names.
+struct ComparedView {
+    const DepthView* seen_by = nullptr;  ///< camera and baseline
+    const Texture* colour = nullptr;
+    const Texture* depth_m = nullptr;  ///< metres in its first channel, 0 = unknown
+    const SurfaceSamples* samples = nullptr;
+
+    const DepthView& camera() const { return *seen_by; }
+    std::span<const Eigen::Vector3d> sample_points_m() const { return samples->points_m; }
+    double median_depth_m() const { return samples->median_depth_m; }
+    Eigen::Matrix3d K_depth() const;
+};
+
+/// A rig with its steady colour and depth.
+ComparedView compared(const RigHistory& rig);
+std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> rigs);
+
 /// Betters a rig's depth by what the other rigs see. A stereo rig's baseline is short: what a tenth
 /// of a pixel is to it are centimetres of depth, and several pixels in a view from far aside. Other
 /// rigs look from there. So depth is moved to where their pictures and this one's are most alike (a
@@ -24,10 +41,10 @@ class RigConsensus {
   public:
     explicit RigConsensus(const ShaderLibrary& library);
 
-    /// The view's steady depth, bettered; as it is where no other view looks at the same things.
+    /// The view's depth, bettered; as it is where no other view looks at the same things.
     /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
-    /// view itself; their steady depths are those of the same instant.
-    const Texture& better(const RigHistory& view, std::span<const std::unique_ptr<RigHistory>> all,
+    /// view itself; their depths are those of the same instant.
+    const Texture& better(const ComparedView& view, std::span<const ComparedView> all,
                           PrepareLevel::Refinement refinement = PrepareLevel::Refinement::sweep);
 
   private:
@@ -39,23 +56,23 @@ class RigConsensus {
     };
     static constexpr std::size_t max_others = 3;
 
-    void bind_view(Program& program, const Texture& depth_m, const RigHistory& view) const;
+    void bind_view(Program& program, const Texture& depth_m, const ComparedView& view) const;
     /// Also the other views, up to the texture unit that is returned.
-    int bind_others(Program& program, const Texture& depth_m, const RigHistory& view) const;
+    int bind_others(Program& program, const Texture& depth_m, const ComparedView& view) const;
     /// How far the view's middle moves in the others' pictures, at most, if its inverse depth
     /// changes by all of itself; px of its depth map.
-    double parallax_px(const RigHistory& view) const;
-    void compare(const RigHistory& view, double parallax_px);
+    double parallax_px(const ComparedView& view) const;
+    void compare(const ComparedView& view, double parallax_px);
     /// Fills half_before_ and half_.
-    void refine(const RigHistory& view, double parallax_px);
-    void sweep(const RigHistory& view, double relative_step);
-    void smooth(FullscreenPass& pass, const Texture& depth_m, const RigHistory& view,
+    void refine(const ComparedView& view, double parallax_px);
+    void sweep(const ComparedView& view, double relative_step);
+    void smooth(FullscreenPass& pass, const Texture& depth_m, const ComparedView& view,
                 const Framebuffer& target) const;
 
     FullscreenPass halve_, smooth_, refine_;
     /// One for every number of other views.
     std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_;
-    std::vector<const RigHistory*> others_;
+    std::vector<const ComparedView*> others_;
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
     DrawnTexture judged_{TextureFormat::rg32f};

@@ -6,11 +6,9 @@ namespace vantage {
 
 void RigHistory::forget() {
     steady_colour_.forget();
-    steady_.forget();
+    set_.forget();
+    model_.reset();
     surface_.reset();
-    before_.reset();
-    plate_.reset();
-    plate_instants_ = 0;
 }
 
 void RigHistory::upload(const DepthView& view, double dt_s) {
@@ -22,11 +20,10 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     if (!is_same_camera) forget();
     if (!prepared_rank_) surface_.reset();
     prepared_rank_.reset();
-    before_.reset();
     // A filter that left an upload out has no past for the next.
     if (!is_colour_steady_) steady_colour_.forget();
-    if (!is_depth_steady_) steady_.forget();
-    is_colour_steady_ = is_depth_steady_ = false;
+    if (!is_set_learnt_) set_.forget();
+    is_colour_steady_ = is_set_learnt_ = false;
     camera_ = view;
     camera_.release_pictures();
     if (!colour_ || colour_->size() != view.colour.size())

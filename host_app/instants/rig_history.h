@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "host_app/instants/depth_uploader.h"
+#include "host_app/instants/drawn_texture.h"
 #include "host_app/instants/rig_surface.h"
+#include "host_app/instants/set_state.h"
 #include "host_app/instants/steady_colour.h"
 
 namespace vantage {
@@ -41,18 +43,36 @@ class RigHistory {
         steady_colour_.finish();
         is_colour_steady_ = true;
     }
-    /// depth() filtered along time, with a second channel of the filter's own: what
-    /// finish_steady_depth() saw drawn last into next_steady_target(). depth() itself where nothing
-    /// was.
-    const Texture& steady_depth() const { return is_depth_steady_ ? steady_.texture() : depth(); }
-    bool has_steady_before() const { return steady_.is_drawn(); }
-    /// Precondition: has_steady_before().
-    const Texture& steady_before() const { return steady_.texture(); }
-    const Framebuffer& next_steady_target() { return steady_.next_target(depth().size()); }
-    void finish_steady_depth() {
-        steady_.finish();
-        is_depth_steady_ = true;
+    /// Before finish_colour()'s picture is read at coarser levels.
+    void generate_mipmaps() { steady_colour_.generate_mipmaps(); }
+    /// The set's depth in the first channel; depth() itself where none was learnt of this upload.
+    const Texture& steady_depth() const { return is_set_learnt_ ? set_.state() : depth(); }
+    const SetState& set_state() const { return set_; }
+    SetState& set_to_learn() {
+        set_.resize(depth().size());
+        return set_;
     }
+    void finish_set() {
+        set_.finish();
+        is_set_learnt_ = true;
+    }
+    /// The set as it was bettered last, and how well (see PrepareLevel::rank); null before the
+    /// first.
+    struct Model {
+        std::shared_ptr<const RigSurface> surface;
+        int rank = 0;
+        double made_s = 0;       ///< on the preparer's clock
+        std::uint64_t made = 0;  ///< number of the instant
+    };
+    const std::optional<Model>& model() const { return model_; }
+    void set_model(const Model& model) { model_ = model; }
+
+    /// The performers' share of each pixel of the picture, in alpha, with their colour.
+    DrawnTexture& matte() { return matte_; }
+    const Texture& matte() const { return matte_.texture(); }
+    /// Their depth, r32f, metres, 0 = none.
+    DrawnTexture& performer_depth() { return performer_depth_; }
+    const Texture& performer_depth() const { return performer_depth_.texture(); }
 
     /// Since the upload before.
     double dt_s() const { return dt_s_; }
@@ -62,24 +82,9 @@ class RigHistory {
     const std::shared_ptr<const RigSurface>& surface() const { return surface_; }
     std::optional<int> prepared_rank() const { return prepared_rank_; }
     void publish(std::shared_ptr<const RigSurface> surface, int rank) {
-        if (!prepared_rank_) before_ = std::move(surface_);
         surface_ = std::move(surface);
         prepared_rank_ = rank;
     }
-    /// What was published of the upload before, with settled depth; null: nothing was.
-    const RigSurface* settled_before() const {
-        const RigSurface* before = prepared_rank_ ? before_.get() : surface_.get();
-        return before && before->is_settled() ? before : nullptr;
-    }
-
-    /// What this rig has learnt of its background, and of how many instants; null before the first.
-    const std::shared_ptr<RigPlate>& plate() const { return plate_; }
-    int plate_instants() const { return plate_instants_; }
-    void learn(std::shared_ptr<RigPlate> plate) {
-        plate_ = std::move(plate);
-        ++plate_instants_;
-    }
-
     /// How far this rig takes part, 0..1.
     float presence() const { return presence_; }
     void set_presence(float presence) { presence_ = presence; }
@@ -97,14 +102,15 @@ class RigHistory {
     DrawnTexture depth_{TextureFormat::r32f};
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
     std::unique_ptr<DepthUploader> uploader_;     ///< likewise
-    DrawnInTurn steady_{TextureFormat::rg32f};
     SteadyColour steady_colour_;
-    bool is_colour_steady_ = false, is_depth_steady_ = false;
-    std::shared_ptr<const RigSurface> surface_, before_;
+    SetState set_;
+    std::optional<Model> model_;
+    DrawnTexture matte_{TextureFormat::rgba8, Filter::linear};
+    DrawnTexture performer_depth_{TextureFormat::r32f};
+    bool is_colour_steady_ = false, is_set_learnt_ = false;
+    std::shared_ptr<const RigSurface> surface_;
     std::optional<int> prepared_rank_;
     float presence_ = 1;
-    std::shared_ptr<RigPlate> plate_;
-    int plate_instants_ = 0;
     SurfaceSamples samples_;
 };
 

@@ -31,7 +31,7 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     camera_ = camera;
     camera_.release_pictures();
     samples_ = samples;
-    is_settled_ = has_rims_ = false;
+    has_rims_ = false;
     has_fine_grid_ = true;
     plate_.reset();
     colour_.resize(colour_size);
@@ -54,11 +54,6 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
     upload_depth(view, uploader, drawn_);
     upload_colour(view, corrector, colour_.texture());
     colour_.generate_mipmaps();
-}
-
-const Framebuffer& RigSurface::settled_target() {
-    settled_.resize(drawn_.texture().size());
-    return settled_.target();
 }
 
 const SurfaceRims& RigSurface::rims_to_build() {

@@ -21,7 +21,7 @@ class RigSurface {
     /// Camera, name and sizes; its pictures are empty.
     const DepthView& camera() const { return camera_; }
     /// Metres in the first channel, 0 = unknown, negative = guessed.
-    const Texture& depth() const { return is_settled_ ? settled_.texture() : drawn_.texture(); }
+    const Texture& depth() const { return drawn_.texture(); }
     /// rgba8, trilinear; alpha says how far the colour can be trusted.
     const Texture& colour() const { return colour_.texture(); }
 
@@ -56,12 +56,6 @@ class RigSurface {
     void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                 std::unique_ptr<DepthUploader>& uploader);
     const Framebuffer& depth_target() const { return drawn_.target(); }
-    /// What was drawn into depth_target().
-    const Texture& fresh_depth() const { return drawn_.texture(); }
-    /// Into which fresh_depth() is settled: rg32f, metres and votes.
-    const Framebuffer& settled_target();
-    void finish_settled() { is_settled_ = true; }
-    bool is_settled() const { return is_settled_; }
     const Framebuffer& colour_target() const { return colour_.target(); }
     void finish_colour() { colour_.generate_mipmaps(); }
     const SurfaceRims& rims_to_build();
@@ -71,9 +65,9 @@ class RigSurface {
   private:
     DepthView camera_;
     SurfaceSamples samples_;
-    DrawnTexture drawn_{TextureFormat::r32f}, settled_{TextureFormat::rg32f};
+    DrawnTexture drawn_{TextureFormat::r32f};
     DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
-    bool is_settled_ = false, has_rims_ = false, has_fine_grid_ = true;
+    bool has_rims_ = false, has_fine_grid_ = true;
     std::optional<Buffer> triangles_, coarse_triangles_;
     std::optional<SurfaceRims> rims_;
     cv::Size grid_size_;

@@ -28,9 +28,9 @@ class SteadyColour {
     }
     void finish() {
         sized_->now = 1 - sized_->now;
-        sized_->picture.generate_mipmaps();
         is_drawn_ = true;
     }
+    void generate_mipmaps() { sized_->picture.generate_mipmaps(); }
     void forget() { is_drawn_ = false; }
 
   private:

@@ -19,7 +19,6 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/instants/plate_learner.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
@@ -160,8 +159,7 @@ class Bench {
         for (const std::size_t rigs : {1u, 2u, 4u, 8u}) {
             Timed& one =
                 ones.emplace_back(std::span(all).first(rigs), make_synthesiser(name, shaders_));
-            for (int i = 0; i < PlateLearner::confirmations; ++i)
-                one.synthesiser->set_views(one.views);
+            one.synthesiser->set_views(one.views);
             one.synthesiser->render(target);
         }
         for (int i = 0; i < repeats; ++i)

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/instants/refining_preparer.h"
+#include "host_app/instants/staged_preparer.h"
 #include "host_app/synthesis/background_plate.h"
 #include "host_app/synthesis/fused_colour.h"
 #include "host_app/synthesis/layer_blender.h"
@@ -76,11 +76,10 @@ class FusedRenderer final : public ViewRenderer {
 }  // namespace
 
 SynthesiserEntry fused_synthesiser_entry() {
-    return {
-        "fused",
-        "per-pixel visibility in all rigs, soft depth edges, colours trusted by their place",
-        [](const ShaderLibrary& library) { return std::make_unique<RefiningPreparer>(library); },
-        [](const ShaderLibrary& library) { return std::make_unique<FusedRenderer>(library); }};
+    return {"fused",
+            "per-pixel visibility in all rigs, soft depth edges, colours trusted by their place",
+            [](const ShaderLibrary& library) { return std::make_unique<StagedPreparer>(library); },
+            [](const ShaderLibrary& library) { return std::make_unique<FusedRenderer>(library); }};
 }
 
 }  // namespace vantage

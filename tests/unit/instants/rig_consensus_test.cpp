@@ -41,7 +41,7 @@ class FaultyPairTest : public testing::Test {
             views.push_back(std::make_unique<RigHistory>());
             views.back()->upload(view);
         }
-        return consensus_.better(*views[0], views).download();
+        return consensus_.better(compared(*views[0]), compared(views)).download();
     }
 
     EglContext context_;
@@ -110,7 +110,7 @@ class DoubtedStripTest : public testing::Test {
         const DepthView rigs[] = {own, film(-0.4), film(0.4)};
         std::vector<std::unique_ptr<RigHistory>> views;
         upload_with_fades(rigs, nominal_dt_s, views);
-        return consensus_.better(*views[0], views).download()(strip);
+        return consensus_.better(compared(*views[0]), compared(views)).download()(strip);
     }
 
     EglContext context_;

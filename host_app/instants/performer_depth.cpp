@@ -1,0 +1,79 @@
+#include "host_app/instants/performer_depth.h"
+
+#include <fmt/format.h>
+
+#include "host_app/instants/depth_edges.h"
+#include "host_app/instants/projection.h"
+#include "host_app/instants/view_ranking.h"
+
+namespace vantage {
+
+const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* const> all) {
+    const cv::Size size = rig.depth().size();
+    const VirtualView camera{size.width, size.height, rig.K_depth(),
+                             rig.camera().world_from_camera};
+    std::vector<RigHistory*> others;
+    for (RigHistory* other : most_useful(all, camera, max_others + 1))
+        if (other != &rig && others.size() < max_others) others.push_back(other);
+    if (others.empty()) return rig.depth();
+    carved_.resize(size);
+    FullscreenPass& carving = carve_[others.size() - 1];
+    Program& carve = carving.use();
+    carve.set("depth_map", 0);
+    carve.set("seen", 1);
+    carve.set("matte", 2);
+    rig.depth().bind(0);
+    rig.set_state().seen().bind(1);
+    rig.matte().texture().bind(2);
+    int unit = 3;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const auto set = [&](const char* name, const auto& value) {
+            carve.set(fmt::format("{}[{}]", name, i), value);
+        };
+        RigHistory& other = *others[i];
+        set("other_matte", unit);
+        other.matte().texture().bind(unit++);
+        set("other_set", unit);
+        other.steady_depth().bind(unit++);
+        set("other_from_pixel",
+            Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
+        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
+                                          static_cast<float>(other.colour().height_px())));
+    }
+    carving.draw(carved_.target());
+    return carved_.texture();
+}
+
+void PerformerDepth::close(const Texture& depth_m, const RigHistory& rig,
+                           const Framebuffer& closed) {
+    Program& depth = close_.use();
+    depth.set("depth_map", 0);
+    depth.set("picture", 1);
+    depth.set("matte", 2);
+    depth.set("edge_ratio", depth_edge_ratio);
+    depth_m.bind(0);
+    rig.fresh_colour().bind(1);
+    rig.matte().bind(2);
+    close_.draw(closed);
+}
+
+void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all) {
+    rig.performer_depth().resize(rig.depth().size());
+    close(carve(rig, all), rig, rig.performer_depth().target());
+}
+
+const Texture& PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
+                                      PrepareLevel::Refinement refinement) {
+    if (refinement == PrepareLevel::Refinement::none) return rig.performer_depth();
+    const auto performers = [](const RigHistory& one) {
+        return ComparedView{&one.camera(), &one.fresh_colour(), &one.performer_depth(),
+                            &one.samples()};
+    };
+    std::vector<ComparedView> views;
+    for (const RigHistory* one : all) views.push_back(performers(*one));
+    bettered_.resize(rig.depth().size());
+    close(consensus_.better(performers(rig), views, refinement), rig, bettered_.target());
+    return bettered_.texture();
+}
+
+}  // namespace vantage

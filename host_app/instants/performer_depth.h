@@ -1,0 +1,41 @@
+#pragma once
+
+#include "common/gl/fullscreen_pass.h"
+#include "host_app/instants/rig_consensus.h"
+#include "host_app/instants/rig_history.h"
+
+namespace vantage {
+
+/// Finds the depth of what stands before a rig's set.
+class PerformerDepth {
+  public:
+    explicit PerformerDepth(const ShaderLibrary& library)
+        : close_(library, "performer_depth.frag"), consensus_(library) {
+        for (std::size_t others = 1; others <= max_others; ++others)
+            carve_.emplace_back(library, "performer_carve.frag",
+                                ShaderDefines{{"OTHERS", std::to_string(others)}});
+    }
+
+    /// Fills the rig's performer_depth(). `all`, of this instant, may hold the rig
+    /// itself. Precondition: a SetLearner has learnt of all of them.
+    void find(RigHistory& rig, std::span<RigHistory* const> all);
+
+    /// That depth, bettered by the other rigs; valid until the next call. Precondition:
+    /// find() of all rigs.
+    const Texture& better(const RigHistory& rig, std::span<RigHistory* const> all,
+                          PrepareLevel::Refinement refinement);
+
+  private:
+    static constexpr std::size_t max_others = 3;
+
+    const Texture& carve(RigHistory& rig, std::span<RigHistory* const> all);
+    /// Fills and smooths.
+    void close(const Texture& depth_m, const RigHistory& rig, const Framebuffer& closed);
+
+    std::vector<FullscreenPass> carve_;  ///< one for every number of other rigs
+    FullscreenPass close_;
+    RigConsensus consensus_;
+    DrawnTexture carved_{TextureFormat::r32f}, bettered_{TextureFormat::r32f};
+};
+
+}  // namespace vantage

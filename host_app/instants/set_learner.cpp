@@ -1,0 +1,101 @@
+#include "host_app/instants/set_learner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_app/instants/depth_spread.h"
+
+namespace vantage {
+namespace {
+
+constexpr float softness = 0.002f;
+/// Of the means of depth and colour.
+constexpr double depth_mean_s = 6, colour_mean_s = 3;
+/// A depth that jumps where the colour stays is not believed before.
+constexpr double patience_s = 1;
+/// What stands still before the set for so long is a part of it.
+constexpr double absorbed_after_s = 120;
+
+}  // namespace
+
+float instants_of(double seconds, double dt_s, int fewest, int most) {
+    const double instants = dt_s > 0 ? std::round(seconds / dt_s) : most;
+    return static_cast<float>(
+        std::clamp(instants, static_cast<double>(fewest), static_cast<double>(most)));
+}
+
+void SetLearner::learn(RigHistory& rig) {
+    // Asked for before anything is bound: making a texture binds it.
+    SetState& set = rig.set_to_learn();
+    rig.matte().resize(rig.fresh_colour().size());
+    hard_.resize(rig.fresh_colour().size());
+    const bool has_before = set.is_drawn() && rig.has_colour_before();
+    const Framebuffer& colour = rig.next_colour_target();
+    const Texture& set_colour = has_before ? rig.colour_mean() : rig.fresh_colour();
+    const Texture& state_before = has_before ? set.state() : rig.depth();
+    const auto set_votes = [&](Program& program) {
+        program.set("softness", softness);
+        program.set("spread", depth_spread(rig.camera()));
+        program.set("has_before", has_before ? 1.0f : 0.0f);
+    };
+
+    Program& see = see_.use();
+    see.set("depth_map", 0);
+    see.set("picture", 1);
+    see.set("set_colour", 2);
+    see.set("set_state", 3);
+    set_votes(see);
+    rig.depth().bind(0);
+    rig.fresh_colour().bind(1);
+    set_colour.bind(2);
+    state_before.bind(3);
+    see_.draw(set.seen_target());
+
+    Program& matte = matte_.use();
+    matte.set("picture", 0);
+    matte.set("set_colour", 1);
+    matte.set("seen", 2);
+    rig.fresh_colour().bind(0);
+    set_colour.bind(1);
+    set.seen().bind(2);
+    matte_.draw(hard_.target());
+
+    Program& soften = soften_.use();
+    soften.set("picture", 0);
+    soften.set("set_colour", 1);
+    soften.set("hard", 2);
+    hard_.texture().bind(2);
+    soften_.draw(rig.matte().target());
+
+    Program& learn = learn_.use();
+    learn.set("depth_map", 0);
+    learn.set("set_before", 1);
+    learn.set("seen", 2);
+    learn.set("matte", 3);
+    set_votes(learn);
+    learn.set("most_instants", instants_of(depth_mean_s, rig.dt_s(), 8, 128));
+    learn.set("most_misses", instants_of(patience_s, rig.dt_s(), 3, 30));
+    learn.set("absorbed_after", static_cast<float>(absorbed_after_s / std::max(rig.dt_s(), 1e-3)));
+    rig.depth().bind(0);
+    state_before.bind(1);
+    set.seen().bind(2);
+    rig.matte().texture().bind(3);
+    learn_.draw(set.next_target());
+
+    Program& show = colour_.use();
+    show.set("picture", 0);
+    show.set("before", 1);
+    show.set("seen", 2);
+    show.set("matte", 3);
+    show.set("has_before", has_before ? 1.0f : 0.0f);
+    show.set("most_instants", instants_of(colour_mean_s, rig.dt_s(), 4, 32));
+    rig.fresh_colour().bind(0);
+    set_colour.bind(1);
+    set.seen().bind(2);
+    rig.matte().texture().bind(3);
+    colour_.draw(colour);
+    rig.finish_set();
+    rig.finish_colour();
+}
+
+}  // namespace vantage

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "common/gl/fullscreen_pass.h"
+#include "host_app/instants/rig_history.h"
+
+namespace vantage {
+
+/// Tells a rig's set, which stands still, from the performers before it. The set's depth and colour
+/// are learnt along time, and what performers hide now is remembered; performers get a matte.
+class SetLearner {
+  public:
+    explicit SetLearner(const ShaderLibrary& library)
+        : see_(library, "set_see.frag"),
+          matte_(library, "matte.frag"),
+          soften_(library, "matte_soften.frag"),
+          learn_(library, "set_learn.frag"),
+          colour_(library, "set_colour.frag") {}
+
+    /// Makes the rig's colour() and steady_depth() those of its set, and fills its matte(). Once an
+    /// upload.
+    void learn(RigHistory& rig);
+
+  private:
+    FullscreenPass see_, matte_, soften_, learn_, colour_;
+    DrawnTexture hard_{TextureFormat::rgba8, Filter::linear};
+};
+
+/// How many instants `dt_s` apart `seconds` span, within bounds.
+float instants_of(double seconds, double dt_s, int fewest, int most);
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "common/gl/framebuffer.h"
+#include "common/gl/texture.h"
+
+namespace vantage {
+
+/// What a rig has learnt of the depth of its set, rgba32f in two copies, of which the one before is
+/// read while the next is drawn, and what the newest instant shows against it, rgba8 (see
+/// set_see.frag). The first channel of the former is the set's depth in metres.
+class SetState {
+  public:
+    /// Whether state() and seen() hold anything.
+    bool is_drawn() const { return is_drawn_; }
+    const Texture& state() const { return sized_->states[sized_->now]; }
+    const Texture& seen() const { return sized_->seen; }
+
+    /// Another size begins anew.
+    void resize(cv::Size size) {
+        if (sized_ && sized_->seen.size() == size) return;
+        sized_.emplace(size);
+        is_drawn_ = false;
+    }
+    const Framebuffer& seen_target() const { return sized_->seen_target; }
+    const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
+    void finish() {
+        sized_->now = 1 - sized_->now;
+        is_drawn_ = true;
+    }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    struct Sized {
+        Texture seen;
+        std::array<Texture, 2> states;
+        Framebuffer seen_target;
+        std::array<Framebuffer, 2> targets;
+        std::size_t now = 0;
+
+        explicit Sized(cv::Size size)
+            : seen(TextureFormat::rgba8, size.width, size.height),
+              states{state_of(size), state_of(size)},
+              seen_target{&seen},
+              targets{Framebuffer{&states[0]}, Framebuffer{&states[1]}} {}
+        static Texture state_of(cv::Size size) {
+            return {TextureFormat::rgba32f, size.width, size.height};
+        }
+    };
+
+    std::optional<Sized> sized_;
+    bool is_drawn_ = false;
+};
+
+}  // namespace vantage

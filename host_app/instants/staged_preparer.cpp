@@ -1,0 +1,146 @@
+#include "host_app/instants/staged_preparer.h"
+
+#include "host_app/instants/rig_presence.h"
+#include "host_app/instants/view_ranking.h"
+
+namespace vantage {
+namespace {
+
+/// Between two models of a set at the best level, and between two works of improve().
+constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
+
+}  // namespace
+
+StagedPreparer::StagedPreparer(const ShaderLibrary& library)
+    : sets_(library),
+      performers_(library),
+      consensus_(library),
+      closer_(library),
+      edge_trust_(library),
+      triangles_(library),
+      show_(library, "set_show.frag"),
+      over_(library, "set_over.frag"),
+      now_(library, "colours_now.frag") {}
+
+void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
+    now_s_ += dt_s;
+    ++instant_;
+    uploaded_ = upload_with_fades(views, dt_s, rigs_);
+    for (RigHistory* rig : uploaded_) sets_.learn(*rig);
+    has_depths_.clear();
+}
+
+void StagedPreparer::forget() {
+    for (const auto& rig : rigs_) rig->forget();
+}
+
+void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
+    const std::shared_ptr<RigSurface> model = surfaces_.take();
+    model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
+    rig.generate_mipmaps();
+    const Texture& bettered =
+        level.refinement == PrepareLevel::Refinement::none
+            ? rig.steady_depth()
+            : consensus_.better(compared(rig), compared(rigs_), level.refinement);
+    closer_.close(bettered, rig.steady_depth(), rig.colour(), model->depth_target());
+    edge_trust_.judge(rig.colour(), *model);
+    for (const QuadGrid grid : {QuadGrid::coarse, QuadGrid::fine})
+        triangles_.build(model->grid(grid));
+    triangles_.build_rims(*model);
+    rig.set_model({model, level.rank, now_s_, instant_});
+}
+
+std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
+    const RigHistory::Model& model = *rig.model();
+    const std::shared_ptr<RigPlate> plate = plate_pool_.take();
+    const Framebuffer& target = plate->picture(rig.depth().size()).target();
+    Program& show = show_.use();
+    show.set("model", 0);
+    show.set("set_state", 1);
+    show.set("colour", 2);
+    show.set("since", static_cast<float>(instant_ - model.made));
+    model.surface->depth().bind(0);
+    rig.set_state().state().bind(1);
+    rig.colour().bind(2);
+    show_.draw(target);
+    triangles_.build(
+        {plate->picture().depth_m(),
+         plate->triangles_to_build(triangle_indices(rig.depth().size(), QuadGrid::coarse)),
+         rig.K_depth(), rig.camera().world_from_camera, QuadGrid::coarse});
+    return plate;
+}
+
+void StagedPreparer::find_performers(RigHistory& rig, const PrepareLevel& level) {
+    const auto find = [&](RigHistory& one) {
+        if (has_depths_.insert(&one).second) performers_.find(one, uploaded_);
+    };
+    // The others' are asked for only where they are compared.
+    if (level.refinement == PrepareLevel::Refinement::none)
+        find(rig);
+    else
+        for (RigHistory* one : uploaded_) find(*one);
+}
+
+void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
+    const bool is_best = level.rank == 0;
+    if (!rig.model() ||
+        (is_best && (rig.model()->rank > 0 || now_s_ - rig.model()->made_s >= model_period_s)))
+        make_model(rig, level);
+    const RigHistory::Model& model = *rig.model();
+    find_performers(rig, level);
+    const Texture& performers = performers_.better(rig, uploaded_, level.refinement);
+    const std::shared_ptr<RigSurface> surface = surfaces_.take();
+    surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
+    Program& over = over_.use();
+    over.set("model", 0);
+    over.set("set_state", 1);
+    over.set("performers", 2);
+    over.set("matte", 3);
+    over.set("since", static_cast<float>(instant_ - model.made));
+    model.surface->depth().bind(0);
+    rig.set_state().state().bind(1);
+    performers.bind(2);
+    rig.matte().texture().bind(3);
+    over_.draw(surface->depth_target());
+    colours_.resize(rig.colour().size());
+    Program& now = now_.use();
+    now.set("picture", 0);
+    now.set("set_colour", 1);
+    rig.fresh_colour().bind(0);
+    rig.colour().bind(1);
+    now_.draw(colours_.target());
+    edge_trust_.judge(colours_.texture(), *surface);
+    triangles_.build(surface->grid(QuadGrid::coarse));
+    if (level.has_fine_grid) {
+        triangles_.build(surface->grid(QuadGrid::fine));
+        triangles_.build_rims(*surface);
+    }
+    surface->set_has_fine_grid(level.has_fine_grid);
+    surface->set_plate(plate_of(rig));
+    rig.publish(surface, level.rank);
+}
+
+std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target,
+                                                       const PrepareLevel& level) {
+    auto instant = std::make_shared<Instant>();
+    instant->level = level.rank;
+    for (RigHistory* rig : most_useful(rigs_, target, level.rigs)) {
+        if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
+        instant->rigs.push_back({rig->surface(), nullptr, rig->presence()});
+    }
+    return instant;
+}
+
+void StagedPreparer::improve(const VirtualView& target) {
+    if (now_s_ - improved_s_ < improvement_period_s) return;
+    // The oldest model of those that are looked at.
+    RigHistory* oldest = nullptr;
+    for (RigHistory* rig : most_useful(rigs_, target, most_drawn_rigs))
+        if (rig->model() && (!oldest || rig->model()->made_s < oldest->model()->made_s))
+            oldest = rig;
+    if (!oldest) return;
+    improved_s_ = now_s_;
+    make_model(*oldest, prepare_levels().front());
+}
+
+}  // namespace vantage

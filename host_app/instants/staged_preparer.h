@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "host_app/instants/depth_closer.h"
+#include "host_app/instants/edge_trust.h"
+#include "host_app/instants/instant_preparer.h"
+#include "host_app/instants/performer_depth.h"
+#include "host_app/instants/recycle_pool.h"
+#include "host_app/instants/rig_consensus.h"
+#include "host_app/instants/set_learner.h"
+#include "host_app/instants/triangle_builder.h"
+
+namespace vantage {
+
+/// Takes a stage for two things: a set, which is learnt along time, bettered by all rigs and kept,
+/// and performers before it, who are cut out of every instant with a matte.
+class StagedPreparer final : public InstantPreparer {
+  public:
+    explicit StagedPreparer(const ShaderLibrary& library);
+
+    void take(std::span<const DepthView> views, double dt_s) override;
+    std::shared_ptr<const Instant> prepare(const VirtualView& target,
+                                           const PrepareLevel& level) override;
+    void improve(const VirtualView& target) override;
+    void forget() override;
+
+  private:
+    /// Makes the model of the rig's set anew.
+    void make_model(RigHistory& rig, const PrepareLevel& level);
+    std::shared_ptr<const RigPlate> plate_of(RigHistory& rig);
+    void find_performers(RigHistory& rig, const PrepareLevel& level);
+    void publish(RigHistory& rig, const PrepareLevel& level);
+
+    RecyclePool<RigSurface> surfaces_;
+    std::vector<std::unique_ptr<RigHistory>> rigs_;
+    std::vector<RigHistory*> uploaded_;  ///< those of the newest instant
+    std::set<RigHistory*> has_depths_;   ///< of them: whose performers were found
+    SetLearner sets_;
+    PerformerDepth performers_;
+    RigConsensus consensus_;
+    DepthCloser closer_;
+    EdgeTrust edge_trust_;
+    TriangleBuilder triangles_;
+    FullscreenPass show_, over_, now_;
+    DrawnTexture colours_{TextureFormat::rgba8, Filter::linear};
+    RecyclePool<RigPlate> plate_pool_;
+    double now_s_ = 0;  ///< instants' time since the first one
+    std::uint64_t instant_ = 0;
+    double improved_s_ = 0;
+};
+
+}  // namespace vantage

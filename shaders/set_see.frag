@@ -1,0 +1,66 @@
+// What a rig's picture shows at each pixel against its set, which stands still and lies behind everything that moves
+// over it.
+#include "depth_votes.glsl"
+#include "set_kinds.glsl"
+
+uniform sampler2D depth_map;  // this instant's, metres, 0 = unknown
+uniform sampler2D picture;    // this instant's
+uniform sampler2D set_colour; // mean of the instants that showed the set; alpha: how many
+uniform sampler2D set_state;  // of the instants before
+
+layout(location = 0) out vec4 seen;  // red: one of the kinds of set_kinds.glsl; green: how far the colour is from the set's, in a
+                                      // window; blue: just here
+
+const float motion = 0.02;  // of colour (0..1), mean of a window: it shows another thing
+const vec2 shade = vec2(0.45, 1.3);  // what light and shadow make of a colour, from and to
+const float uncovered_after = 3.0;   // instants, at most, after which what is farther is the set
+const float tint = 0.025;            // change of colour beside that
+
+vec3 now, known;  // means of a window
+float own;        // difference just here
+
+// Seventeen pixels of five by five: the middle and two by two at each corner.
+void look(vec2 uv) {
+    vec2 texel = 1.0 / vec2(textureSize(picture, 0));
+    now = textureLod(picture, uv, 0.0).rgb;
+    known = textureLod(set_colour, uv, 0.0).rgb;
+    vec3 off = abs(now - known);
+    own = max(off.r, max(off.g, off.b));
+    for (int k = 0; k < 4; ++k) {
+        vec2 corner = uv + 1.5 * texel * (2.0 * vec2(k & 1, k >> 1) - 1.0);
+        now += 4.0 * textureLod(picture, corner, 0.0).rgb;
+        known += 4.0 * textureLod(set_colour, corner, 0.0).rgb;
+    }
+    now /= 17.0;
+    known /= 17.0;
+}
+
+float largest(vec3 change) {
+    change = abs(change);
+    return max(change.r, max(change.g, change.b));
+}
+
+bool is_shade() {
+    float share = dot(now, known) / max(dot(known, known), 1e-4);
+    return share > shade.x && share < shade.y && largest(now - share * known) < tint;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    seen = vec4(0.0);
+    if (has_before == 0.0) return;
+    look(gl_FragCoord.xy / vec2(textureSize(depth_map, 0)));
+    float z = texelFetch(depth_map, at, 0).r, change = largest(now - known);
+    vec4 state = texelFetch(set_state, at, 0);
+    bool is_known = z > 0.0 && state.r > 0.0, is_same = is_known && is_one_surface(z, state.r);
+    float kind = the_set;
+    if (change > motion) {
+        bool goes_on = state.b > 0.0 && is_one_surface(z, state.b);
+        bool is_believed = state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
+        kind = is_same && is_shade()                 ? lit_set
+               : is_known && !is_same && z < state.r ? before_set
+               : z > 0.0 && !is_same                 ? (is_believed ? new_set : uncovered)
+                                                     : untold;
+    }
+    seen = vec4(kind, change, own, 0.0);
+}

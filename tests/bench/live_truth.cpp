@@ -1,0 +1,57 @@
+// What the programme's pictures are worth: the virtual stage tells what a real camera in the
+// virtual one's place would have seen.
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "common/gl/egl_context.h"
+#include "tests/bench/stepped_truth.h"
+
+namespace vantage {
+namespace {
+
+cv::Size size_of(const std::string& text) {
+    int width = 0, height = 0;
+    if (std::sscanf(text.c_str(), "%dx%d", &width, &height) != 2 || width < 16 || height < 16)
+        throw CLI::ValidationError("a size is WIDTHxHEIGHT, each at least 16, not " + text);
+    return {width, height};
+}
+
+}  // namespace
+}  // namespace vantage
+
+int main(int argc, char** argv) {
+    using namespace vantage;
+    CLI::App app("How close the programme's pictures come to a real camera's");
+    app.require_subcommand(1);
+    SteppedTruth stepped;
+    std::string size = "320x240", preset = "balanced";
+    CLI::App* steps =
+        app.add_subcommand("stepped", "Every instant is waited for, at a fixed level");
+    steps->add_option("--synth", stepped.synthesisers)->delimiter(',')->capture_default_str();
+    steps->add_option("--sets", stepped.sets, "0: the demo's")->delimiter(',');
+    steps->add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
+    steps->add_option("--preset", preset, "Of the rigs' matchers");
+    steps->add_option("--disparities", stepped.rigs.disparities);
+    steps->add_option("--apart", stepped.apart_deg, "Degrees between two rigs");
+    steps->add_option("--rate", stepped.rate_hz, "Instants a second")
+        ->check(CLI::Range(0.5, 100.0));
+    steps->add_option("--settling", stepped.settling_s, "Seconds before the measured ones");
+    steps->add_option("--seconds", stepped.measured_s, "Measured");
+    steps->add_option("--start", stepped.start_s, "In the stage's loop of 24 s");
+    steps->add_option("--prepare-level", stepped.prepare_level)->check(CLI::Range(0, 3));
+    steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 5));
+    steps->add_flag("--exact", stepped.with_exact_depth, "Depth of the stage, not of the matchers");
+    steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        EglContext context;
+        const ShaderLibrary shaders;
+        stepped.rigs.size = size_of(size);
+        stepped.rigs.preset = parse_preset(preset);
+        std::cout << stepped_table(shaders, stepped);
+    } catch (const std::exception& error) {
+        std::cerr << "live_truth: " << error.what() << "\n";
+        return 1;
+    }
+}

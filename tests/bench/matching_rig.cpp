@@ -1,0 +1,66 @@
+#include "tests/bench/matching_rig.h"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace vantage {
+
+StereoCalibration rig_at(double azimuth_deg, cv::Size size) {
+    return ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
+                              .width_px = size.width,
+                              .height_px = size.height});
+}
+
+VirtualView camera_of(const StereoCalibration& rig) {
+    return {rig.left.width_px, rig.left.height_px, rig.left.K(), rig.world_from_left};
+}
+
+MatchingRig::MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::uint64_t seed,
+                         const Settings& settings)
+    : calibration_(rig_at(azimuth_deg, settings.size)),
+      rig_(calibration_, {.sigma = settings.noise_sigma, .seed = seed}),
+      left_(TextureFormat::rgba8, settings.size.width, settings.size.height),
+      right_(TextureFormat::rgba8, settings.size.width, settings.size.height),
+      matcher_(make_matcher(default_matcher(settings.preset), library,
+                            {.width_px = settings.size.width,
+                             .height_px = settings.size.height,
+                             .disparities = settings.disparities,
+                             .preset = settings.preset})),
+      steady_(library, settings.size.width, settings.size.height) {
+    view_.name = fmt::format("{:g}", azimuth_deg);
+    view_.K = calibration_.left.K();
+    view_.world_from_camera = calibration_.world_from_left;
+    view_.baseline_m = calibration_.rectified.baseline_m;
+}
+
+void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
+                       std::uint64_t instant) {
+    VirtualStereoFrame frame = rig_.render(stage, stage_time, instant);
+    left_.upload(frame.left);
+    right_.upload(frame.right);
+    const cv::Mat found = steady_.run(matcher_->match(left_, right_), left_).download();
+    view_.colour = frame.left;
+    own_m_ = depth_of(found);
+    exact_m_ = depth_of(frame.exact_disparity);
+}
+
+DepthView MatchingRig::view(bool with_own_depth) const {
+    DepthView view = view_;
+    view.depth_m = with_own_depth ? own_m_ : exact_m_;
+    return view;
+}
+
+DepthImage MatchingRig::depth_of(const cv::Mat& disparity) const {
+    DepthImage depth_m(disparity.size());
+    for (int y = 0; y < depth_m.rows; ++y)
+        for (int x = 0; x < depth_m.cols; ++x) {
+            const auto steps = disparity.at<std::uint16_t>(y, x);
+            depth_m(y, x) = steps > 0 ? static_cast<float>(calibration_.rectified.depth_m(
+                                            steps / static_cast<double>(disparity_steps_per_px)))
+                                      : 0.0f;
+        }
+    return depth_m;
+}
+
+}  // namespace vantage

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include "common/virtual_stage/virtual_rig.h"
+#include "common/virtual_stage/virtual_stage.h"
+#include "host_app/instants/depth_view.h"
+#include "host_app/instants/virtual_view.h"
+#include "rig_firmware/stereo/matcher.h"
+#include "rig_firmware/stereo/passes/temporal_pass.h"
+
+namespace vantage {
+
+/// An ideal rig at its usual distance from the virtual stage's middle.
+StereoCalibration rig_at(double azimuth_deg, cv::Size size);
+
+/// The view of a rig's left camera.
+VirtualView camera_of(const StereoCalibration& rig);
+
+/// A rig of the virtual stage, with all that its daemon would do to a pair, in this process.
+class MatchingRig {
+  public:
+    struct Settings {
+        cv::Size size{320, 240};
+        int disparities = 64;
+        MatchPreset preset = MatchPreset::quality;
+        double noise_sigma = 1;  ///< of the sensors, grey levels
+    };
+    MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::uint64_t seed,
+                const Settings& settings);
+
+    void film(VirtualStage& stage, std::chrono::nanoseconds stage_time, std::uint64_t instant);
+
+    /// What was filmed last, with the depth that the rig's own matcher found or the exact one.
+    DepthView view(bool with_own_depth) const;
+
+  private:
+    DepthImage depth_of(const cv::Mat& disparity) const;
+
+    StereoCalibration calibration_;
+    VirtualRig rig_;
+    Texture left_, right_;
+    std::unique_ptr<Matcher> matcher_;
+    TemporalPass steady_;
+    DepthView view_;
+    DepthImage own_m_, exact_m_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,225 @@
+#include "tests/bench/stepped_truth.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/image/image_file.h"
+#include "host_app/programme/view_painter.h"
+#include "host_app/view_sets/image_metrics.h"
+#include "tests/bench/cpu_time.h"
+#include "tests/bench/fidelity.h"
+
+namespace vantage {
+namespace {
+
+using std::chrono::nanoseconds;
+
+nanoseconds nanoseconds_of(double s) { return nanoseconds(static_cast<std::int64_t>(s * 1e9)); }
+
+/// What a real camera would see, and where performers are in its picture.
+struct Truth {
+    ColourImage colour;
+    cv::Mat1b performers, edges;
+};
+
+/// A camera that stands still on the stage.
+class StillCamera {
+  public:
+    StillCamera(VirtualStage& stage, double azimuth_deg, cv::Size size) : stage_(&stage) {
+        const StereoCalibration rig = rig_at(azimuth_deg, size);
+        state_.world_from_camera = rig.world_from_left;
+        state_.field_of_view_rad = 2 * std::atan(0.5 * size.width / rig.left.K()(0, 0));
+        camera_ = {size.width, size.height, state_.K(size.width, size.height),
+                   state_.world_from_camera};
+        // The set is what is farthest at any time: performers walk about.
+        for (double s = 0; s < 24; s += 1.5) {
+            const DepthImage depth_m =
+                stage_->render(camera_, nanoseconds_of(s), {.pictures = StagePictures::depth})
+                    .depth_m;
+            if (set_depth_m_.empty())
+                set_depth_m_ = depth_m;
+            else
+                set_depth_m_ = DepthImage(cv::max(cv::Mat(set_depth_m_), cv::Mat(depth_m)));
+        }
+    }
+
+    const CameraState& state() const { return state_; }
+
+    Truth film(nanoseconds time) const {
+        const StageRendering seen = stage_->render(camera_, time);
+        constexpr int band_px = 5;
+        Truth truth{seen.colour, seen.depth_m < 0.97 * set_depth_m_, {}};
+        cv::Mat1b wide, narrow;
+        const cv::Mat around = cv::Mat1b::ones(band_px, band_px);
+        cv::dilate(truth.performers, wide, around);
+        cv::erode(truth.performers, narrow, around);
+        truth.edges = wide & ~narrow;
+        return truth;
+    }
+
+  private:
+    VirtualStage* stage_;
+    CameraState state_;
+    StageCamera camera_;
+    DepthImage set_depth_m_;
+};
+
+/// One synthesiser, looked at from several cameras.
+struct Measured {
+    explicit Measured(double noise_sigma) : set(noise_sigma), performers(noise_sigma) {}
+
+    Fidelity fidelity;
+    Wavering set, performers;
+    double edge_error = 0, set_psnr_db = 0, performers_psnr_db = 0;
+    int edge_pictures = 0;
+    std::vector<double> take_ms, prepare_ms, render_ms;
+    std::map<std::size_t, std::pair<ColourImage, Truth>> before;  ///< by camera
+};
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+void write_beside(const std::string& folder, const std::string& name, const ColourImage& picture,
+                  const ColourImage& truth) {
+    std::filesystem::create_directories(folder);
+    cv::Mat both;
+    cv::hconcat(picture, truth, both);
+    write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(both));
+}
+
+std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
+    VirtualStage stage(library, set), truth_stage(library, set);
+    std::vector<std::unique_ptr<MatchingRig>> rigs;
+    for (const double place : {-1.5, -0.5, 0.5, 1.5})
+        rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
+                                                     rigs.size() + 1, wanted.rigs));
+    // Between the middle rigs, between the last two, and beside the last.
+    std::vector<StillCamera> cameras;
+    for (const double place : {0.0, 1.0, 1.6})
+        cameras.emplace_back(truth_stage, place * wanted.apart_deg, wanted.rigs.size);
+
+    const PictureFormat format{.width_px = wanted.rigs.size.width,
+                               .height_px = wanted.rigs.size.height};
+    const PrepareLevel& prepare_level =
+        prepare_levels()[static_cast<std::size_t>(wanted.prepare_level)];
+    const RenderLevel& render_level =
+        render_levels()[static_cast<std::size_t>(wanted.render_level)];
+    struct Runner {
+        std::unique_ptr<InstantPreparer> preparer;
+        std::unique_ptr<ViewPainter> painter;
+        Measured measured;
+    };
+    std::vector<Runner> runners;
+    for (const std::string& name : wanted.synthesisers) {
+        const SynthesiserEntry entry = find_synthesiser(name);
+        runners.push_back({entry.make_preparer(library),
+                           std::make_unique<ViewPainter>(entry, format, library),
+                           Measured(wanted.rigs.noise_sigma)});
+    }
+
+    const auto instants =
+        static_cast<std::uint64_t>((wanted.settling_s + wanted.measured_s) * wanted.rate_hz + 0.5);
+    const auto settled = static_cast<std::uint64_t>(wanted.settling_s * wanted.rate_hz + 0.5);
+    for (std::uint64_t k = 0; k < instants; ++k) {
+        const nanoseconds time =
+            nanoseconds_of(wanted.start_s + static_cast<double>(k) / wanted.rate_hz);
+        std::vector<DepthView> views;
+        for (const auto& rig : rigs) {
+            rig->film(stage, time, k);
+            views.push_back(rig->view(!wanted.with_exact_depth));
+        }
+        std::vector<Truth> truths;
+        if (k >= settled)
+            for (const StillCamera& camera : cameras) truths.push_back(camera.film(time));
+        for (std::size_t r = 0; r < runners.size(); ++r) {
+            Runner& runner = runners[r];
+            Measured& measured = runner.measured;
+            double before_ms = cpu_ms();
+            runner.preparer->take(views, 1 / wanted.rate_hz);
+            glFinish();
+            measured.take_ms.push_back(cpu_ms() - before_ms);
+            runner.preparer->improve(
+                view_of(cameras[0].state(), {format.width_px, format.height_px}));
+            for (std::size_t c = 0; c < cameras.size(); ++c) {
+                const VirtualView target =
+                    view_of(cameras[c].state(), {format.width_px, format.height_px});
+                before_ms = cpu_ms();
+                const auto instant = runner.preparer->prepare(target, prepare_level);
+                glFinish();
+                if (c == 0) measured.prepare_ms.push_back(cpu_ms() - before_ms);
+                if (k < settled) break;
+                before_ms = cpu_ms();
+                const ColourImage picture =
+                    runner.painter->paint(*instant, cameras[c].state(), render_level);
+                measured.render_ms.push_back(cpu_ms() - before_ms);
+                const Truth& truth = truths[c];
+                measured.fidelity.add(picture, truth.colour);
+                if (cv::countNonZero(truth.edges) > 0) {
+                    measured.set_psnr_db += psnr_db(picture, truth.colour, ~truth.performers);
+                    measured.performers_psnr_db += psnr_db(picture, truth.colour, truth.performers);
+                    measured.edge_error += mean_error(picture, truth.colour, truth.edges);
+                    ++measured.edge_pictures;
+                }
+                if (const auto found = measured.before.find(c); found != measured.before.end()) {
+                    const auto& [picture_before, truth_before] = found->second;
+                    const cv::Mat1b moving = truth.performers | truth_before.performers;
+                    const cv::Mat1b still = ~moving;
+                    measured.set.add(picture_before, truth_before.colour, picture, truth.colour,
+                                     still);
+                    measured.performers.add(picture_before, truth_before.colour, picture,
+                                            truth.colour, moving);
+                }
+                measured.before[c] = {picture, truth};
+                if (k + 1 == instants && !wanted.pictures.empty())
+                    write_beside(wanted.pictures,
+                                 fmt::format("{}_set{}_{}", wanted.synthesisers[r], set, c),
+                                 picture, truth.colour);
+            }
+        }
+    }
+    std::string text;
+    for (std::size_t r = 0; r < runners.size(); ++r) {
+        const Measured& m = runners[r].measured;
+        text += fmt::format(
+            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} | "
+            "{:.0f} | {:.0f} | "
+            "{:.0f} |\n",
+            wanted.synthesisers[r], set, m.fidelity.psnr_db(),
+            m.set_psnr_db / std::max(m.edge_pictures, 1),
+            m.performers_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
+            100 * m.fidelity.debris(), m.edge_error / std::max(m.edge_pictures, 1),
+            m.set.against_a_camera(), m.performers.against_a_camera(), median(m.take_ms),
+            median(m.prepare_ms), median(m.render_ms));
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
+    std::string text = fmt::format(
+        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth; {:g} "
+        "instants a second, prepared at level {} and rendered at level {}; three cameras between "
+        "and beside the rigs, {:g} s after the start and {:g} s long. Times are of the processor, "
+        "milliseconds an instant or picture.\n\n"
+        "| synthesiser | set | PSNR dB | of the set | of performers | SSIM | debris | performers' "
+        "edges: mean error | wavering: "
+        "set | performers | take | prepare | render |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
+        wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
+        wanted.render_level, wanted.settling_s, wanted.measured_s);
+    for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
+    return text;
+}
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/gl/shader_library.h"
+#include "tests/bench/matching_rig.h"
+
+namespace vantage {
+
+/// Films of the moving virtual stage, an instant after the other, each waited for.
+struct SteppedTruth {
+    std::vector<std::string> synthesisers{"fused"};
+    std::vector<std::uint64_t> sets{0};
+    MatchingRig::Settings rigs{.disparities = 32, .preset = MatchPreset::balanced};
+    double apart_deg = 20, rate_hz = 5, settling_s = 3, measured_s = 1;
+    double start_s = 2;  ///< in the stage's loop
+    int prepare_level = 0, render_level = 0;
+    bool with_exact_depth = false;
+    std::string
+        pictures;  ///< a folder for the last picture of each view beside its truth; may be empty
+};
+
+/// A Markdown table, a row a synthesiser and set. Needs a current context.
+std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted);
+
+}  // namespace vantage
