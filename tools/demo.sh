@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Plays the demo stage: four rigs, each a process of its own, and the host, over authenticated sockets on loopback.
 #   tools/demo.sh [--headless] [--seconds N] [--json] [--files LEFT RIGHT]
+#                 [--rigs-only]    starts the rigs, says so on stdout and waits to be ended: another host may use them
 #                 [--rig CALIB.yaml LEFT RIGHT [--disparities N] [--rate HZ]]
 # Keys, configurations and logs go to out/demo/, results to out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-headless=false seconds=12 json=() left= right= calibration= disparities= asked_hz=
+headless=false rigs_only=false seconds=12 json=() left= right= calibration= disparities= asked_hz=
 while [ $# -gt 0 ]; do
   case "$1" in
     --headless) headless=true; shift ;;
+    --rigs-only) rigs_only=true; shift ;;
     --seconds) seconds=$2; shift 2 ;;
     --json) json=(--json); shift ;;
     --files) left=$2 right=$3; shift 3 ;;
@@ -228,6 +230,12 @@ for config in "$demo"/rig*.toml "$demo"/pair.toml; do
   rigs+=($!)
 done
 echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs are in out/demo/" >&2
+
+if $rigs_only; then
+  echo "ready: $demo/stage.toml"
+  wait
+  exit
+fi
 
 # A processor that draws everything also compiles the programs first; a slow one takes its time.
 live=(live --stage "$demo/stage.toml" --wait 60 --rate "$fps")

@@ -7,6 +7,7 @@ namespace vantage {
 void RigHistory::forget() {
     steady_colour_.forget();
     set_.forget();
+    learnt_instants_ = 0;
     model_.reset();
     surface_.reset();
 }
@@ -22,7 +23,10 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     prepared_rank_.reset();
     // A filter that left an upload out has no past for the next.
     if (!is_colour_steady_) steady_colour_.forget();
-    if (!is_set_learnt_) set_.forget();
+    if (!is_set_learnt_) {
+        set_.forget();
+        learnt_instants_ = 0;
+    }
     is_colour_steady_ = is_set_learnt_ = false;
     camera_ = view;
     camera_.release_pictures();

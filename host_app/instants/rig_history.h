@@ -55,7 +55,10 @@ class RigHistory {
     void finish_set() {
         set_.finish();
         is_set_learnt_ = true;
+        ++learnt_instants_;
     }
+    /// Instants that the set was learnt of.
+    int learnt_instants() const { return learnt_instants_; }
     /// The set as it was bettered last, and how well (see PrepareLevel::rank); null before the
     /// first.
     struct Model {
@@ -104,6 +107,7 @@ class RigHistory {
     std::unique_ptr<DepthUploader> uploader_;     ///< likewise
     SteadyColour steady_colour_;
     SetState set_;
+    int learnt_instants_ = 0;
     std::optional<Model> model_;
     DrawnTexture matte_{TextureFormat::rgba8, Filter::linear};
     DrawnTexture performer_depth_{TextureFormat::r32f};

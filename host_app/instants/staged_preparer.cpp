@@ -8,6 +8,8 @@ namespace {
 
 /// Between two models of a set at the best level, and between two works of improve().
 constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
+/// Instants, before which there is nothing to remember.
+constexpr int remembered_from = 3;
 
 }  // namespace
 
@@ -116,7 +118,7 @@ void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
         triangles_.build_rims(*surface);
     }
     surface->set_has_fine_grid(level.has_fine_grid);
-    surface->set_plate(plate_of(rig));
+    if (rig.learnt_instants() >= remembered_from) surface->set_plate(plate_of(rig));
     rig.publish(surface, level.rank);
 }
 

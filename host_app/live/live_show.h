@@ -47,6 +47,8 @@ class LiveShow {
     /// once if all rigs refuse this host. False: the program was asked to stop meanwhile.
     bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
 
+    /// Another output. Before start().
+    void add(std::unique_ptr<PictureSink> sink) { programme_.add(std::move(sink)); }
     /// Starts the programme's clock.
     void start();
     /// Whether the plan is at its end. Throws what ended the programme.

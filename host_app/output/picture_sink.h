@@ -6,6 +6,7 @@
 
 #include "common/image/image.h"
 #include "common/receive/frame_set.h"
+#include "host_app/flight/camera_state.h"
 
 namespace vantage {
 
@@ -15,7 +16,8 @@ struct ProgrammePicture {
     ColourImage picture;     ///< clean
     ColourImage overlaid;    ///< for people: with the source map where that is asked for
     std::shared_ptr<const FrameSet> set;
-    std::string title;  ///< one line for people: when, of what, from where
+    CameraState camera;  ///< that the picture was rendered from
+    std::string title;   ///< one line for people: when, of what, from where
 };
 
 /// Where the programme's pictures go. One that fails is closed and reported; neither the programme

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/gl/egl_context.h"
+#include "tests/bench/played_truth.h"
 #include "tests/bench/stepped_truth.h"
 
 namespace vantage {
@@ -42,11 +43,25 @@ int main(int argc, char** argv) {
     steps->add_option("--prepare-level", stepped.prepare_level)->check(CLI::Range(0, 3));
     steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 5));
     steps->add_flag("--exact", stepped.with_exact_depth, "Depth of the stage, not of the matchers");
+    bool without_times = false;
+    steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
+    PlayedTruth played;
+    CLI::App* play = app.add_subcommand("live", "The demo as it is, governed, in real time");
+    play->add_option("--rate", played.rate_hz, "Pictures a second")->check(CLI::Range(1.0, 240.0));
+    play->add_option("--seconds", played.seconds)->check(CLI::Range(6.0, 3600.0));
+    play->add_option("--settling", played.settling_s, "Seconds before the measured ones");
+    play->add_option("--quality", played.quality, "As vantage live takes it");
+    play->add_option("--strip", played.strip, "Picture file: some pictures above their truth");
     CLI11_PARSE(app, argc, argv);
     try {
+        if (play->parsed()) {
+            std::cout << played_table(played);
+            return 0;
+        }
         EglContext context;
         const ShaderLibrary shaders;
+        stepped.with_times = !without_times;
         stepped.rigs.size = size_of(size);
         stepped.rigs.preset = parse_preset(preset);
         std::cout << stepped_table(shaders, stepped);

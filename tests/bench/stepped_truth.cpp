@@ -190,15 +190,16 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     for (std::size_t r = 0; r < runners.size(); ++r) {
         const Measured& m = runners[r].measured;
         text += fmt::format(
-            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} | "
-            "{:.0f} | {:.0f} | "
-            "{:.0f} |\n",
+            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} |",
             wanted.synthesisers[r], set, m.fidelity.psnr_db(),
             m.set_psnr_db / std::max(m.edge_pictures, 1),
             m.performers_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
             100 * m.fidelity.debris(), m.edge_error / std::max(m.edge_pictures, 1),
-            m.set.against_a_camera(), m.performers.against_a_camera(), median(m.take_ms),
-            median(m.prepare_ms), median(m.render_ms));
+            m.set.against_a_camera(), m.performers.against_a_camera());
+        if (wanted.with_times)
+            text += fmt::format(" {:.0f} | {:.0f} | {:.0f} |", median(m.take_ms),
+                                median(m.prepare_ms), median(m.render_ms));
+        text += "\n";
     }
     return text;
 }
@@ -209,15 +210,16 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
     std::string text = fmt::format(
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth; {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
-        "and beside the rigs, {:g} s after the start and {:g} s long. Times are of the processor, "
-        "milliseconds an instant or picture.\n\n"
+        "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | set | PSNR dB | of the set | of performers | SSIM | debris | performers' "
-        "edges: mean error | wavering: "
-        "set | performers | take | prepare | render |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        "edges: mean error | wavering: set | performers |{}\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
-        wanted.render_level, wanted.settling_s, wanted.measured_s);
+        wanted.render_level, wanted.settling_s, wanted.measured_s,
+        wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
+        wanted.with_times ? " take | prepare | render |" : "",
+        wanted.with_times ? " --- | --- | --- |" : "");
     for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
     return text;
 }

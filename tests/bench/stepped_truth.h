@@ -17,6 +17,7 @@ struct SteppedTruth {
     double start_s = 2;  ///< in the stage's loop
     int prepare_level = 0, render_level = 0;
     bool with_exact_depth = false;
+    bool with_times = true;  ///< of the processor
     std::string
         pictures;  ///< a folder for the last picture of each view beside its truth; may be empty
 };

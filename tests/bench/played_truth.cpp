@@ -1,0 +1,174 @@
+#include "tests/bench/played_truth.h"
+
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "common/base/error.h"
+#include "common/base/stop_signal.h"
+#include "common/base/time.h"
+#include "common/config/stage_config.h"
+#include "common/gl/egl_context.h"
+#include "common/gl/limits.h"
+#include "common/image/image_file.h"
+#include "common/virtual_stage/virtual_stage.h"
+#include "host_app/live/live_show.h"
+#include "tests/bench/fidelity.h"
+#include "tests/support/child_program.h"
+#include "tests/support/source_folder.h"
+
+namespace vantage {
+namespace {
+
+struct Shown {
+    ColourImage picture;
+    CameraState camera;
+    TaiTime exposure, handed_over;
+};
+
+/// Keeps what the programme hands out, and when.
+class KeepingSink final : public PictureSink {
+  public:
+    explicit KeepingSink(std::vector<Shown>& into) : into_(&into) {}
+    std::string name() const override { return "measurement"; }
+    void take(const ProgrammePicture& picture) override {
+        for (const FrameSet::Slot& slot : picture.set->slots)
+            if (slot.frame) {
+                into_->push_back(
+                    {picture.picture, picture.camera, slot.frame->exposure, TaiClock::now()});
+                return;
+            }
+    }
+
+  private:
+    std::vector<Shown>* into_;
+};
+
+/// The rigs of tools/demo.sh, until this goes.
+class DemoRigs {
+  public:
+    DemoRigs() : folder_(std::filesystem::temp_directory_path()) {
+        program_ = std::make_unique<ChildProgram>(source_folder() / "tools/demo.sh",
+                                                  std::vector<std::string>{"--rigs-only"}, folder_);
+        for (int tries = 0; tries < 600; ++tries) {
+            const std::string out = program_->out(), mark = "ready: ";
+            if (const auto at = out.find(mark); at != std::string::npos) {
+                stage_ = out.substr(at + mark.size(), out.find('\n', at) - at - mark.size());
+                return;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        fail("the demo's rigs did not start within a minute: {}", program_->err());
+    }
+    ~DemoRigs() {
+        program_->send_signal(SIGTERM);
+        (void)program_->wait();
+    }
+    const std::string& stage() const { return stage_; }
+
+  private:
+    std::filesystem::path folder_;
+    std::unique_ptr<ChildProgram> program_;
+    std::string stage_;
+};
+
+struct Played {
+    std::vector<Shown> shown;
+    LiveReport report;
+};
+
+Played play(const PlayedTruth& wanted) {
+    const DemoRigs rigs;
+    StopSignal stop;  // after them: they would inherit what it holds back
+    const StageConfig stage = load_stage_config(rigs.stage());
+    FlightPlan plan;
+    plan.move = Move::load(source_folder() / "hw_config/moves/demo.toml");
+    plan.seconds = wanted.seconds;
+    StageReceiver receiver(stage);
+    Played played;
+    LiveSettings settings;
+    settings.format = {.width_px = stage.view.width_px, .height_px = stage.view.height_px};
+    settings.rate_hz = wanted.rate_hz;
+    settings.pulse_rate_hz = stage.rate_hz;
+    settings.quality = QualityWish::parse(wanted.quality);
+    LiveShow show(settings, plan, feed_of(receiver), nullptr);
+    show.add(std::make_unique<KeepingSink>(played.shown));
+    if (!show.wait_for_rigs(std::chrono::seconds(60), stop)) fail("interrupted");
+    show.start();
+    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) {
+    }
+    show.finish();
+    played.report = show.report();
+    return played;
+}
+
+ColourImage truth_of(VirtualStage& stage, const Shown& shown, TaiTime time) {
+    const cv::Size size = shown.picture.size();
+    return stage
+        .render({size.width, size.height, shown.camera.K(size.width, size.height),
+                 shown.camera.world_from_camera},
+                time.time_since_epoch(), {.pictures = StagePictures::colour})
+        .colour;
+}
+
+}  // namespace
+
+std::string played_table(const PlayedTruth& wanted) {
+    const Played played = play(wanted);
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    Fidelity instant, tick;
+    std::vector<cv::Mat> strip;
+    const auto first = static_cast<std::size_t>(wanted.settling_s * wanted.rate_hz);
+    constexpr std::size_t pictures_of_strip = 5;
+    const std::size_t every = std::max<std::size_t>(
+        1, (played.shown.size() - std::min(first, played.shown.size())) / pictures_of_strip);
+    for (std::size_t i = first; i < played.shown.size(); ++i) {
+        const Shown& shown = played.shown[i];
+        const ColourImage truth = truth_of(stage, shown, shown.exposure);
+        instant.add(shown.picture, truth);
+        tick.add(shown.picture, truth_of(stage, shown, shown.handed_over));
+        if (!wanted.strip.empty() && (i - first) % every == every / 2) {
+            cv::Mat both;
+            cv::vconcat(shown.picture, truth, both);
+            strip.push_back(both);
+        }
+    }
+    if (instant.pictures() == 0) fail("no picture came after the first {} s", wanted.settling_s);
+    if (!strip.empty()) {
+        cv::Mat all;
+        cv::hconcat(strip, all);
+        write_colour_image(wanted.strip, ColourImage(all));
+    }
+    const ProgrammeBooks& books = played.report.programme;
+    const auto levels = [](const std::vector<double>& shares) {
+        std::string text;
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            if (shares[i] > 0.005)
+                text += fmt::format("{}{}: {:.0f} %", text.empty() ? "" : ", ", i, 100 * shares[i]);
+        return text;
+    };
+    return fmt::format(
+        "The demo's rigs and a programme of {:g} pictures a second, quality {}, on {}: {} pictures "
+        "after the first {:g} s, repeated ones too.\n\n"
+        "| against | PSNR dB | SSIM | debris |\n| --- | --- | --- | --- |\n"
+        "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
+        "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
+        "New pictures: {} of {} ticks. Exposure to picture p50 {:.0f}, p95 {:.0f}, p99 {:.0f} ms; "
+        "between two new pictures p50 {:.0f}, p99 {:.0f} ms. Rendering levels {}; preparing levels "
+        "{}.\n",
+        wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
+        wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.debris(),
+        tick.psnr_db(), tick.ssim(), 100 * tick.debris(), books.pictures, books.ticks,
+        books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
+        books.interval_ms.p99, levels(books.render_shares), levels(books.prepare_shares));
+}
+
+}  // namespace vantage
