@@ -302,8 +302,11 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
 void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
     for (std::uint64_t i = 0; i < ticks; ++i, ++sink_ticks_) {
         const ProgrammePicture picture{
-            sink_ticks_, shown.picture, shown.sources ? shown.sources->picture : shown.picture,
-            shown.job.instant->set, shown.job.camera,
+            sink_ticks_,
+            shown.picture,
+            shown.sources ? shown.sources->picture : shown.picture,
+            shown.job.instant->set,
+            shown.job.camera,
             title_of(shown, static_cast<double>(sink_ticks_) / settings_.rate_hz)};
         for (Sink& sink : sinks_) {
             if (!sink.state.failure.empty()) continue;
