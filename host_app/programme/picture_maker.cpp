@@ -94,6 +94,9 @@ void PictureMaker::make_pictures() {
         made->render_ms = ms_since(start) - made->readback_ms;
         made->job = job;
         lock.lock();
+        // The hand that moved one which nobody took waits for this one.
+        if (finished_ && finished_->job.hand && (!job.hand || *finished_->job.hand < *job.hand))
+            made->job.hand = finished_->job.hand;
         finished_ = std::move(made);
         job_.reset();
     }
