@@ -285,7 +285,9 @@ struct StageReceiver::Impl {
             ++sets;
             complete_sets += set.present() == static_cast<int>(rigs.size());
             newest_set = now;
-            closed_sets.push(std::move(set));
+            if (const std::optional<FrameSet> dropped = closed_sets.push(std::move(set)))
+                for (std::size_t i = 0; i < rigs.size(); ++i)
+                    rigs[i]->status.in_dropped_sets += dropped->slots[i].frame != nullptr;
         }
     }
 

@@ -49,7 +49,8 @@ std::vector<CounterGroup> counters_of(const RigAccount& rig) {
               {"out_of_step", "out of step", s.out_of_step},
               {"in_sets", "in sets", s.in_sets},
               {"fused", "fused", rig.fused},
-              {"superseded", "superseded", rig.superseded}}}};
+              {"superseded", "superseded", rig.superseded},
+              {"in_dropped_sets", "set dropped", s.in_dropped_sets}}}};
 }
 
 std::string rig_tables(const LiveReport& report) {
@@ -180,7 +181,8 @@ std::string counters_legend() {
            "(sent, and the connection broke). At this\nhost: damaged (not readable), host busy, "
            "late (its set was closed), duplicate, unsynced (names no pulse\nof the stage), out of "
            "step (counts pulses differently from the other rigs), in sets; of those: fused (in "
-           "a\npicture), superseded (a newer set came before a picture was due).\n";
+           "a\npicture), superseded (a newer set came before a picture was due), set "
+           "dropped\n(before anything took sets).\n";
 }
 
 std::vector<std::string> worries_of(const RigStatus& status) {

@@ -200,6 +200,22 @@ TEST_F(LinkTest, TwoRigsMeetByTriggerIndex) {
     EXPECT_EQ(host.status().complete_sets, 4u);
 }
 
+TEST_F(LinkTest, SetsThatNobodyTakesAreCountedWithTheirFrames) {
+    Publisher rig(open_stream(), "rig-a");
+    StageReceiver receiver(stage_of(rig));
+    ASSERT_TRUE(eventually([&] { return connected(receiver, 0); }));
+    for (std::uint64_t k = 1; k <= 6; ++k) {
+        rig.publish(make_frame(k));
+        ASSERT_TRUE(eventually([&] { return receiver.status().sets == k; }));
+    }
+    std::uint64_t taken = 0;
+    while (receiver.next(100ms)) ++taken;
+    const ReceiverStatus status = receiver.status();
+    EXPECT_GT(status.sets_dropped, 0u);
+    EXPECT_EQ(status.rigs[0].in_dropped_sets, status.sets_dropped);
+    EXPECT_EQ(status.rigs[0].in_sets, taken + status.rigs[0].in_dropped_sets);
+}
+
 TEST_F(LinkTest, ARigThinsItsStreamAsAsked) {
     Publisher rig(open_stream(), "rig-a");
     StageReceiver host(stage_of(rig));

@@ -88,7 +88,8 @@ TEST(LiveReport, ExplainsEveryHeadingOfItsTables) {
     EXPECT_THAT(text, HasSubstr(legend));
     for (const char* heading :
          {"missed", "late", "published", "thinned", "pushed out", "sent", "lost", "damaged",
-          "host busy", "duplicate", "unsynced", "out of step", "in sets", "fused", "superseded"}) {
+          "host busy", "duplicate", "unsynced", "out of step", "in sets", "fused", "superseded",
+          "set dropped"}) {
         EXPECT_THAT(legend, HasSubstr(heading));
         EXPECT_THAT(text.substr(0, text.find(legend)), HasSubstr(heading));
     }
