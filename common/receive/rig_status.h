@@ -35,9 +35,9 @@ struct RigStatus {
     std::uint64_t lost = 0;     ///< sent by the rig, never came: the connection broke
     std::uint64_t in_sets = 0;  ///< frames that met their set, and that set is closed
     std::uint64_t in_dropped_sets = 0;  ///< of those: in sets that nobody took in time
-    std::uint64_t late = 0;     ///< frames that came after their set was closed
-    std::uint64_t duplicate = 0;       ///< frames of a pulse this rig had delivered already
-    std::uint64_t unsynchronized = 0;  ///< frames that name no pulse of the stage
+    std::uint64_t late = 0;             ///< frames that came after their set was closed
+    std::uint64_t duplicate = 0;        ///< frames of a pulse this rig had delivered already
+    std::uint64_t unsynchronized = 0;   ///< frames that name no pulse of the stage
     std::uint64_t out_of_step =
         0;  ///< frames of a rig that counts pulses differently from the rest
     std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy

@@ -86,10 +86,9 @@ TEST(LiveReport, ExplainsEveryHeadingOfItsTables) {
     const std::string text = to_text(report);
     const std::string legend = counters_legend();
     EXPECT_THAT(text, HasSubstr(legend));
-    for (const char* heading :
-         {"missed", "late", "published", "thinned", "pushed out", "sent", "lost", "damaged",
-          "host busy", "duplicate", "unsynced", "out of step", "in sets", "fused", "superseded",
-          "set dropped"}) {
+    for (const char* heading : {"missed", "late", "published", "thinned", "pushed out", "sent",
+                                "lost", "damaged", "host busy", "duplicate", "unsynced",
+                                "out of step", "in sets", "fused", "superseded", "set dropped"}) {
         EXPECT_THAT(legend, HasSubstr(heading));
         EXPECT_THAT(text.substr(0, text.find(legend)), HasSubstr(heading));
     }
