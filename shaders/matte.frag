@@ -1,17 +1,15 @@
-// Which share of each pixel belongs to what stands before the set, and its colour. What cannot be told at a pixel is
-// told by those around it that look like it.
+// Which pixels show what stands before the set. What cannot be told at a pixel is told by those around it that look
+// like it. Drawn only where anything is apart (see matte_tiles.frag).
 #include "set_kinds.glsl"
 
-uniform sampler2D picture;     // this instant's
-uniform sampler2D set_colour;  // mean of the instants that showed the set
-uniform sampler2D seen;        // from set_learn.frag
+uniform sampler2D picture;  // this instant's
+uniform sampler2D seen;     // from set_see.frag
 
-layout(location = 0) out vec4 performer;  // alpha: the share
+layout(location = 0) out float performer;  // 0 or 1
 
 const int reach = 2;              // steps to either side
 const float step_px = 2.0;        // of the picture
 const float like_colour = 0.05;   // difference (0..1) at which a pixel's word counts 1/e
-const float unlike_set = 0.08;    // colour beside a performer that is not the set's, whatever its depth seems to be
 const float like_set_here = 0.04; // difference below which those around decide
 const float least_around = 0.15;  // share of pixels before the set around one that is taken for one
 const float most_around = 0.8;    // share from which on a pixel that looks like the set is taken for one
@@ -19,13 +17,7 @@ const float most_around = 0.8;    // share from which on a pixel that looks like
 void main() {
     vec2 size = vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy / size;
     vec3 now = textureLod(picture, uv, 0.0).rgb;
-    performer = vec4(now, 0.0);
-    // Most pixels are far from any performer.
-    vec4 any = vec4(0.0);
-    for (int k = 0; k < 4; ++k)
-        any = max(any, textureGather(seen, uv + float(reach) * 0.8 * step_px * (2.0 * vec2(k & 1, k >> 1) - 1.0) / size, 0));
-    any = max(any, textureGather(seen, uv, 0));
-    if (!is_apart(max(max(any.x, any.y), max(any.z, any.w)))) return;
+    performer = 0.0;
     vec3 seen_here = textureLod(seen, uv, 0.0).rgb;
     float own = seen_here.r;
     float before = 0.0, count = 0.0, like_before = 0.0, like_set = 0.0;
@@ -41,11 +33,11 @@ void main() {
             like_before += w * is_before;
             like_set += w * is_set;
         }
-    if (is_kind(own, uncovered)) performer.a = 1.0;
-    if (before == 0.0 || performer.a > 0.0) return;
+    if (is_kind(own, uncovered)) performer = 1.0;
+    if (before == 0.0 || performer > 0.0) return;
     float around = before / max(count, 1.0);
     bool is_performer = is_kind(own, before_set) ? around > least_around && (seen_here.b > like_set_here || like_before > like_set)
                         : is_kind(own, untold)   ? like_before > like_set
                                                  : around > most_around;
-    performer.a = is_performer ? 1.0 : 0.0;
+    performer = is_performer ? 1.0 : 0.0;
 }

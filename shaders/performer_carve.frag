@@ -7,7 +7,7 @@
 
 uniform sampler2D depth_map;             // this instant's, metres, 0 = unknown
 uniform sampler2D seen;                  // from set_see.frag
-uniform sampler2D matte;                 // from matte.frag
+uniform sampler2D matte;                 // the performers' share
 uniform sampler2D other_matte[OTHERS];
 uniform sampler2D other_set[OTHERS];     // depth of their sets, metres
 uniform mat4 other_from_pixel[OTHERS];   // the other's (u * z, v * z, z, 1) from this depth map's
@@ -32,7 +32,7 @@ bool is_outside(int i, sampler2D its_matte, sampler2D its_set, vec2 pixel, float
     vec2 texel = 1.0 / other_size[i], uv = (q.xy / q.z + 0.5) * texel;
     vec2 inside = min(uv, 1.0 - uv);
     if (min(inside.x, inside.y) < 0.0) return false;
-    vec4 share = textureGather(its_matte, uv, 3);
+    vec4 share = textureGather(its_matte, uv, 0);
     if (max(max(share.x, share.y), max(share.z, share.w)) > 0.0) return false;
     float behind = textureLod(its_set, uv, 0.0).r;
     return behind > hidden * q.z;
@@ -43,7 +43,7 @@ void main() {
     carved = 0.0;
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
     float kind = texelFetch(seen, at, 0).r, z = texelFetch(depth_map, at, 0).r;
-    if (textureLod(matte, uv, 0.0).a < 0.1 || !is_apart(kind) || z == 0.0) return;
+    if (textureLod(matte, uv, 0.0).r < 0.1 || !is_apart(kind) || z == 0.0) return;
     carved = z;
     if (is_kind(kind, uncovered)) return;
     carved = 0.0;

@@ -2,7 +2,7 @@
 // alike; smoothed within surfaces.
 uniform sampler2D depth_map;  // from performer_carve.frag, metres, 0 = unknown
 uniform sampler2D picture;
-uniform sampler2D matte;      // from matte.frag
+uniform sampler2D matte;      // the performers' share
 uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
 
 layout(location = 0) out float performer_m;  // metres, 0 = nothing
@@ -18,7 +18,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depth_map, 0) - 1;
     vec2 texel = 1.0 / vec2(last + 1), uv = (vec2(at) + 0.5) * texel;
     performer_m = 0.0;
-    if (textureLod(matte, uv, 0.0).a == 0.0) return;
+    if (textureLod(matte, uv, 0.0).r == 0.0) return;
     vec3 own = textureLod(picture, uv, 0.0).rgb;
     float z = is_measured(at) ? texelFetch(depth_map, at, 0).r : 0.0;
     float best = 0.0;

@@ -2,8 +2,8 @@
 // before.
 uniform sampler2D picture;  // this instant's
 uniform sampler2D before;   // mean of the instants before; alpha: how many
-uniform sampler2D seen;     // from set_learn.frag
-uniform sampler2D matte;    // from matte.frag: alpha is the performers' share
+uniform sampler2D seen;     // from set_see.frag
+uniform sampler2D matte;    // the performers' share
 uniform float has_before;     // 0: there is no instant before
 uniform float most_instants;  // that the mean is of
 
@@ -30,7 +30,7 @@ void main() {
     vec4 past = texelFetch(before, at, 0);
     float hidden = 0.0;
     for (int k = 0; k < 4; ++k)
-        hidden = max(hidden, textureLod(matte, uv + 1.5 / size * (2.0 * vec2(k & 1, k >> 1) - 1.0), 0.0).a);
+        hidden = max(hidden, textureLod(matte, uv + 1.5 / size * (2.0 * vec2(k & 1, k >> 1) - 1.0), 0.0).r);
     if (hidden > hidden_from) {
         mean = past;
         shown = vec4(past.rgb, 0.25);

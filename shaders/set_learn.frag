@@ -6,7 +6,7 @@
 uniform sampler2D depth_map;   // this instant's, metres, 0 = unknown
 uniform sampler2D set_before;  // set_state of the instant before
 uniform sampler2D seen;        // from set_see.frag
-uniform sampler2D matte;       // from matte.frag
+uniform sampler2D matte;       // the performers' share
 uniform float absorbed_after;  // instants, after which what stands still before the set is a part of it
 
 layout(location = 0) out vec4 set_state;  // metres of the set, votes; metres of what may replace it, for how many instants
@@ -18,7 +18,7 @@ void main() {
     if (has_before == 0.0) return;
     set_state = texelFetch(set_before, at, 0);
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
-    float hidden = textureLod(matte, uv, 0.0).a, kind = texelFetch(seen, at, 0).r;
+    float hidden = textureLod(matte, uv, 0.0).r, kind = texelFetch(seen, at, 0).r;
     if (hidden > 0.0) {
         if (z == 0.0) return;
         bool goes_on = set_state.b > 0.0 && is_one_surface(z, set_state.b);

@@ -3,7 +3,7 @@
 uniform sampler2D model;       // depth of the set: metres, 0 = unknown, negative = guessed
 uniform sampler2D set_state;   // from set_learn.frag
 uniform sampler2D performers;  // depth, metres, 0 = none
-uniform sampler2D matte;       // alpha: the performers' share
+uniform sampler2D matte;       // the performers' share
 uniform float since;           // instants since the model was made
 
 layout(location = 0) out float depth_m;
@@ -13,6 +13,6 @@ void main() {
     vec2 state = texelFetch(set_state, at, 0).rg;
     depth_m = state.r > 0.0 && state.g <= since ? state.r : texelFetch(model, at, 0).r;
     float performer_m = texelFetch(performers, at, 0).r;
-    if (performer_m != 0.0 && textureLod(matte, gl_FragCoord.xy / vec2(textureSize(model, 0)), 0.0).a >= 0.5)
+    if (performer_m != 0.0 && textureLod(matte, gl_FragCoord.xy / vec2(textureSize(model, 0)), 0.0).r >= 0.5)
         depth_m = performer_m;
 }

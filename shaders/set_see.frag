@@ -11,21 +11,17 @@ uniform sampler2D set_state;  // of the instants before
 layout(location = 0) out vec4 seen;  // red: one of the kinds of set_kinds.glsl; green: how far the colour is from the set's, in a
                                       // window; blue: just here
 
-const float motion = 0.02;  // of colour (0..1), mean of a window: it shows another thing
+const float quiet = 0.012;   // of colour (0..1) just here: the set, whatever is around
+const float motion = 0.02;   // of colour (0..1), mean of a window: it shows another thing
 const vec2 shade = vec2(0.45, 1.3);  // what light and shadow make of a colour, from and to
-const float uncovered_after = 3.0;   // instants, at most, after which what is farther is the set
 const float tint = 0.025;            // change of colour beside that
+const float uncovered_after = 3.0;   // instants, at most, after which what is farther is the set
 
-vec3 now, known;  // means of a window
-float own;        // difference just here
+vec3 now, known;  // just here, then means of a window
 
 // Seventeen pixels of five by five: the middle and two by two at each corner.
-void look(vec2 uv) {
+void look_around(vec2 uv) {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0));
-    now = textureLod(picture, uv, 0.0).rgb;
-    known = textureLod(set_colour, uv, 0.0).rgb;
-    vec3 off = abs(now - known);
-    own = max(off.r, max(off.g, off.b));
     for (int k = 0; k < 4; ++k) {
         vec2 corner = uv + 1.5 * texel * (2.0 * vec2(k & 1, k >> 1) - 1.0);
         now += 4.0 * textureLod(picture, corner, 0.0).rgb;
@@ -49,7 +45,13 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     seen = vec4(0.0);
     if (has_before == 0.0) return;
-    look(gl_FragCoord.xy / vec2(textureSize(depth_map, 0)));
+    vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
+    now = textureLod(picture, uv, 0.0).rgb;
+    known = textureLod(set_colour, uv, 0.0).rgb;
+    float own = largest(now - known);
+    seen = vec4(the_set, 0.5 * own, own, 0.0);
+    if (own < quiet) return;
+    look_around(uv);
     float z = texelFetch(depth_map, at, 0).r, change = largest(now - known);
     vec4 state = texelFetch(set_state, at, 0);
     bool is_known = z > 0.0 && state.r > 0.0, is_same = is_known && is_one_surface(z, state.r);

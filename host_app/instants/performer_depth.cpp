@@ -17,7 +17,7 @@ const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* cons
         if (other != &rig && others.size() < max_others) others.push_back(other);
     if (others.empty()) return rig.depth();
     carved_.resize(size);
-    FullscreenPass& carving = carve_[others.size() - 1];
+    TilePass& carving = carve_[others.size() - 1];
     Program& carve = carving.use();
     carve.set("depth_map", 0);
     carve.set("seen", 1);
@@ -40,7 +40,7 @@ const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* cons
         set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
                                           static_cast<float>(other.colour().height_px())));
     }
-    carving.draw(carved_.target());
+    carving.draw(carved_.target(), rig.matte_tiles().texture(), unit, rig.fresh_colour().size());
     return carved_.texture();
 }
 
@@ -54,7 +54,7 @@ void PerformerDepth::close(const Texture& depth_m, const RigHistory& rig,
     depth_m.bind(0);
     rig.fresh_colour().bind(1);
     rig.matte().bind(2);
-    close_.draw(closed);
+    close_.draw(closed, rig.matte_tiles(), 3, rig.fresh_colour().size());
 }
 
 void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all) {

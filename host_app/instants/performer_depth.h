@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/gl/fullscreen_pass.h"
+#include "common/gl/tile_pass.h"
 #include "host_app/instants/rig_consensus.h"
 #include "host_app/instants/rig_history.h"
 
@@ -32,8 +32,8 @@ class PerformerDepth {
     /// Fills and smooths.
     void close(const Texture& depth_m, const RigHistory& rig, const Framebuffer& closed);
 
-    std::vector<FullscreenPass> carve_;  ///< one for every number of other rigs
-    FullscreenPass close_;
+    std::vector<TilePass> carve_;  ///< one for every number of other rigs
+    TilePass close_;
     RigConsensus consensus_;
     DrawnTexture carved_{TextureFormat::r32f}, bettered_{TextureFormat::r32f};
 };

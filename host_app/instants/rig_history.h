@@ -70,9 +70,12 @@ class RigHistory {
     const std::optional<Model>& model() const { return model_; }
     void set_model(const Model& model) { model_ = model; }
 
-    /// The performers' share of each pixel of the picture, in alpha, with their colour.
+    /// The performers' share of each pixel of the picture, r8, and the tiles of it in which there
+    /// are any (see TilePass).
     DrawnTexture& matte() { return matte_; }
     const Texture& matte() const { return matte_.texture(); }
+    DrawnTexture& matte_tiles() { return matte_tiles_; }
+    const Texture& matte_tiles() const { return matte_tiles_.texture(); }
     /// Their depth, r32f, metres, 0 = none.
     DrawnTexture& performer_depth() { return performer_depth_; }
     const Texture& performer_depth() const { return performer_depth_.texture(); }
@@ -109,7 +112,8 @@ class RigHistory {
     SetState set_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
-    DrawnTexture matte_{TextureFormat::rgba8, Filter::linear};
+    DrawnTexture matte_{TextureFormat::r8, Filter::linear};
+    DrawnTexture matte_tiles_{TextureFormat::r8};
     DrawnTexture performer_depth_{TextureFormat::r32f};
     bool is_colour_steady_ = false, is_set_learnt_ = false;
     std::shared_ptr<const RigSurface> surface_;

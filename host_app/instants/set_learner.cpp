@@ -13,6 +13,8 @@ constexpr float softness = 0.002f;
 constexpr double depth_mean_s = 6, colour_mean_s = 3;
 /// A depth that jumps where the colour stays is not believed before.
 constexpr double patience_s = 1;
+/// How far from what is apart from the set a matte may be drawn: matte.frag's reach, and filters.
+constexpr float matte_reach_px = 6;
 /// What stands still before the set for so long is a part of it.
 constexpr double absorbed_after_s = 120;
 
@@ -27,8 +29,12 @@ float instants_of(double seconds, double dt_s, int fewest, int most) {
 void SetLearner::learn(RigHistory& rig) {
     // Asked for before anything is bound: making a texture binds it.
     SetState& set = rig.set_to_learn();
-    rig.matte().resize(rig.fresh_colour().size());
-    hard_.resize(rig.fresh_colour().size());
+    const cv::Size picture = rig.fresh_colour().size();
+    const Eigen::Vector2f size(static_cast<float>(picture.width),
+                               static_cast<float>(picture.height));
+    rig.matte().resize(picture);
+    rig.matte_tiles().resize(TilePass::tiles_of(picture));
+    hard_.resize(picture);
     const bool has_before = set.is_drawn() && rig.has_colour_before();
     const Framebuffer& colour = rig.next_colour_target();
     const Texture& set_colour = has_before ? rig.colour_mean() : rig.fresh_colour();
@@ -51,21 +57,24 @@ void SetLearner::learn(RigHistory& rig) {
     state_before.bind(3);
     see_.draw(set.seen_target());
 
+    Program& tiles = tiles_.use();
+    tiles.set("seen", 0);
+    tiles.set("tile_share", TilePass::share_of(picture));
+    tiles.set("margin_share", Eigen::Vector2f(matte_reach_px * size.cwiseInverse()));
+    set.seen().bind(0);
+    tiles_.draw(rig.matte_tiles().target());
+
     Program& matte = matte_.use();
     matte.set("picture", 0);
-    matte.set("set_colour", 1);
-    matte.set("seen", 2);
+    matte.set("seen", 1);
     rig.fresh_colour().bind(0);
-    set_colour.bind(1);
-    set.seen().bind(2);
-    matte_.draw(hard_.target());
+    set.seen().bind(1);
+    matte_.draw(hard_.target(), rig.matte_tiles().texture(), 2, picture);
 
     Program& soften = soften_.use();
-    soften.set("picture", 0);
-    soften.set("set_colour", 1);
-    soften.set("hard", 2);
-    hard_.texture().bind(2);
-    soften_.draw(rig.matte().target());
+    soften.set("hard", 0);
+    hard_.texture().bind(0);
+    soften_.draw(rig.matte().target(), rig.matte_tiles().texture(), 1, picture);
 
     Program& learn = learn_.use();
     learn.set("depth_map", 0);

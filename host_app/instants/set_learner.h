@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/gl/fullscreen_pass.h"
+#include "common/gl/tile_pass.h"
 #include "host_app/instants/rig_history.h"
 
 namespace vantage {
@@ -11,6 +12,7 @@ class SetLearner {
   public:
     explicit SetLearner(const ShaderLibrary& library)
         : see_(library, "set_see.frag"),
+          tiles_(library, "matte_tiles.frag"),
           matte_(library, "matte.frag"),
           soften_(library, "matte_soften.frag"),
           learn_(library, "set_learn.frag"),
@@ -21,8 +23,10 @@ class SetLearner {
     void learn(RigHistory& rig);
 
   private:
-    FullscreenPass see_, matte_, soften_, learn_, colour_;
-    DrawnTexture hard_{TextureFormat::rgba8, Filter::linear};
+    FullscreenPass see_, tiles_;
+    TilePass matte_, soften_;
+    FullscreenPass learn_, colour_;
+    DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 
 /// How many instants `dt_s` apart `seconds` span, within bounds.

@@ -33,7 +33,7 @@ class SetLearnerTest : public testing::Test {
         cv::extractChannel(state, learnt.depth_m, 0);
         learnt.colour = rig_.colour().download();
         const cv::Mat matte = rig_.matte().texture().download();
-        cv::extractChannel(matte, learnt.matte, 3);
+        cv::extractChannel(matte, learnt.matte, 0);
         return learnt;
     }
     DepthView film(float strip_m = wall_m, double square_x_m = 0) const {

@@ -1,0 +1,39 @@
+#include "common/gl/tile_pass.h"
+
+#include <gtest/gtest.h>
+
+#include "common/gl/egl_context.h"
+#include "common/gl/texture.h"
+#include "tests/unit/gl/shader_folder.h"
+
+namespace vantage {
+namespace {
+
+TEST(TilePass, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
+    const EglContext context;
+    const ShaderFolder folder;
+    folder.write("tone.frag",
+                 "layout(location = 0) out float drawn;\nvoid main() { drawn = 1.0; }");
+    const ShaderLibrary library{folder.path()};
+    // The last column of tiles reaches beyond the picture; the target is half its size.
+    const cv::Size picture(40, 32), half(20, 16);
+    ASSERT_EQ(TilePass::tiles_of(picture), cv::Size(3, 2));
+    Texture tiles(TextureFormat::r8, 3, 2);
+    cv::Mat1b named = cv::Mat1b::zeros(2, 3);
+    named(0, 1) = named(1, 2) = 255;
+    tiles.upload(named);
+    const Texture drawn(TextureFormat::r8, half.width, half.height);
+    const Framebuffer target({&drawn});
+    TilePass pass(library, "tone.frag");
+    for (int again = 0; again < 2; ++again) {
+        pass.use();
+        pass.draw(target, tiles, 0, picture);
+        const cv::Mat1b seen = drawn.download();
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                EXPECT_EQ(seen(y, x), named(y / 8, x / 8)) << x << ' ' << y;
+    }
+}
+
+}  // namespace
+}  // namespace vantage
