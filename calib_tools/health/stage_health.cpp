@@ -251,6 +251,13 @@ std::vector<std::string> StageHealth::not_known() const {
     return sentences;
 }
 
+std::vector<std::string> StageHealth::sentences_of(Verdict verdict) const {
+    std::vector<std::string> sentences;
+    for (const HealthMeasure& m : measures)
+        if (m.verdict == verdict) sentences.push_back(m.sentence);
+    return sentences;
+}
+
 StageHealth check_stage(const std::vector<RigSnapshot>& rigs) {
     StageHealth health;
     std::vector<OverlapView> views;

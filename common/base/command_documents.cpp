@@ -78,9 +78,9 @@ std::string man_page(const CLI::App& program, std::string_view version) {
         if (commands_of(app).empty()) text += roff_options(app);
     });
     return text +
-           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, said in a "
-           "sentence. 2: words that do not fit. 3: what was asked cannot be told from what there "
-           "is. 130: ended by Ctrl\\-C.\n";
+           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, or what was "
+           "checked is bad, said in a sentence. 2: words that do not fit. 3: what was asked cannot "
+           "be told from what there is. 130: ended by Ctrl\\-C.\n";
 }
 
 std::string bash_completion(const CLI::App& program) {
