@@ -8,12 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/base/command_tree.h"
+
 namespace vantage {
 namespace {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
-}
 
 /// The app and everything below it, with the words that lead there ("rigs status").
 void visit(const CLI::App& app, const std::string& words,
@@ -52,7 +50,7 @@ std::string roff_option(const CLI::Option& option) {
 
 std::string roff_options(const CLI::App& app) {
     std::string text;
-    for (const CLI::Option* option : app.get_options({}))
+    for (const CLI::Option* option : options_of(app))
         if (!option->get_group().empty()) text += roff_option(*option);
     return text;
 }
@@ -92,7 +90,7 @@ std::string bash_completion(const CLI::App& program) {
         if (!words.empty()) places += fmt::format("{}'{}'", places.empty() ? "" : " | ", words);
         std::vector<std::string> commands, options;
         for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
-        for (const CLI::Option* option : app.get_options({}))
+        for (const CLI::Option* option : options_of(app))
             for (const std::string& option_name : option->get_lnames())
                 options.push_back("--" + option_name);
         words_of_places += fmt::format("    '{}') commands='{}' options='{}' ;;\n", words,
