@@ -1,5 +1,5 @@
-// Quality and time of the synthesisers: writes the tables of docs/synthesis.md between its markers,
-// and a comparison picture beside it.
+// Quality and time of the synthesisers: writes the tables of docs/results/synthesis.md between its
+// markers, and a comparison picture beside it.
 #include <algorithm>
 #include <functional>
 #include <iostream>
