@@ -49,6 +49,7 @@ HealthMeasure judged(HealthMeasure m, int fewest, std::string_view too_few, std:
 
 HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>& rows) {
     std::vector<double> misses;
+    misses.reserve(rows.size());
     for (const TrackedRow& row : rows) misses.push_back(std::abs(row.row_miss_px));
     std::sort(misses.begin(), misses.end());
     misses.resize(misses.size() - misses.size() / 10);

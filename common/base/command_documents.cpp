@@ -58,7 +58,7 @@ std::string roff_options(const CLI::App& app) {
 }  // namespace
 
 std::string man_page(const CLI::App& program, std::string_view version) {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string title = name;
     std::transform(title.begin(), title.end(), title.begin(), ::toupper);
     std::string text = fmt::format(
@@ -82,7 +82,7 @@ std::string man_page(const CLI::App& program, std::string_view version) {
 }
 
 std::string bash_completion(const CLI::App& program) {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string function = "_" + name;
     std::replace(function.begin(), function.end(), '-', '_');
     std::string places, words_of_places;
