@@ -46,6 +46,17 @@ TEST(Board, with_more_markers_than_its_dictionary_has_is_refused) {
     EXPECT_THROW(load_board(folder.path() / "b.toml"), Error);
 }
 
+TEST(Board, whose_file_was_corrected_to_something_impossible_is_refused_with_its_file) {
+    const TemporaryFolder folder;
+    BoardPattern pattern = charuco(8, 5);
+    pattern.square_m = pattern.marker_m / 2;
+    const std::filesystem::path file = folder.path() / "b.toml";
+    save_board(file, pattern);
+    const std::string sentence = thrown_sentence([&] { load_board(file); });
+    EXPECT_THAT(sentence, HasSubstr(file.string()));
+    EXPECT_THAT(sentence, HasSubstr("does not fit into a square"));
+}
+
 TEST(Board, drawn_as_charuco_is_found_where_it_was_drawn_even_half_hidden) {
     const BoardPattern pattern = charuco(8, 5);
     GreyImage picture = draw_board(pattern, 40);
