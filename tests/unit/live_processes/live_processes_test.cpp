@@ -141,7 +141,8 @@ TEST_F(LiveProcesses, FlyToTheEndWhereAFilmFailsAndEndWithItsName) {
 
 TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
     start_rig("left", 0);
-    const auto host = start_host({"--frames", "2", "--json", "--wait", "8"});
+    wait_for(*rigs_[0], "publishing on");
+    const auto host = start_host({"--frames", "2", "--json", "--wait", "4"});
     ASSERT_EQ(host->wait().status, 0) << host->err();
     EXPECT_NE(host->err().find("missing: right disconnected"), std::string::npos) << host->err();
     const nlohmann::json summary = nlohmann::json::parse(host->out());
