@@ -26,7 +26,8 @@ export -f look_at
 
 declare -A headers_of
 while read -r source headers; do headers_of[${source#../../}]=$headers; done < <(sources_and_headers)
-asked=$(clang-tidy --version && cat .clang-tidy tests/.clang-tidy)
+asked=$(clang-tidy --version && cat .clang-tidy)
+asked_of_tests=$(cat tests/.clang-tidy)
 wanted() {
   if [ $# -eq 0 ]; then git ls-files '*.cpp'; elif [ -f "$1" ]; then printf '%s\n' "$@"; else
     git diff --name-only --diff-filter=d "$1" -- '*.cpp'; fi
@@ -35,7 +36,11 @@ count=0 work=()
 while read -r source; do
   count=$((count + 1))
   # shellcheck disable=SC2086 # several headers
-  seen=$(cd build/release && { echo "$asked"; cat "../../$source" ${headers_of[$source]:-} 2>/dev/null || true; } | sha256sum)
+  seen=$(cd build/release && {
+    echo "$asked"
+    [[ $source != tests/* ]] || echo "$asked_of_tests"
+    cat "../../$source" ${headers_of[$source]:-} 2>/dev/null || true
+  } | sha256sum)
   stamp=build/tidy/clean/${seen:0:40}
   [ -e "$stamp" ] || work+=("$source" "$stamp")
 done < <(wanted "$@")
