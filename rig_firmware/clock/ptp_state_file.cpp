@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 

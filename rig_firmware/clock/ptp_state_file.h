@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "common/base/kernel_clock.h"
 #include "common/base/time.h"
