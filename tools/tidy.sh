@@ -1,12 +1,49 @@
 #!/usr/bin/env bash
-# Runs clang-tidy with .clang-tidy over the C++ files that changed since a revision, or over all.
-#   tools/tidy.sh [REVISION]
+# Runs clang-tidy with .clang-tidy over all C++ files, over those that changed since a revision, or over those named. A
+# file that was found clean is looked at again only once it, a header of ours that it includes, or what is asked of it
+# has changed.
+#   tools/tidy.sh [REVISION | FILE.cpp...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/build.sh release
 # Without the precompiled headers of another compiler; so what a file forgot to include shows as well.
-mkdir -p build/tidy
+mkdir -p build/tidy/clean
 sed -E 's# -(Winvalid-pch|fpch-preprocess)##g; s# -include [^ "]*cmake_pch\.hxx##g' build/release/compile_commands.json \
   >build/tidy/compile_commands.json
-files=$(if [ $# -gt 0 ]; then git diff --name-only --diff-filter=d "$1" -- '*.cpp'; else git ls-files '*.cpp'; fi)
-printf '%s\n' $files | grep -vE '^$' | xargs -r -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option
+
+# A line a source: it, then what it includes of ours, all as seen from the build folder.
+sources_and_headers() {
+  ninja -C build/release -t deps | awk '
+    /^[^ ]/ {source = ""}
+    /^ / && $1 !~ /^\// && $1 !~ /cmake_pch/ {if (!source) source = $1; else headers[source] = headers[source] " " $1}
+    END {for (source in headers) print source headers[source]}'
+}
+
+look_at() { # source, the stamp that says it is clean
+  clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option "$1" 2>/dev/null && : >"$2"
+}
+export -f look_at
+
+declare -A headers_of
+while read -r source headers; do headers_of[${source#../../}]=$headers; done < <(sources_and_headers)
+asked=$(clang-tidy --version && cat .clang-tidy)
+asked_of_tests=$(cat tests/.clang-tidy)
+wanted() {
+  if [ $# -eq 0 ]; then git ls-files '*.cpp'; elif [ -f "$1" ]; then printf '%s\n' "$@"; else
+    git diff --name-only --diff-filter=d "$1" -- '*.cpp'; fi
+}
+count=0 work=()
+while read -r source; do
+  count=$((count + 1))
+  # shellcheck disable=SC2086 # several headers
+  seen=$(cd build/release && {
+    echo "$asked"
+    [[ $source != tests/* ]] || echo "$asked_of_tests"
+    cat "../../$source" ${headers_of[$source]:-} 2>/dev/null || true
+  } | sha256sum)
+  stamp=build/tidy/clean/${seen:0:40}
+  [ -e "$stamp" ] || work+=("$source" "$stamp")
+done < <(wanted "$@")
+echo "tidy: $((${#work[@]} / 2)) of $count files have to be looked at"
+[ ${#work[@]} -eq 0 ] || printf '%s\0' "${work[@]}" | xargs -0 -P "$(nproc)" -n 2 bash -c 'look_at "$@"' look_at
+echo "tidy: clean"

@@ -45,8 +45,12 @@ std::vector<BoardPattern> load_body(const std::filesystem::path& path) {
     std::vector<BoardPattern> faces;
     for (const int first : first_markers) {
         pattern.first_marker = first;
-        pattern.validate();
-        if (pattern.kind == BoardKind::charuco) require_enough_markers(pattern);
+        try {
+            pattern.validate();
+            if (pattern.kind == BoardKind::charuco) require_enough_markers(pattern);
+        } catch (const Error& error) {
+            fail("{}: {}", path.string(), error.what());
+        }
         faces.push_back(pattern);
     }
     return faces;

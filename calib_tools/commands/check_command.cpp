@@ -44,6 +44,8 @@ void run(const Options& options) {
             fmt::format("the stage's health is unknown ({}): film something with texture that "
                         "neighbouring rigs see both",
                         fmt::join(health.not_known(), "; ")));
+    if (health.verdict() == Verdict::bad)
+        fail("the stage is bad: {}", fmt::join(health.sentences_of(Verdict::bad), "; "));
 }
 
 }  // namespace
@@ -52,8 +54,8 @@ CommandEntry check_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "check",
-            "Say how well a stage still fits its calibration, without any board; exit status 0 "
-            "where that can be told (good, warn or bad), 3 where it cannot");
+            "Say how well a stage still fits its calibration, without any board; exit status 0 for "
+            "good and warn, 1 for bad, 3 where it cannot be told");
         const auto options = std::make_shared<Options>();
         command
             ->add_option("--rig", options->rigs,

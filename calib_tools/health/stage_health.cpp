@@ -49,6 +49,7 @@ HealthMeasure judged(HealthMeasure m, int fewest, std::string_view too_few, std:
 
 HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>& rows) {
     std::vector<double> misses;
+    misses.reserve(rows.size());
     for (const TrackedRow& row : rows) misses.push_back(std::abs(row.row_miss_px));
     std::sort(misses.begin(), misses.end());
     misses.resize(misses.size() - misses.size() / 10);
@@ -248,6 +249,13 @@ std::vector<std::string> StageHealth::not_known() const {
             sentences.push_back(fmt::format("{}: nothing ties {} to {}", what,
                                             fmt::join(alone, ", "), rig_names.front()));
     }
+    return sentences;
+}
+
+std::vector<std::string> StageHealth::sentences_of(Verdict verdict) const {
+    std::vector<std::string> sentences;
+    for (const HealthMeasure& m : measures)
+        if (m.verdict == verdict) sentences.push_back(m.sentence);
     return sentences;
 }
 

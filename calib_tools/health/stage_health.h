@@ -34,6 +34,8 @@ struct StageHealth {
     Verdict verdict() const;
     /// A sentence for each thing that is not known enough; none where the stage can be judged.
     std::vector<std::string> not_known() const;
+    /// What the measures of this verdict say.
+    std::vector<std::string> sentences_of(Verdict verdict) const;
 };
 
 /// Without any board: rows (RMS, px, of features tracked from the left to the right picture, the

@@ -8,12 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/base/command_tree.h"
+
 namespace vantage {
 namespace {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
-}
 
 /// The app and everything below it, with the words that lead there ("rigs status").
 void visit(const CLI::App& app, const std::string& words,
@@ -52,7 +50,7 @@ std::string roff_option(const CLI::Option& option) {
 
 std::string roff_options(const CLI::App& app) {
     std::string text;
-    for (const CLI::Option* option : app.get_options({}))
+    for (const CLI::Option* option : options_of(app))
         if (!option->get_group().empty()) text += roff_option(*option);
     return text;
 }
@@ -60,7 +58,7 @@ std::string roff_options(const CLI::App& app) {
 }  // namespace
 
 std::string man_page(const CLI::App& program, std::string_view version) {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string title = name;
     std::transform(title.begin(), title.end(), title.begin(), ::toupper);
     std::string text = fmt::format(
@@ -78,13 +76,13 @@ std::string man_page(const CLI::App& program, std::string_view version) {
         if (commands_of(app).empty()) text += roff_options(app);
     });
     return text +
-           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, said in a "
-           "sentence. 2: words that do not fit. 3: what was asked cannot be told from what there "
-           "is. 130: ended by Ctrl\\-C.\n";
+           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, or what was "
+           "checked is bad, said in a sentence. 2: words that do not fit. 3: what was asked cannot "
+           "be told from what there is. 130: ended by Ctrl\\-C.\n";
 }
 
 std::string bash_completion(const CLI::App& program) {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string function = "_" + name;
     std::replace(function.begin(), function.end(), '-', '_');
     std::string places, words_of_places;
@@ -92,7 +90,7 @@ std::string bash_completion(const CLI::App& program) {
         if (!words.empty()) places += fmt::format("{}'{}'", places.empty() ? "" : " | ", words);
         std::vector<std::string> commands, options;
         for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
-        for (const CLI::Option* option : app.get_options({}))
+        for (const CLI::Option* option : options_of(app))
             for (const std::string& option_name : option->get_lnames())
                 options.push_back("--" + option_name);
         words_of_places += fmt::format("    '{}') commands='{}' options='{}' ;;\n", words,

@@ -6,14 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/base/command_tree.h"
 #include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
-}
 
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
@@ -23,7 +20,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
 
 std::vector<std::string> option_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options({}))
+    for (const CLI::Option* option : options_of(app))
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     return names;
 }
@@ -62,7 +59,7 @@ std::string unknown_option(const Place& place, const std::vector<std::string>& w
         if (words[i].size() < 2 || words[i][0] != '-') continue;
         const bool is_long = words[i][1] == '-';
         if (!is_long && std::isalpha(static_cast<unsigned char>(words[i][1])) == 0) continue;
-        const std::string name =
+        std::string name =
             is_long ? words[i].substr(0, words[i].find('=')) : words[i].substr(0, 2);
         if (!place.command->get_option_no_throw(name)) return name;
     }

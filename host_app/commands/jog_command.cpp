@@ -217,7 +217,14 @@ std::optional<std::chrono::milliseconds> pause_of(const std::string& line) {
     return std::chrono::milliseconds(std::llround(seconds * 1000));
 }
 
-void simulate() {
+/// What became of a line of words, for machines.
+void print_simulated(const std::string& line, const std::vector<SimulatedXpress::Report>& reports) {
+    std::cout
+        << nlohmann::ordered_json{{"event", "moved"}, {"words", line}, {"reports", reports}}.dump()
+        << std::endl;
+}
+
+void simulate(const JogOptions& options) {
     StopSignal stop;
     const UhidWheel device({.vendor = SimulatedXpress::vendor,
                             .product = SimulatedXpress::product,
@@ -229,6 +236,10 @@ void simulate() {
         "a simulated {} is plugged in; lines of words move it: {}, wait SECONDS; Ctrl-D "
         "unplugs it",
         SimulatedXpress::name, SimulatedXpress::words);
+    if (options.json)
+        std::cout
+            << nlohmann::ordered_json{{"event", "plugged"}, {"name", SimulatedXpress::name}}.dump()
+            << std::endl;
     SimulatedXpress wheel;
     InputLines lines;
     while (!stop.requested() && !lines.ended()) {
@@ -239,8 +250,10 @@ void simulate() {
                 stop.wait_for(*pause);
                 continue;
             }
-            for (const SimulatedXpress::Report& report : wheel.reports_of(*line))
+            const std::vector<SimulatedXpress::Report> reports = wheel.reports_of(*line);
+            for (const SimulatedXpress::Report& report : reports)
                 device.send({report.begin(), report.end()});
+            if (options.json) print_simulated(*line, reports);
         } catch (const Error& error) {
             log_error("{}", error.what());
         }
@@ -275,10 +288,14 @@ CommandEntry jog_command_entry() {
         monitor_command->add_option("--events", options->events, "End after so many lines")
             ->check(CLI::PositiveNumber);
         monitor_command->callback([options] { monitor(*options); });
-        jog->add_subcommand("simulate",
-                            "Plug in a ShuttleXpress that is none, moved by words on standard "
-                            "input; takes root and the kernel's /dev/uhid")
-            ->callback([] { simulate(); });
+        CLI::App* simulate_command = jog->add_subcommand(
+            "simulate",
+            "Plug in a ShuttleXpress that is none, moved by words on standard input; takes root "
+            "and the kernel's /dev/uhid");
+        simulate_command->add_flag("--json", options->json,
+                                   "Write what was plugged in and each move with its reports as "
+                                   "lines of JSON");
+        simulate_command->callback([options] { simulate(*options); });
     }};
 }
 

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
 #include "common/base/command.h"
 #include "common/base/error.h"
@@ -100,9 +102,10 @@ std::unique_ptr<JogDeck> make_deck(const LiveOptions& options) {
     return std::make_unique<JogDeck>(make_system_jog_bus(), load_wheel_profiles(options.wheels));
 }
 
-/// Ends the files, prints the summary. Returns how many pictures there were.
-std::uint64_t finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck,
-                     const CorridorWatch& corridor) {
+/// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
+/// the names of outputs that failed.
+void finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck,
+            const CorridorWatch& corridor, const std::function<ColourImage()>& last_picture) {
     show.finish();
     LiveReport report = show.report();
     report.uncovered = corridor.uncovered_parts();
@@ -111,7 +114,10 @@ std::uint64_t finish(const LiveOptions& options, LiveShow& show, const JogDeck* 
         std::cout << to_json(report).dump() << '\n';
     else
         std::cout << to_text(report);
-    return report.programme.pictures;
+    if (report.programme.pictures > 0 && !options.snapshot.empty())
+        write_colour_image(options.snapshot, last_picture());
+    if (const auto failures = failures_of(report.programme.sinks); !failures.empty())
+        fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
 }
 
 void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
@@ -126,11 +132,10 @@ void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan&
         progress.tell(show);
         corridor.tell(show);
     }
-    if (finish(options, show, deck, corridor) > 0 && !options.snapshot.empty()) {
+    finish(options, show, deck, corridor, [&] {
         const auto last = show.state().picture;
-        write_colour_image(options.snapshot,
-                           last->sources ? last->sources->picture : last->picture);
-    }
+        return last->sources ? last->sources->picture : last->picture;
+    });
 }
 
 void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
@@ -168,8 +173,7 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
         progress.tell(show);
         corridor.tell(show);
     }
-    if (finish(options, show, deck, corridor) > 0 && !options.snapshot.empty())
-        write_colour_image(options.snapshot, window.screenshot());
+    finish(options, show, deck, corridor, [&] { return window.screenshot(); });
 }
 
 void live(const LiveOptions& options) {
@@ -206,7 +210,6 @@ CommandEntry live_command_entry() {
         auto options = std::make_shared<LiveOptions>();
         CLI::App* command = program.add_subcommand(
             "live", "Connect to the rigs of a stage, fuse, fly, put out; ends with a summary");
-        command->footer("What the summary's words mean:\n" + counters_legend());
         command->add_option("--stage", options->stage, "The stage (TOML)")->required();
         command->add_flag("--headless", options->headless, "No window");
         command
@@ -271,10 +274,10 @@ CommandEntry live_command_entry() {
         command->add_flag("--json", options->json, "Write the summary as one JSON object");
         command->footer(
             "Without --headless a window opens: fly with mouse and keyboard, F1 helps. The summary "
-            "goes "
-            "to stdout,\nthe log to stderr. Ctrl-C ends in order: files are finished, the summary "
-            "is "
-            "printed.");
+            "goes to stdout,\nthe log to stderr. Ctrl-C ends in order: files are finished, the "
+            "summary is printed. An output that\nfails does not end the programme; the exit status "
+            "is 1 then.\n\nWhat the summary's words mean:\n" +
+            counters_legend());
         command->callback([options] { live(*options); });
     }};
 }

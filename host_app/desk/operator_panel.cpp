@@ -15,6 +15,9 @@ constexpr ImGuiWindowFlags fixed_panel =
     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// In ems: between panels, and to the edges.
+constexpr float panel_gap = 0.7f, left_panel_width = 22.5f;
+
 float em() { return ImGui::GetFontSize(); }
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
@@ -263,8 +266,8 @@ void draw_latency(const PanelState& state, const UiFonts& fonts) {
 }
 
 void draw_left_panel(const PanelState& state, const UiFonts& fonts, float top) {
-    ImGui::SetNextWindowPos({0.7f * em(), top + 0.7f * em()});
-    ImGui::SetNextWindowSize({22.5f * em(), 0});
+    ImGui::SetNextWindowPos({panel_gap * em(), top + panel_gap * em()});
+    ImGui::SetNextWindowSize({left_panel_width * em(), 0});
     ImGui::Begin("rigs and times", nullptr, fixed_panel | ImGuiWindowFlags_AlwaysAutoResize);
     draw_rig_table(state, fonts);
     ImGui::Spacing();
@@ -343,15 +346,21 @@ void draw_empty_place(ImVec2 size) {
     ImGui::Dummy(size);
 }
 
+/// In the middle at the bottom, but right of the table of rigs.
 void draw_thumbnails(const PanelState& state) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float gap = panel_gap * em(), left = 2 * gap + left_panel_width * em();
+    const auto count = static_cast<float>(state.rigs.size());
+    const float frame = 2 * ImGui::GetStyle().WindowPadding.x;
     const float width =
-        std::min(11.0f * em(), screen.x / static_cast<float>(state.rigs.size() + 1) - 1.5f * em());
-    ImGui::SetNextWindowPos({0.5f * screen.x, screen.y - 0.7f * em()}, 0, {0.5f, 1});
+        std::min(11.0f * em(), (screen.x - left - frame) / std::max(1.0f, count) - gap);
+    const float all = count * (width + gap) - gap + frame;
+    ImGui::SetNextWindowPos({std::max(0.5f * screen.x, left + 0.5f * all), screen.y - gap}, 0,
+                            {0.5f, 1});
     ImGui::Begin("disparities", nullptr, fixed_panel | ImGuiWindowFlags_AlwaysAutoResize);
     bool first = true;
     for (const PanelRig& rig : state.rigs) {
-        if (!first) ImGui::SameLine(0, 0.7f * em());
+        if (!first) ImGui::SameLine(0, gap);
         first = false;
         ImGui::BeginGroup();
         const float height = rig.disparity

@@ -93,7 +93,7 @@ InstantThread::Books InstantThread::books() const {
 }
 
 ReceiverStatus InstantThread::close() {
-    const ReceiverStatus status = sets_.close();
+    ReceiverStatus status = sets_.close();
     // The look under way may have taken a set before that; the second one after it has none left.
     std::unique_lock lock(mutex_);
     const std::uint64_t before = looks_;

@@ -26,8 +26,8 @@ LayerSplitter::LayerSplitter(const ShaderLibrary& library)
                {pass(library, "1", "1"), pass(library, "1", "0")}}} {}
 
 void LayerSplitter::split(const RigSurface& source, RigSurface& main, RigSurface& boundary) {
-    RigSurface* const layers[] = {&main, &boundary};
-    for (std::size_t i = 0; i < passes_.size(); ++i) {
+    const std::array<RigSurface*, 2> layers{&main, &boundary};
+    for (std::size_t i = 0; i < layers.size(); ++i) {
         // Before anything is bound: making a texture binds it.
         layers[i]->begin(source.camera(), source.colour().size(), source.depth().size(),
                          source.samples());

@@ -30,6 +30,7 @@ auto most_useful(const Pointers& views, const VirtualView& target, std::size_t a
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     if (ranked.size() > at_most) ranked.resize(at_most);
     std::vector<decltype(&*views[0])> best;
+    best.reserve(ranked.size());
     for (const auto& [use, view] : ranked) best.push_back(view);
     return best;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base/counted.h"
 #include "common/wire/status_report.h"
 
 namespace vantage {
@@ -198,6 +199,15 @@ std::vector<std::string> worries_of(const RigStatus& status) {
     return worries;
 }
 
+std::vector<std::string> failures_of(const std::vector<SinkState>& sinks) {
+    std::vector<std::string> failures;
+    for (const SinkState& sink : sinks)
+        if (!sink.failure.empty())
+            failures.push_back(fmt::format("{} failed after {}: {}", sink.name,
+                                           counted(sink.pictures, "picture"), sink.failure));
+    return failures;
+}
+
 double pictures_a_second(const ProgrammeBooks& programme) {
     return programme.duration_s > 0 ? static_cast<double>(programme.pictures) / programme.duration_s
                                     : 0;
@@ -346,10 +356,7 @@ std::string to_text(const LiveReport& report) {
     if (report.faults > 0)
         text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
                             report.faults);
-    for (const SinkState& sink : programme.sinks)
-        if (!sink.failure.empty())
-            text += fmt::format("{} failed after {} pictures: {}\n", sink.name, sink.pictures,
-                                sink.failure);
+    for (const std::string& failure : failures_of(programme.sinks)) text += failure + '\n';
     if (report.stereoscopy)
         text +=
             fmt::format("side by side: eyes {:.1f} mm apart, converging at {:.2f} m\n",

@@ -68,6 +68,8 @@ struct StepTime {
     Percentiles ms;
 };
 std::vector<StepTime> step_times(const LiveReport& report);
+/// A sentence for every output that failed, with its name.
+std::vector<std::string> failures_of(const std::vector<SinkState>& sinks);
 /// New pictures a second.
 double pictures_a_second(const ProgrammeBooks& programme);
 

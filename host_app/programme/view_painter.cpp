@@ -4,6 +4,7 @@
 
 #include "common/base/time.h"
 #include "common/gl/limits.h"
+#include "host_app/programme/unseen_mark.h"
 
 namespace vantage {
 
@@ -46,6 +47,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     }
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take();
+    mark_unseen(picture);
     if (size != full) {
         ColourImage enlarged;
         cv::resize(picture, enlarged, full, 0, 0, cv::INTER_CUBIC);

@@ -14,7 +14,7 @@ std::size_t bytes_a_side(cv::Size size) { return 3 * static_cast<std::size_t>(si
 PairLoop::PairLoop(cv::Size size, std::chrono::nanoseconds loop, std::chrono::nanoseconds period,
                    std::size_t most_bytes)
     : size_(size), loop_(loop) {
-    if (loop % period != std::chrono::nanoseconds(0)) return;
+    if (size.empty() || loop % period != std::chrono::nanoseconds(0)) return;
     room_ =
         std::min(static_cast<std::size_t>(loop / period), most_bytes / (2 * bytes_a_side(size)));
     bytes_.resize(room_ * 2 * bytes_a_side(size));

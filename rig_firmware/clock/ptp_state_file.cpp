@@ -10,19 +10,22 @@
 
 namespace vantage {
 
+nlohmann::ordered_json to_json(const std::optional<PtpReading>& reading, MonotonicTime now) {
+    if (!reading) return {{"monotonic_ns", to_ns(now)}, {"port_state", nullptr}};
+    return {{"monotonic_ns", to_ns(now)},
+            {"port_state", reading->ptp.port_state},
+            {"offset_ns", reading->ptp.offset_ns},
+            {"path_delay_ns", reading->ptp.path_delay_ns},
+            {"steps_removed", reading->ptp.steps_removed},
+            {"tai_offset_s", reading->kernel.tai_offset_s},
+            {"is_synchronized", reading->kernel.is_synchronized},
+            {"was_set_lately", reading->kernel.was_set_lately},
+            {"disciplined", reading->is_disciplined()}};
+}
+
 void write_ptp_state(const std::filesystem::path& file, const PtpReading& reading,
                      MonotonicTime now) {
-    const std::string text =
-        nlohmann::ordered_json{{"monotonic_ns", to_ns(now)},
-                               {"port_state", reading.ptp.port_state},
-                               {"offset_ns", reading.ptp.offset_ns},
-                               {"path_delay_ns", reading.ptp.path_delay_ns},
-                               {"steps_removed", reading.ptp.steps_removed},
-                               {"tai_offset_s", reading.kernel.tai_offset_s},
-                               {"is_synchronized", reading.kernel.is_synchronized},
-                               {"was_set_lately", reading.kernel.was_set_lately}}
-            .dump() +
-        "\n";
+    const std::string text = to_json(reading, now).dump() + "\n";
     write_file_atomically(file, std::as_bytes(std::span(text)));
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "common/base/kernel_clock.h"
 #include "common/base/time.h"
 #include "rig_firmware/clock/ptp4l_client.h"
@@ -23,6 +25,9 @@ inline constexpr const char* ptp_state_file = "/run/vantage-ptp/state.json";
 
 /// A reading older than this is of no worth: whoever wrote it has ended or hangs.
 inline constexpr std::chrono::seconds ptp_state_lifetime(5);
+
+/// As the state file has it; without a reading, `port_state` is null and there is no more.
+nlohmann::ordered_json to_json(const std::optional<PtpReading>& reading, MonotonicTime now);
 
 /// Throws Error if the file cannot be written.
 void write_ptp_state(const std::filesystem::path& file, const PtpReading& reading,

@@ -1,8 +1,11 @@
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/base/command.h"
 #include "common/base/stop_signal.h"
@@ -14,21 +17,28 @@ namespace {
 constexpr std::chrono::seconds ask_every(1);
 
 struct Options {
-    std::filesystem::path socket = ptp4l_socket;
-    std::filesystem::path file = ptp_state_file;
+    std::filesystem::path socket = ptp4l_socket, file;
+    bool json = false;
 };
 
 void keep_state(const Options& options) {
+    std::filesystem::path file = options.file;
+    if (file.empty() && !options.json) file = ptp_state_file;
     std::error_code ignored;
     StopSignal stop;
     do {
-        if (const std::optional<PtpState> state = read_ptp4l(options.socket))
-            write_ptp_state(options.file, {.ptp = *state, .kernel = read_kernel_clock()},
-                            MonotonicClock::now());
+        const std::optional<PtpState> state = read_ptp4l(options.socket);
+        std::optional<PtpReading> reading;
+        if (state) reading = {.ptp = *state, .kernel = read_kernel_clock()};
+        const MonotonicTime now = MonotonicClock::now();
+        if (options.json) std::cout << to_json(reading, now).dump() << std::endl;
+        if (file.empty()) continue;
+        if (reading)
+            write_ptp_state(file, *reading, now);
         else
-            std::filesystem::remove(options.file, ignored);
+            std::filesystem::remove(file, ignored);
     } while (!stop.wait_for(ask_every));
-    std::filesystem::remove(options.file, ignored);
+    if (!file.empty()) std::filesystem::remove(file, ignored);
 }
 
 }  // namespace
@@ -41,10 +51,14 @@ CommandEntry ptp_state_command_entry() {
             "Ask ptp4l every second how the clock stands, for a daemon that may not ask itself");
         command->add_option("--ptp4l", options->socket, "ptp4l's management socket")
             ->capture_default_str();
-        command
-            ->add_option("--write", options->file,
-                         "File for the newest answer (JSON); none where ptp4l gives none")
-            ->capture_default_str();
+        command->add_option(
+            "--write", options->file,
+            fmt::format("File for the newest answer (JSON), none where ptp4l gives none (default: "
+                        "{}; with --json: no file)",
+                        ptp_state_file));
+        command->add_flag("--json", options->json,
+                          "Write every answer as a line of JSON, too; port_state is null where "
+                          "ptp4l gives none");
         command->callback([options] { keep_state(*options); });
     }};
 }

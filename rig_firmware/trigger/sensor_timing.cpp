@@ -38,6 +38,7 @@ Model find_model(const std::string& name) {
         std::find_if(models.begin(), models.end(), [&](const Model& m) { return m.name == name; });
     if (found != models.end()) return *found;
     std::vector<std::string> known;
+    known.reserve(models.size());
     for (const Model& model : models) known.emplace_back(model.name);
     fail("there is no sensor model '{}' for [trigger]; {}", name, suggest_name(name, known));
 }

@@ -1,6 +1,7 @@
 #include "tests/bench/stepped_truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -126,9 +127,10 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                            Measured(wanted.rigs.noise_sigma)});
     }
 
-    const auto instants =
-        static_cast<std::uint64_t>((wanted.settling_s + wanted.measured_s) * wanted.rate_hz + 0.5);
-    const auto settled = static_cast<std::uint64_t>(wanted.settling_s * wanted.rate_hz + 0.5);
+    const auto instants = static_cast<std::uint64_t>(
+        std::llround((wanted.settling_s + wanted.measured_s) * wanted.rate_hz));
+    const auto settled =
+        static_cast<std::uint64_t>(std::llround(wanted.settling_s * wanted.rate_hz));
     for (std::uint64_t k = 0; k < instants; ++k) {
         const nanoseconds time =
             nanoseconds_of(wanted.start_s + static_cast<double>(k) / wanted.rate_hz);

@@ -1,4 +1,5 @@
-// Quality and time of the presets beside OpenCV's matchers, as the tables of docs/stereo.md.
+// Quality and time of the presets beside OpenCV's matchers, as the tables of
+// docs/results/stereo.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

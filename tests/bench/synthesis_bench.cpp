@@ -1,5 +1,5 @@
-// Quality and time of the synthesisers: writes the tables of docs/synthesis.md between its markers,
-// and a comparison picture beside it.
+// Quality and time of the synthesisers: writes the tables of docs/results/synthesis.md between its
+// markers, and a comparison picture beside it.
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -153,12 +153,12 @@ class Bench {
         struct Timed {
             std::span<const DepthView> views;
             std::unique_ptr<Synthesiser> synthesiser;
-            LeastTimes render, with_depth;
+            LeastTimes render{}, with_depth{};
         };
         std::vector<Timed> ones;
         for (const std::size_t rigs : {1u, 2u, 4u, 8u}) {
-            Timed& one =
-                ones.emplace_back(std::span(all).first(rigs), make_synthesiser(name, shaders_));
+            ones.push_back({std::span(all).first(rigs), make_synthesiser(name, shaders_)});
+            const Timed& one = ones.back();
             one.synthesiser->set_views(one.views);
             one.synthesiser->render(target);
         }

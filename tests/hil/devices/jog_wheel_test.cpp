@@ -85,9 +85,13 @@ TEST_F(JogWheel, CanBeTriedWithoutOne) {
     const std::filesystem::path words = folder_.path() / "words";
     std::ofstream(words) << "wait 1\nnonsense\njog 2\nshuttle -7\nb3\nwait 1\n";
     const ProgramResult simulated = run_to_end(
-        "/bin/sh", {"-c", std::string(VANTAGE_PROGRAM) + " jog simulate <" + words.string()});
+        "/bin/sh",
+        {"-c", std::string(VANTAGE_PROGRAM) + " jog simulate --json <" + words.string()});
     EXPECT_EQ(simulated.status, 0) << simulated.err;
     EXPECT_THAT(simulated.err, HasSubstr("'nonsense' is not understood"));
+    for (const char* line : {R"({"event":"plugged","name":"Contour Design ShuttleXpress"})",
+                             R"({"event":"moved","words":"jog 2","reports":[[0,0,0,0,0],[0,1,)"})
+        EXPECT_THAT(simulated.out, HasSubstr(line));
     EXPECT_TRUE(comes([&] { return holds(watching->out(), "gone from"); })) << watching->out();
     for (const char* event : {"ShuttleXpress  plugged in", "jog +1", "shuttle -1", "b3 pressed"})
         EXPECT_THAT(watching->out(), HasSubstr(event));

@@ -51,9 +51,9 @@ Outcome run(std::vector<std::string> words) {
             std::cout << "1 + 2 + ...\n";
             throw Undecided("the sum cannot be told: there is no end");
         });
-        sub->add_subcommand("count", "How many.")
-            ->add_option("--first", "where to begin")
-            ->required();
+        auto* count = sub->add_subcommand("count", "How many.");
+        count->add_option("--first", "where to begin")->required();
+        count->add_option_group("end", "where to end")->add_option("--last", "the last one");
     }};
     words.insert(words.begin(), "calculator");
     std::vector<char*> arguments;
@@ -102,6 +102,9 @@ TEST(RunProgram, TellsWordsThatDoNotFitFromWorkThatFailed) {
         {{"double"}, "N is required; calculator double --help lists what fits\n"},
         {{"series", "count", "--fist", "3"},
          "calculator series count has no option '--fist'; the nearest is '--first'; calculator "
+         "series count --help lists what fits\n"},
+        {{"series", "count", "--first", "3", "--lsat", "4"},
+         "calculator series count has no option '--lsat'; the nearest is '--last'; calculator "
          "series count --help lists what fits\n"},
         {{"double", "1", "--tims=4"},
          "calculator double has no option '--tims'; the nearest is '--times'; calculator double "
@@ -160,8 +163,11 @@ TEST(RunProgram, PrintsAManPageOfEveryCommandAndOption) {
     for (const char* part :
          {"calculator \\- Calculates.", ".SS calculator double\nDoubles a number.",
           "\nthe number (required)\n", "\\-\\-times", "\nhow often\n",
-          ".SS calculator series count\nHow many."})
+          ".SS calculator series count\nHow many.", "\\-\\-last", "\nthe last one\n"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+    EXPECT_EQ(outcome.out.find(".SS calculator series count \n"), std::string::npos)
+        << "a group of options is no command:\n"
+        << outcome.out;
 }
 
 /// What bash offers for a line whose last word is being typed.
@@ -188,6 +194,7 @@ TEST(RunProgram, PrintsACompletionThatBashTakes) {
     EXPECT_EQ(completed(outcome.out, "calculator ser"), "series\n");
     EXPECT_EQ(completed(outcome.out, "calculator series \"\""), "add sum count\n");
     EXPECT_EQ(completed(outcome.out, "calculator series count --fi"), "--first\n");
+    EXPECT_EQ(completed(outcome.out, "calculator series count --la"), "--last\n");
     EXPECT_EQ(completed(outcome.out, "calculator double 3 --ti"), "--times\n");
     EXPECT_EQ(completed(outcome.out, "calculator double x"), "\n") << "files, by bash itself";
 }

@@ -46,6 +46,17 @@ TEST(Board, with_more_markers_than_its_dictionary_has_is_refused) {
     EXPECT_THROW(load_board(folder.path() / "b.toml"), Error);
 }
 
+TEST(Board, whose_file_was_corrected_to_something_impossible_is_refused_with_its_file) {
+    const TemporaryFolder folder;
+    BoardPattern pattern = charuco(8, 5);
+    pattern.square_m = pattern.marker_m / 2;
+    const std::filesystem::path file = folder.path() / "b.toml";
+    save_board(file, pattern);
+    const std::string sentence = thrown_sentence([&] { load_board(file); });
+    EXPECT_THAT(sentence, HasSubstr(file.string()));
+    EXPECT_THAT(sentence, HasSubstr("does not fit into a square"));
+}
+
 TEST(Board, drawn_as_charuco_is_found_where_it_was_drawn_even_half_hidden) {
     const BoardPattern pattern = charuco(8, 5);
     GreyImage picture = draw_board(pattern, 40);
@@ -57,7 +68,8 @@ TEST(Board, drawn_as_charuco_is_found_where_it_was_drawn_even_half_hidden) {
     EXPECT_EQ(sighting.corners.size(), 20u);
     for (const BoardCorner& corner : sighting.corners) {
         // One square of margin and one to the first inner corner; an edge lies between two pixels.
-        const Eigen::Vector2d drawn(79.5 + 40 * (corner.id % 8), 79.5 + 40 * (corner.id / 8));
+        const int column = corner.id % 8, row = corner.id / 8;
+        const Eigen::Vector2d drawn(79.5 + 40 * column, 79.5 + 40 * row);
         EXPECT_LT((corner.pixel - drawn).norm(), 0.05);
     }
 }
@@ -221,8 +233,8 @@ TEST(Board, set_is_found_by_its_markers_and_its_corners_are_numbered_through) {
         EXPECT_EQ(corner.id, static_cast<int>(i));
         EXPECT_EQ(corner.board, i < 20 ? 0 : 1);
         // The second one stands above the first, whose picture is 7 squares and the margin high.
-        const Eigen::Vector2d drawn(59.5 + 30 * (on_board % 5),
-                                    59.5 + 30 * (on_board / 5) + (i < 20 ? 210 : 0));
+        const int column = on_board % 5, row = on_board / 5;
+        const Eigen::Vector2d drawn(59.5 + 30 * column, 59.5 + 30 * row + (i < 20 ? 210 : 0));
         EXPECT_LT((corner.pixel - drawn).norm(), 0.05);
     }
 }

@@ -369,6 +369,7 @@ TEST_F(LiveCheck, judges_a_running_stage_and_notices_a_rig_that_was_moved) {
         EXPECT_NE(verdict, "good") << bad.out;
     }
     EXPECT_EQ(nlohmann::json::parse(bad.out).at("verdict"), "bad") << bad.out;
+    EXPECT_EQ(bad.status, 1) << bad.err;
     EXPECT_THAT(bad.out, HasSubstr("% of the surfaces that rig"));
     EXPECT_THAT(bad.err, HasSubstr("rig B works with calibration"));
     std::ifstream history(file("history.jsonl"));

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/data_folder.h"
 
@@ -37,6 +38,15 @@ TEST_F(PtpStateFile, CarriesPtp4lsWordAndTheKernels) {
     EXPECT_EQ(reading->kernel.tai_offset_s, 37);
     EXPECT_TRUE(reading->kernel.is_synchronized);
     EXPECT_TRUE(reading->is_disciplined());
+}
+
+TEST_F(PtpStateFile, SaysWhetherTheClockIsDisciplinedAndWhereNobodyAnswers) {
+    const PtpReading follows{.ptp = {.port_state = "SLAVE"}, .kernel = {.was_set_lately = true}};
+    EXPECT_EQ(to_json(follows, start_).at("disciplined"), true);
+    const PtpReading listens{.ptp = {.port_state = "LISTENING"}, .kernel = {}};
+    EXPECT_EQ(to_json(listens, start_).at("disciplined"), false);
+    EXPECT_EQ(to_json(std::nullopt, start_).dump(),
+              R"({"monotonic_ns":1000000000000,"port_state":null})");
 }
 
 TEST_F(PtpStateFile, IsOfNoWorthOnceItIsOldOrFromBeforeTheBoot) {

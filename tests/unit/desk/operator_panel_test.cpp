@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 1280, height_px = 720;
+const cv::Size large_screen{1280, 720}, smallest_screen{960, 540};
 
 class OperatorScreen : public testing::Test {
   protected:
@@ -42,9 +42,10 @@ class OperatorScreen : public testing::Test {
         state_.move_progress = 0.4;
     }
 
-    ColourImage draw(const PanelState& state) {
-        ImGui::GetIO().DisplaySize = {width_px, height_px};
-        const Texture screen(TextureFormat::rgba8, width_px, height_px);
+    ColourImage draw(const PanelState& state, cv::Size size = large_screen) {
+        ImGui::GetIO().DisplaySize = {static_cast<float>(size.width),
+                                      static_cast<float>(size.height)};
+        const Texture screen(TextureFormat::rgba8, size.width, size.height);
         const Framebuffer target({&screen});
         // A panel takes its size from what it held in the frame before.
         for (int frame = 0; frame < 2; ++frame) {
@@ -144,6 +145,19 @@ TEST_F(OperatorScreen, ShowsTheDisparitiesInColour) {
     EXPECT_GT(cv::countNonZero(blue(strip)), 50);
 }
 
+TEST_F(OperatorScreen, KeepsDisparitiesOffTheTableOfRigsOnTheSmallestScreen) {
+    state_.rigs.assign(4, {"north", RigState::present, 30, 60, 0, &disparity_});
+    state_.stages.assign(10, {"capture", 2.1, true});
+    const ColourImage before = draw(state_, smallest_screen);
+    Texture other(TextureFormat::rgba8, 160, 120);
+    other.upload(ColourImage(120, 160, cv::Vec4b(255, 0, 255, 255)));
+    for (PanelRig& rig : state_.rigs) rig.disparity = &other;
+    const ColourImage after = draw(state_, smallest_screen);
+    EXPECT_EQ(differing(before, after, {0, 0, 305, 540}), 0);
+    EXPECT_EQ(at(after, 340, 460), cv::Vec3b(255, 0, 255)) << "the first one is whole";
+    EXPECT_EQ(at(after, 900, 460), cv::Vec3b(255, 0, 255)) << "and so is the last one";
+}
+
 TEST_F(OperatorScreen, OpensTheHelpOverThePicture) {
     const ColourImage before = draw(state_);
     state_.show_help = true;
@@ -154,14 +168,14 @@ TEST_F(OperatorScreen, OpensTheHelpOverThePicture) {
 TEST_F(OperatorScreen, DrawsWithNothingToShow) {
     const ColourImage screen = draw(PanelState());
     EXPECT_LT(at(screen, 640, 360)[0], 20);
-    ColourImage bar = screen(cv::Rect(0, 0, width_px, 30));
+    ColourImage bar = screen(cv::Rect(0, 0, screen.cols, 30));
     double most = 0;
     cv::minMaxLoc(bar.reshape(1), nullptr, &most);
     EXPECT_GT(most, 200) << "the title";
 }
 
 TEST_F(OperatorScreen, WarnsBesideTheSignalWhereTheRigsCoverTooLittle) {
-    const cv::Rect bar(0, 0, width_px, 33);
+    const cv::Rect bar(0, 0, large_screen.width, 33);
     state_.coverage = Coverage{.share = 0.99};
     const ColourImage inside = draw(state_);
     state_.coverage = Coverage{.share = 0.75, .loss = CoverageLoss::aside};
@@ -170,7 +184,7 @@ TEST_F(OperatorScreen, WarnsBesideTheSignalWhereTheRigsCoverTooLittle) {
     const ColourImage beyond = draw(state_);
     EXPECT_GT(differing(inside, edge, bar), 500);
     EXPECT_GT(differing(edge, beyond, bar), 500);
-    const cv::Rect camera_panel(width_px - 250, 40, 250, 250);
+    const cv::Rect camera_panel(large_screen.width - 250, 40, 250, 250);
     EXPECT_GT(differing(inside, beyond, camera_panel), 100) << "with the reason";
 }
 

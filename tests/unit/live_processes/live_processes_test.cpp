@@ -16,6 +16,7 @@
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/free_ports.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/virtual_screen.h"
 
 namespace vantage {
@@ -118,9 +119,30 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
 }
 
+TEST_F(LiveProcesses, FlyToTheEndWhereAFilmFailsAndEndWithItsName) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    std::unique_ptr<ChildProgram> host;
+    {
+        const FullDisk disk(16'000);  // the summary fits, the film does not
+        host = start_host({"--frames", "100", "--rate", "25", "--record", file("flight.mkv"),
+                           "--json", "--wait", "60"});
+    }
+    EXPECT_EQ(host->wait().status, 1) << host->err();
+    const nlohmann::json summary = nlohmann::json::parse(host->out());
+    EXPECT_GE(summary["pictures"], 100);
+    ASSERT_EQ(summary["outputs"].size(), 1u);
+    EXPECT_NE(summary["outputs"][0]["failure"], "");
+    const std::string err = host->err();
+    const std::string last = err.substr(err.rfind('\n', err.size() - 2) + 1);
+    EXPECT_NE(last.find(file("flight.mkv")), std::string::npos) << err;
+    EXPECT_NE(last.find("File too large"), std::string::npos) << err;
+}
+
 TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
     start_rig("left", 0);
-    const auto host = start_host({"--frames", "2", "--json", "--wait", "8"});
+    wait_for(*rigs_[0], "publishing on");
+    const auto host = start_host({"--frames", "2", "--json", "--wait", "4"});
     ASSERT_EQ(host->wait().status, 0) << host->err();
     EXPECT_NE(host->err().find("missing: right disconnected"), std::string::npos) << host->err();
     const nlohmann::json summary = nlohmann::json::parse(host->out());

@@ -1,16 +1,15 @@
 #include "host_app/output/video_writer.h"
 
-#include <csignal>
 #include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
-#include <sys/resource.h>
 
 #include "common/base/error.h"
 #include "host_app/output/video_recorder.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/output/probed_film.h"
 
@@ -137,27 +136,6 @@ TEST(VideoRecorder, AccountsForEveryPicture) {
     EXPECT_EQ(film.times_s.size(), recorder.frames());
     EXPECT_NEAR(film.times_s.back(), 0.59, 0.0011) << "the newest picture is never the one dropped";
 }
-
-/// While it lives, files stop to grow at so many bytes, as they do on a full disk.
-class FullDisk {
-  public:
-    explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        rlimit small = before_;
-        small.rlim_cur = bytes;
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~FullDisk() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-
-  private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
 
 class FullDiskTest : public testing::TestWithParam<const char*> {
   protected:

@@ -32,7 +32,7 @@ class ScriptedPilot final : public Pilot {
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;
         next_.view.azimuth_rad += turn_rad_;
-        const PilotStep step = next_;
+        PilotStep step = next_;
         next_ = {.view = step.view};
         return step;
     }

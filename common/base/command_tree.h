@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace vantage {
+
+/// The subcommands of a command.
+std::vector<const CLI::App*> commands_of(const CLI::App& app);
+
+/// The options of a command, those of its groups of options too.
+std::vector<const CLI::Option*> options_of(const CLI::App& app);
+
+}  // namespace vantage
