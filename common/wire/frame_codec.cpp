@@ -242,43 +242,14 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     return packed;
 }
 
-struct FrameDecoder::Impl {
-    JpegDecoder jpeg;
-    LosslessColourDecoder lossless_colour;
-    DisparityDecoder disparity;
-};
-
-FrameDecoder::FrameDecoder() : impl_(std::make_unique<Impl>()) {}
-
-FrameDecoder::~FrameDecoder() = default;
-
-RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
-                              std::span<const std::byte> colour,
-                              std::span<const std::byte> disparity) {
+FrameHead decode_frame_head(std::span<const std::byte> part) {
     wire::FrameHeader header;
-    parse(header_part, "frame header", header);
-    RigFrame frame;
+    parse(part, "frame header", header);
+    FrameHead head;
+    RigFrame& frame = head.frame;
     frame.world_from_camera = check_header(header);
     frame.place_is_assumed = header.geometry().place_is_assumed();
-    const auto width = static_cast<int>(header.geometry().width_px());
-    const auto height = static_cast<int>(header.geometry().height_px());
-    const auto disparity_width = static_cast<int>(header.disparity_width_px());
-    const auto disparity_height = static_cast<int>(header.disparity_height_px());
-    const auto bytes = [](int w, int h, std::size_t each) {
-        return static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * each;
-    };
-    check_payload("colour", header.colour_codec() != wire::FrameHeader::COLOUR_NONE, colour.size(),
-                  bytes(width, height, sizeof(cv::Vec4b)));
     const bool is_raw_pair = header.content() == wire::FrameHeader::RAW_PAIR;
-    if (is_raw_pair)
-        check_payload("right picture", true, disparity.size(),
-                      bytes(width, height, sizeof(cv::Vec4b)));
-    const bool has_disparity = header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE;
-    if (!is_raw_pair)
-        check_payload(
-            "disparity", has_disparity, disparity.size(),
-            has_disparity ? bytes(disparity_width, disparity_height, sizeof(std::uint16_t)) : 0);
-
     if (is_raw_pair) frame.content = RigFrame::Content::raw_pair;
     frame.rig = header.rig();
     frame.session = header.session();
@@ -287,8 +258,8 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
     frame.exposure = tai_from_ns(header.exposure_tai_ns());
     frame.published = tai_from_ns(header.published_tai_ns());
     frame.calibration_id = header.calibration_id();
-    frame.geometry.width_px = width;
-    frame.geometry.height_px = height;
+    frame.geometry.width_px = static_cast<int>(header.geometry().width_px());
+    frame.geometry.height_px = static_cast<int>(header.geometry().height_px());
     if (!is_raw_pair) {
         frame.geometry.f_px = header.geometry().f_px();
         frame.geometry.cx_left_px = header.geometry().cx_left_px();
@@ -301,18 +272,14 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
                    header.times().match_ms(), header.times().pack_ms()};
     frame.counters = from_wire(header.counters());
     frame.sync = from_wire(header.sync());
-
     switch (header.colour_codec()) {
         case wire::FrameHeader::COLOUR_NONE:
             break;
         case wire::FrameHeader::COLOUR_JPEG:
-            frame.colour = impl_->jpeg.decode(colour, width, height);
-            if (is_raw_pair) frame.raw_right = impl_->jpeg.decode(disparity, width, height);
+            head.colour = FrameHead::Colour::jpeg;
             break;
         case wire::FrameHeader::COLOUR_ZSTD_RGBA:
-            frame.colour = impl_->lossless_colour.decode(colour, width, height);
-            if (is_raw_pair)
-                frame.raw_right = impl_->lossless_colour.decode(disparity, width, height);
+            head.colour = FrameHead::Colour::lossless;
             break;
         default:
             fail("colour codec {} is not known here", static_cast<int>(header.colour_codec()));
@@ -321,13 +288,63 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header_part,
         case wire::FrameHeader::DISPARITY_NONE:
             break;
         case wire::FrameHeader::DISPARITY_ZSTD_U16:
-            frame.disparity = impl_->disparity.decode(disparity, disparity_width, disparity_height);
+            head.disparity_px = {static_cast<int>(header.disparity_width_px()),
+                                 static_cast<int>(header.disparity_height_px())};
             break;
         default:
             fail("disparity codec {} is not known here",
                  static_cast<int>(header.disparity_codec()));
     }
-    return frame;
+    return head;
+}
+
+struct FrameDecoder::Impl {
+    JpegDecoder jpeg;
+    LosslessColourDecoder lossless_colour;
+    DisparityDecoder disparity;
+};
+
+FrameDecoder::FrameDecoder() : impl_(std::make_unique<Impl>()) {}
+
+FrameDecoder::~FrameDecoder() = default;
+
+RigFrame FrameDecoder::decode(std::span<const std::byte> header, std::span<const std::byte> colour,
+                              std::span<const std::byte> disparity) {
+    FrameHead head = decode_frame_head(header);
+    RigFrame& frame = head.frame;
+    const int width = frame.geometry.width_px, height = frame.geometry.height_px;
+    const auto bytes = [](int w, int h, std::size_t each) {
+        return static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * each;
+    };
+    check_payload("colour", head.colour != FrameHead::Colour::none, colour.size(),
+                  bytes(width, height, sizeof(cv::Vec4b)));
+    const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
+    const bool has_disparity = !head.disparity_px.empty();
+    if (is_raw_pair)
+        check_payload("right picture", true, disparity.size(),
+                      bytes(width, height, sizeof(cv::Vec4b)));
+    else
+        check_payload(
+            "disparity", has_disparity, disparity.size(),
+            bytes(head.disparity_px.width, head.disparity_px.height, sizeof(std::uint16_t)));
+
+    switch (head.colour) {
+        case FrameHead::Colour::none:
+            break;
+        case FrameHead::Colour::jpeg:
+            frame.colour = impl_->jpeg.decode(colour, width, height);
+            if (is_raw_pair) frame.raw_right = impl_->jpeg.decode(disparity, width, height);
+            break;
+        case FrameHead::Colour::lossless:
+            frame.colour = impl_->lossless_colour.decode(colour, width, height);
+            if (is_raw_pair)
+                frame.raw_right = impl_->lossless_colour.decode(disparity, width, height);
+            break;
+    }
+    if (has_disparity)
+        frame.disparity =
+            impl_->disparity.decode(disparity, head.disparity_px.width, head.disparity_px.height);
+    return std::move(frame);
 }
 
 }  // namespace vantage

@@ -53,6 +53,16 @@ class FrameEncoder {
     std::unique_ptr<Impl> impl_;
 };
 
+/// What a frame's header says, before its pictures are decoded.
+struct FrameHead {
+    enum class Colour { none, jpeg, lossless };
+    RigFrame frame;  ///< all but its pictures; geometry has the colour's size
+    Colour colour = Colour::none;
+    cv::Size disparity_px;  ///< 0x0: the frame has none
+};
+/// Throws Error as FrameDecoder::decode.
+FrameHead decode_frame_head(std::span<const std::byte> header);
+
 /// Parts to RigFrame. Keeps its codecs between frames. Not thread-safe.
 class FrameDecoder {
   public:

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/image/image.h"
-#include "host_app/output/av_handles.h"
+#include "common/av/av_handles.h"
 
 namespace vantage {
 

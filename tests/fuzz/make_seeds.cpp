@@ -9,6 +9,7 @@
 #include "common/base/atomic_file.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
+#include "common/take/frame_storage.h"
 #include "common/wire/colour_codec.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/disparity_codec.h"
@@ -228,6 +229,31 @@ void write_calibration(const Seeds& seeds) {
                      {"2026-01-01", "seed", 0.2, 0.1, 12});
 }
 
+void write_takes(const Seeds& seeds) {
+    for (const int quality : {0, 85}) {
+        RigFrame frame = seed_frame();
+        TakeFacts facts;
+        facts.program = "seed";
+        facts.origin = tai_from_ns(0);
+        PackedFrame packed = FrameEncoder(quality).encode(frame);
+        facts.rigs = {take_rig_of(decode_frame_head(packed.header))};
+        const std::filesystem::path path =
+            seeds.place("take", "whole-" + std::to_string(quality) + ".mkv");
+        std::filesystem::remove(path);
+        TakeWriter writer(path, facts);
+        FrameStorer storer(facts.rigs[0]);
+        for (int i = 0; i < 3; ++i) {
+            writer.add(0, storer.store(packed));
+            ++frame.trigger_index;
+            packed = FrameEncoder(quality).encode(frame);
+        }
+        CameraRecord camera;
+        camera.time = tai_from_ns(1'000'000);
+        writer.add(camera);
+        writer.finish();
+    }
+}
+
 }  // namespace
 }  // namespace vantage
 
@@ -244,6 +270,7 @@ int main(int argc, char** argv) {
         vantage::write_configurations(seeds);
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
+        vantage::write_takes(seeds);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "make_seeds: " << error.what() << '\n';

@@ -1,4 +1,4 @@
-#include "host_app/output/av_handles.h"
+#include "common/av/av_handles.h"
 
 namespace vantage {
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "common/av/av_handles.h"
+#include "common/base/unique_fd.h"
+
+namespace vantage {
+
+/// A new file that libavformat writes through. Never replaces one.
+class TakeFile {
+  public:
+    /// Throws Error if there is such a file, or none can be made.
+    explicit TakeFile(const std::filesystem::path& path);
+    ~TakeFile();
+    TakeFile(const TakeFile&) = delete;
+    TakeFile& operator=(const TakeFile&) = delete;
+
+    AVIOContext* io() { return io_; }
+    std::uint64_t bytes() const { return static_cast<std::uint64_t>(end_); }
+    /// The system's reason for the first write that failed; 0: none did.
+    int failure() const { return failure_; }
+    /// What is written so far is whole...
+    void mark_whole() { whole_ = end_; }
+    /// ...and what came after it is taken off again.
+    void cut_to_whole();
+    /// Until it is on the disk.
+    void sync();
+
+  private:
+    static int write(void* self, std::uint8_t* bytes, int size);
+    static std::int64_t seek(void* self, std::int64_t offset, int whence);
+
+    UniqueFd fd_;
+    AVIOContext* io_ = nullptr;
+    std::int64_t at_ = 0, end_ = 0, whole_ = 0;
+    int failure_ = 0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/take/ebml_file.h"
+#include "common/take/take_format.h"
+#include "common/take/take_writer.h"
+
+namespace vantage {
+
+/// A place in a take that is not what was written there.
+struct TakeDamage {
+    std::uint64_t at = 0;  ///< offset in the file, in bytes
+    std::string words;
+};
+
+/// Reads a take: also one that was cut off, and around places that are damaged. Opening reads the
+/// heads of its blocks and the records of its frames, none of its pictures. After that every call
+/// may come from any thread.
+class TakeReader {
+  public:
+    /// Throws Error if it is no take, or its head is damaged.
+    explicit TakeReader(std::filesystem::path path);
+
+    struct Block {
+        std::uint64_t at = 0;
+        std::uint32_t size = 0;  ///< 0: there is none
+    };
+    struct Frame {
+        std::uint64_t pulse = 0, gap = 0, dropped = 0;
+        TaiTime exposure{};
+        std::int64_t time_ms = 0;
+        Block record, colour, depth;
+        std::optional<std::uint32_t> colour_crc, depth_crc;
+        RigCounters rig;
+        LinkCounters link;
+    };
+
+    const std::filesystem::path& path() const { return path_; }
+    const TakeFacts& facts() const { return facts_; }
+    std::uint64_t bytes() const { return file_.size(); }
+    /// Of facts().rigs[rig], in the order of their pulses.
+    const std::vector<Frame>& frames(std::size_t rig) const { return frames_[rig]; }
+    /// The camera of every tick, in their order.
+    const std::vector<CameraRecord>& cameras() const { return cameras_; }
+    /// What opening found.
+    const std::vector<TakeDamage>& damage() const { return damage_; }
+    /// False: whoever wrote it was ended before it was.
+    bool is_ended() const { return is_ended_; }
+    /// From the first to the last frame.
+    double duration_s() const;
+
+    /// The frame with all its bytes. Throws Error if they are not those that were written.
+    StoredFrame load(std::size_t rig, const Frame& frame) const;
+
+  private:
+    struct Track {
+        enum class Kind { none, colour, depth, record, camera } kind = Kind::none;
+        std::size_t rig = 0;
+    };
+    struct HeadTrack;
+    void read_head();
+    void read_tracks(const EbmlFile::Element& tracks, std::vector<HeadTrack>& found);
+    void read_attachments(const EbmlFile::Element& attachments);
+    void name_tracks(const std::vector<HeadTrack>& found);
+    void read_clusters(std::uint64_t at);
+    void read_cluster(const EbmlFile::Element& cluster);
+    void take_block(std::uint64_t at, std::uint64_t end, std::int64_t cluster_ms);
+    void take_record(std::size_t rig, std::int64_t time_ms, const Block& block);
+    void sort_frames();
+    void add_damage(std::uint64_t at, std::string words);
+
+    std::filesystem::path path_;
+    EbmlFile file_;
+    TakeFacts facts_;
+    std::map<std::uint64_t, Track> tracks_;  ///< by Matroska's number
+    std::vector<std::vector<Frame>> frames_;
+    std::vector<CameraRecord> cameras_;
+    std::vector<TakeDamage> damage_;
+    std::uint64_t segment_begin_ = 0, segment_end_ = 0;
+    bool is_ended_ = false;
+};
+
+}  // namespace vantage
