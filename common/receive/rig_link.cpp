@@ -23,6 +23,11 @@ constexpr std::chrono::milliseconds longest_reconnect_wait{1000};
 constexpr int send_high_water_mark = 8;
 constexpr std::size_t frame_parts = 3;
 
+std::vector<std::byte> copy_of(const zmq::message_t& part) {
+    const std::span<const std::byte> bytes = bytes_of(part);
+    return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace
 
 RigLink::RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
@@ -133,7 +138,11 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.health = message.health;
     if (!with_frame) return false;
     delivery.message = std::move(message);
-    std::move(parts.begin() + 1, parts.end(), delivery.parts.begin());
+    auto frame = std::make_shared<PackedFrame>();
+    frame->header = copy_of(parts[1]);
+    frame->colour = copy_of(parts[2]);
+    frame->disparity = copy_of(parts[3]);
+    delivery.frame = std::move(frame);
     delivery.arrival = now;
     delivery.arrival_tai = TaiClock::now();
     return true;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <zmq.hpp>
@@ -10,6 +10,7 @@
 #include "common/config/stage_config.h"
 #include "common/receive/link_account.h"
 #include "common/wire/curve_keys.h"
+#include "common/wire/frame_codec.h"
 #include "common/wire/link_message.h"
 
 namespace vantage {
@@ -22,7 +23,7 @@ class RigLink {
     /// A frame as it came, not decoded yet.
     struct Delivery {
         RigMessage message;
-        std::array<zmq::message_t, 3> parts;  ///< as in PackedFrame
+        std::shared_ptr<const PackedFrame> frame;
         MonotonicTime arrival{};
         TaiTime arrival_tai{};
     };

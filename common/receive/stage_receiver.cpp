@@ -100,8 +100,9 @@ struct StageReceiver::Impl {
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
 
-    Impl(const StageConfig& stage, Purpose why)
+    Impl(const StageConfig& stage, Purpose why, FrameTap frame_tap)
         : purpose(why),
+          tap(std::move(frame_tap)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
           closed_sets(max_closed_sets) {
@@ -146,11 +147,16 @@ struct StageReceiver::Impl {
         wait_for(items, next_wait());
         wake.clear();
         const MonotonicTime now = MonotonicClock::now();
-        for (const auto& rig : rigs) {
+        for (std::size_t number = 0; number < rigs.size(); ++number) {
+            const auto& rig = rigs[number];
             rig->link.watch(now);
             // A frame at a time: a rig that floods this host gets no more of its turn than others.
-            if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now))
+            if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now)) {
+                if (tap)
+                    tap({number, delivery->frame, delivery->message.counters, delivery->arrival,
+                         delivery->arrival_tai});
                 hand_over(*rig, std::move(*delivery));
+            }
             RigLink::Wish wish;
             {
                 const std::lock_guard lock(mutex);
@@ -244,8 +250,10 @@ struct StageReceiver::Impl {
     void decode(std::size_t number, FrameDecoder& decoder, const RigLink::Delivery& delivery) {
         Rig& rig = *rigs[number];
         const MonotonicTime start = MonotonicClock::now();
-        auto frame = std::make_shared<const RigFrame>(decoder.decode(
-            bytes_of(delivery.parts[0]), bytes_of(delivery.parts[1]), bytes_of(delivery.parts[2])));
+        const PackedFrame& packed = *delivery.frame;
+        auto frame = std::make_shared<RigFrame>(
+            decoder.decode(packed.header, packed.colour, packed.disparity));
+        frame->packed = delivery.frame;
         if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
             fail("a frame of rig {} came under the name of rig {}", frame->rig,
                  delivery.message.rig);
@@ -328,6 +336,7 @@ struct StageReceiver::Impl {
     }
 
     const Purpose purpose;
+    const FrameTap tap;
     zmq::context_t context;
     std::vector<std::unique_ptr<Rig>> rigs;
 
@@ -347,8 +356,8 @@ struct StageReceiver::Impl {
     std::thread io_thread;
 };
 
-StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose)
-    : impl_(std::make_unique<Impl>(stage, purpose)) {}
+StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose, FrameTap tap)
+    : impl_(std::make_unique<Impl>(stage, purpose, std::move(tap))) {}
 
 StageReceiver::~StageReceiver() = default;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config/stage_config.h"
+#include "common/receive/arrived_frame.h"
 #include "common/receive/frame_set.h"
 #include "common/receive/rig_status.h"
 
@@ -24,8 +25,9 @@ class StageReceiver {
         look_on     ///< asks for none until ask() does, and leaves the take to the host that films
     };
 
-    /// Throws Error if a key or an endpoint is unusable.
-    explicit StageReceiver(const StageConfig& stage, Purpose purpose = Purpose::film);
+    /// Throws Error if a key or an endpoint is unusable. Whatever `tap` uses must outlive this.
+    explicit StageReceiver(const StageConfig& stage, Purpose purpose = Purpose::film,
+                           FrameTap tap = {});
     ~StageReceiver();
 
     /// The next closed set, oldest first, within bounded memory; empty when the time is up.

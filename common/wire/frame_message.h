@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "common/base/time.h"
 #include "common/geometry/pose.h"
@@ -62,6 +64,8 @@ struct LinkCounters {
     bool operator==(const LinkCounters&) const = default;
 };
 
+struct PackedFrame;
+
 /// One published instant of one rig, decoded: what the host gets, what the rig packs.
 struct RigFrame {
     enum class Content {
@@ -83,6 +87,8 @@ struct RigFrame {
     ColourImage colour;             ///< rectified left picture, may be empty; or the raw left one
     /// At a rig: colour as it travels, where a ColourPacker packed it ahead.
     std::vector<std::byte> packed_colour;
+    /// At a host: the frame as it came; null: it came over no wire.
+    std::shared_ptr<const PackedFrame> packed;
     ColourImage raw_right;  ///< of a raw pair: the right one, of the same size
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)

@@ -1,30 +1,48 @@
 #include "host_app/sets/replay_buffer.h"
 
 #include <algorithm>
+#include <future>
 
 namespace vantage {
 namespace {
 
-std::size_t bytes_of(const FrameSet& set) {
-    std::size_t bytes = 0;
-    for (const FrameSet::Slot& slot : set.slots)
-        if (slot.frame)
-            bytes += slot.frame->colour.total() * slot.frame->colour.elemSize() +
-                     slot.frame->disparity.total() * slot.frame->disparity.elemSize();
-    return bytes;
+/// What came over the wire was decoded once, so it can be again.
+std::shared_ptr<const RigFrame> decode(const std::shared_ptr<const PackedFrame>& packed) {
+    auto frame = std::make_shared<RigFrame>(
+        FrameDecoder().decode(packed->header, packed->colour, packed->disparity));
+    frame->packed = packed;
+    return frame;
 }
 
 }  // namespace
 
+ReplayBuffer::Kept ReplayBuffer::kept_of(const FrameSet& set) {
+    Kept kept{set.trigger_index, set.complete, {}, 0};
+    for (const FrameSet::Slot& slot : set.slots) {
+        Slot& own = kept.slots.emplace_back(Slot{slot.rig, nullptr, nullptr, slot.absence});
+        if (!slot.frame) continue;
+        if (slot.frame->packed) {
+            own.packed = slot.frame->packed;
+            kept.bytes += own.packed->header.size() + own.packed->colour.size() +
+                          own.packed->disparity.size();
+        } else {
+            own.frame = slot.frame;
+            kept.bytes += own.frame->colour.total() * own.frame->colour.elemSize() +
+                          own.frame->disparity.total() * own.frame->disparity.elemSize();
+        }
+    }
+    return kept;
+}
+
 void ReplayBuffer::add(const FrameSet& set) {
-    const std::size_t bytes = bytes_of(set);
+    Kept kept = kept_of(set);
     const std::lock_guard lock(mutex_);
-    if (!kept_.empty() && set.trigger_index <= kept_.back().set.trigger_index) {
+    if (!kept_.empty() && set.trigger_index <= kept_.back().trigger_index) {
         kept_.clear();
         bytes_ = 0;
     }
-    kept_.push_back({set, bytes});
-    bytes_ += bytes;
+    bytes_ += kept.bytes;
+    kept_.push_back(std::move(kept));
     while (bytes_ > max_bytes_) {
         bytes_ -= kept_.front().bytes;
         kept_.pop_front();
@@ -32,20 +50,35 @@ void ReplayBuffer::add(const FrameSet& set) {
 }
 
 std::optional<FrameSet> ReplayBuffer::at(double pulse) const {
-    const std::lock_guard lock(mutex_);
-    if (kept_.empty()) return std::nullopt;
-    const auto later =
-        std::upper_bound(kept_.begin(), kept_.end(), pulse, [](double wanted, const Kept& kept) {
-            return wanted < static_cast<double>(kept.set.trigger_index);
-        });
-    return later == kept_.begin() ? kept_.front().set : std::prev(later)->set;
+    Kept kept;
+    {
+        const std::lock_guard lock(mutex_);
+        if (kept_.empty()) return std::nullopt;
+        const auto later = std::upper_bound(
+            kept_.begin(), kept_.end(), pulse, [](double wanted, const Kept& each) {
+                return wanted < static_cast<double>(each.trigger_index);
+            });
+        kept = later == kept_.begin() ? kept_.front() : *std::prev(later);
+    }
+    std::vector<std::future<std::shared_ptr<const RigFrame>>> decoding;
+    for (const Slot& slot : kept.slots)
+        decoding.push_back(slot.packed ? std::async(std::launch::async, decode, slot.packed)
+                                       : std::future<std::shared_ptr<const RigFrame>>());
+    FrameSet set;
+    set.trigger_index = kept.trigger_index;
+    set.complete = kept.complete;
+    for (std::size_t i = 0; i < kept.slots.size(); ++i) {
+        const Slot& slot = kept.slots[i];
+        set.slots.push_back(
+            {slot.rig, decoding[i].valid() ? decoding[i].get() : slot.frame, slot.absence});
+    }
+    return set;
 }
 
-std::optional<ReplayBuffer::Span> ReplayBuffer::span() const {
+std::optional<PastSets::Span> ReplayBuffer::span() const {
     const std::lock_guard lock(mutex_);
     if (kept_.empty()) return std::nullopt;
-    return Span{kept_.front().set.trigger_index, kept_.back().set.trigger_index, kept_.size(),
-                bytes_};
+    return Span{kept_.front().trigger_index, kept_.back().trigger_index, kept_.size(), bytes_};
 }
 
 StageFeed kept_feed(StageFeed feed, ReplayBuffer& ring) {

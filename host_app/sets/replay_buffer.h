@@ -6,13 +6,17 @@
 #include <mutex>
 #include <optional>
 
+#include "common/wire/frame_codec.h"
+#include "host_app/sets/past_sets.h"
 #include "host_app/sets/stage_feed.h"
 
 namespace vantage {
 
 /// The last sets that came, for going back to them: as many as fit into a stated memory, the oldest
-/// leave first. Sets share their frames with whoever else has them. Safe to use from any thread.
-class ReplayBuffer {
+/// leave first. Frames are kept as they came over the wire, a tenth of what they are decoded, and
+/// decoded when they are asked for; one that came over no wire is kept as it is. Safe to use from
+/// any thread.
+class ReplayBuffer final : public PastSets {
   public:
     explicit ReplayBuffer(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
@@ -20,21 +24,24 @@ class ReplayBuffer {
     /// since the stage has. A set that does not fit alone is not kept.
     void add(const FrameSet& set);
 
-    /// The newest set that is not later than the pulse, else the oldest there is; empty if none is.
-    std::optional<FrameSet> at(double pulse) const;
-
-    struct Span {
-        std::uint64_t oldest = 0, newest = 0;  ///< pulses
-        std::size_t sets = 0, bytes = 0;
-    };
-    /// Empty if nothing is kept.
-    std::optional<Span> span() const;
+    std::optional<FrameSet> at(double pulse) const override;
+    std::optional<Span> span() const override;
 
   private:
+    struct Slot {
+        std::string rig;
+        std::shared_ptr<const PackedFrame> packed;
+        std::shared_ptr<const RigFrame> frame;  ///< where there is no packed one
+        Absence absence = Absence::none;
+    };
     struct Kept {
-        FrameSet set;
+        std::uint64_t trigger_index = 0;
+        MonotonicTime complete{};
+        std::vector<Slot> slots;
         std::size_t bytes = 0;
     };
+    static Kept kept_of(const FrameSet& set);
+
     std::size_t max_bytes_;
     mutable std::mutex mutex_;
     std::deque<Kept> kept_;

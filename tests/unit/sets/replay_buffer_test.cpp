@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/wire_frames.h"
 #include "tests/unit/sets/scripted_feed.h"
 
 namespace vantage {
@@ -49,6 +50,28 @@ TEST_F(ReplayBufferTest, KeepsNothingThatIsLargerThanItAll) {
     ReplayBuffer small(set_bytes - 1);
     small.add(set(1));
     EXPECT_FALSE(small.span());
+}
+
+TEST_F(ReplayBufferTest, KeepsFramesAsTheyCameAndDecodesThemWhenTheyAreAskedFor) {
+    RigFrame sent = make_frame(7);
+    const auto packed = std::make_shared<const PackedFrame>(FrameEncoder(85).encode(sent));
+    auto frame = std::make_shared<RigFrame>(
+        FrameDecoder().decode(packed->header, packed->colour, packed->disparity));
+    frame->packed = packed;
+    FrameSet set;
+    set.trigger_index = 7;
+    set.slots = {{"rig-a", frame, Absence::none}, {"rig-b", nullptr, Absence::late}};
+    ReplayBuffer ring(1 << 20);
+    ring.add(set);
+    EXPECT_EQ(ring.span()->bytes,
+              packed->header.size() + packed->colour.size() + packed->disparity.size());
+    const std::optional<FrameSet> kept = ring.at(7);
+    ASSERT_EQ(kept->slots.size(), 2u);
+    EXPECT_NE(kept->slots[0].frame, frame);
+    EXPECT_TRUE(same_pixels(kept->slots[0].frame->colour, frame->colour));
+    EXPECT_TRUE(same_pixels(kept->slots[0].frame->disparity, frame->disparity));
+    EXPECT_EQ(kept->slots[0].frame->exposure, frame->exposure);
+    EXPECT_EQ(kept->slots[1].absence, Absence::late);
 }
 
 TEST_F(ReplayBufferTest, KeepsWhatIsTakenFromAFeed) {

@@ -1,0 +1,381 @@
+#include "host_app/takes/take_recorder.h"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/output_path.h"
+#include "common/base/pulse_grid.h"
+#include "common/base/timecode.h"
+
+namespace vantage {
+namespace {
+
+/// A disk has to be so much faster than what is to be written: it does other things too.
+constexpr double disk_margin = 1.5;
+/// And has room for so much of it.
+constexpr double least_room_s = 10;
+/// How long the thread waits for something to do before it writes what it keeps back.
+constexpr std::chrono::milliseconds patience{100};
+
+}  // namespace
+
+struct TakeRecorder::Take {
+    std::filesystem::path path;
+    std::optional<TakeWriter> writer;
+    std::vector<std::optional<TakeRig>> rigs;  ///< as the first frame of each says
+    std::vector<std::unique_ptr<FrameStorer>> storers;
+    std::deque<Item> held;  ///< until the writer is there
+    std::optional<MonotonicTime> first_arrival;
+    std::optional<TaiTime> origin;
+    int tai_offset_s = 0;
+    double bytes_a_pulse = 0;  ///< of the rigs' first frames
+    MonotonicTime begun = MonotonicClock::now();
+    double disk_mb_s = 0;
+    std::vector<std::string> told;  ///< of each rig: why one was refused last
+    bool is_dead = false;
+};
+
+std::size_t TakeRecorder::Item::bytes() const {
+    if (!frame) return sizeof(Item);
+    const PackedFrame& packed = *frame->packed;
+    return packed.header.size() + packed.colour.size() + packed.disparity.size();
+}
+
+TakeRecorder::TakeRecorder(Settings settings) : settings_(std::move(settings)) {
+    for (const std::string& rig : settings_.rigs) state_.rigs.push_back({rig, 0, 0, 0});
+    thread_ = std::thread([this] { run(); });
+}
+
+TakeRecorder::~TakeRecorder() {
+    end();
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+}
+
+void TakeRecorder::offer(const ArrivedFrame& frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        Item item{frame, {}};
+        const std::size_t bytes = item.bytes();
+        if (!is_taking_) {
+            if (settings_.pre_roll.count() == 0) return;
+            pre_roll_.push_back(std::move(item));
+            pre_roll_bytes_ += bytes;
+            while (frame.arrival - pre_roll_.front().frame->arrival > settings_.pre_roll) {
+                pre_roll_bytes_ -= pre_roll_.front().bytes();
+                pre_roll_.pop_front();
+            }
+            return;
+        }
+        if (is_ending_) return;
+        push(std::move(item));
+    }
+    woken_.notify_all();
+}
+
+/// Precondition: mutex_ is held.
+void TakeRecorder::push(Item item) {
+    queued_bytes_ += item.bytes();
+    queue_.push_back(std::move(item));
+    while (queued_bytes_ > most_queued_bytes_ && queue_.size() > 1) {
+        const Item& oldest = queue_.front();
+        if (oldest.frame) ++state_.rigs[oldest.frame->rig].dropped;
+        queued_bytes_ -= oldest.bytes();
+        queue_.pop_front();
+    }
+}
+
+/// What stands first, a frame a rig at most, so that they can be coded side by side. Precondition:
+/// mutex_ is held.
+std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
+    std::vector<Item> items;
+    std::vector<bool> has(settings_.rigs.size());
+    while (!queue_.empty()) {
+        Item& first = queue_.front();
+        if (first.frame) {
+            if (has[first.frame->rig]) break;
+            has[first.frame->rig] = true;
+        }
+        queued_bytes_ -= first.bytes();
+        items.push_back(std::move(first));
+        queue_.pop_front();
+    }
+    return items;
+}
+
+void TakeRecorder::offer(const CameraRecord& camera) {
+    const std::lock_guard lock(mutex_);
+    if (is_taking_ && !is_ending_) push({std::nullopt, camera});
+}
+
+void TakeRecorder::begin(const std::filesystem::path& path) {
+    require_writable_output(path, {});
+    if (path.extension() != ".mkv")
+        fail("{} cannot be recorded: a take is a Matroska file, whose name ends in .mkv",
+             path.string());
+    if (std::filesystem::exists(path))
+        fail("{} is there already, and a take never replaces a file: take another name",
+             path.string());
+    {
+        const std::lock_guard lock(mutex_);
+        if (is_taking_) return;
+        is_taking_ = true;
+        is_ending_ = false;
+        begin_ = path;
+        queue_ = std::exchange(pre_roll_, {});
+        queued_bytes_ = std::exchange(pre_roll_bytes_, 0);
+        most_queued_bytes_ = queued_bytes_ + settings_.queue_bytes;
+        const std::uint64_t takes = state_.takes + 1;
+        state_ = TakeState();
+        state_.phase = TakePhase::opening;
+        state_.path = path.string();
+        state_.takes = takes;
+        for (const std::string& rig : settings_.rigs) state_.rigs.push_back({rig, 0, 0, 0});
+    }
+    woken_.notify_all();
+}
+
+void TakeRecorder::end() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!is_taking_) return;
+        is_ending_ = true;
+    }
+    woken_.notify_all();
+}
+
+void TakeRecorder::finish() {
+    end();
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [&] { return !is_taking_; });
+}
+
+bool TakeRecorder::is_running() const {
+    const std::lock_guard lock(mutex_);
+    return is_taking_ && !is_ending_;
+}
+
+TakeState TakeRecorder::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+TakeRecorder::PreRoll TakeRecorder::pre_roll() const {
+    const std::lock_guard lock(mutex_);
+    if (pre_roll_.empty()) return {};
+    return {pre_roll_bytes_, std::chrono::duration<double>(pre_roll_.back().frame->arrival -
+                                                           pre_roll_.front().frame->arrival)
+                                 .count()};
+}
+
+void TakeRecorder::run() {
+    std::optional<Take> take;
+    for (;;) {
+        std::vector<Item> items;
+        bool is_over = false;
+        {
+            std::unique_lock lock(mutex_);
+            woken_.wait_for(lock, patience, [&] {
+                return is_stopping_ || begin_ || !queue_.empty() || is_ending_;
+            });
+            if (begin_) {
+                take.emplace();
+                take->path = *std::exchange(begin_, std::nullopt);
+                take->rigs.resize(settings_.rigs.size());
+                take->storers.resize(settings_.rigs.size());
+                take->told.resize(settings_.rigs.size());
+            }
+            if (take) items = pop_some();
+            is_over = take && items.empty() && is_ending_;
+            if (!take && is_stopping_) return;
+        }
+        if (!take) continue;
+        try {
+            work(*take, std::move(items));
+            if (take->writer) take->writer->flush_if_due();
+            if (!take->writer) open_if_ready(*take);
+            if (is_over) close(*take);
+        } catch (const std::exception& error) {
+            fail_take(*take, error.what());
+        }
+        note(*take);
+        if (!is_over && !take->is_dead) continue;
+        take.reset();
+        {
+            const std::lock_guard lock(mutex_);
+            is_taking_ = is_ending_ = false;
+            queue_.clear();
+            queued_bytes_ = 0;
+        }
+        idle_.notify_all();
+    }
+}
+
+void TakeRecorder::work(Take& take, std::vector<Item> items) {
+    if (take.writer) {
+        store(take, items);
+        return;
+    }
+    for (Item& item : items) {
+        if (!item.frame) continue;
+        try {
+            look_at_first(take, item);
+            take.held.push_back(std::move(item));
+        } catch (const Error& error) {
+            refuse(take, *item.frame, error.what());
+        }
+    }
+}
+
+/// What a take has to know before it can be begun.
+void TakeRecorder::look_at_first(Take& take, const Item& item) {
+    const ArrivedFrame& frame = *item.frame;
+    const FrameHead head = decode_frame_head(frame.packed->header);
+    if (!take.rigs[frame.rig]) {
+        take.rigs[frame.rig] = take_rig_of(head);
+        // Disparity takes about as much here as it did on the way.
+        take.bytes_a_pulse += static_cast<double>(item.bytes());
+    }
+    const TaiTime time = head.frame.synchronized
+                             ? PulseGrid(settings_.pulse_rate_hz).time_of(head.frame.trigger_index)
+                             : head.frame.exposure;
+    if (!take.origin || time < *take.origin) {
+        take.origin = time;
+        take.tai_offset_s = head.frame.sync.tai_offset_s;
+    }
+    if (!take.first_arrival) take.first_arrival = MonotonicClock::now();
+}
+
+void TakeRecorder::open_if_ready(Take& take) {
+    if (!take.first_arrival) return;
+    const bool are_all_there = std::all_of(take.rigs.begin(), take.rigs.end(),
+                                           [](const auto& rig) { return rig.has_value(); });
+    if (are_all_there || MonotonicClock::now() - *take.first_arrival > settings_.rig_wait)
+        open(take);
+}
+
+void TakeRecorder::open(Take& take) {
+    const std::filesystem::path folder = std::filesystem::absolute(take.path).parent_path();
+    const double needed_mb_s = take.bytes_a_pulse * settings_.pulse_rate_hz / 1e6;
+    take.disk_mb_s = settings_.disk_mb_s(folder);
+    if (take.disk_mb_s < disk_margin * needed_mb_s)
+        fail(
+            "{} cannot be recorded: the disk of {} takes {:.1f} MB a second, and these rigs' "
+            "frames need {:.1f}; record to a faster disk or ask for fewer pictures",
+            take.path.string(), folder.string(), take.disk_mb_s, disk_margin * needed_mb_s);
+    const double free_mb = free_disk_mb(folder);
+    if (free_mb < least_room_s * needed_mb_s)
+        fail(
+            "{} cannot be recorded: the disk of {} has {:.0f} MB left, which is {:.1f} s of these "
+            "rigs' frames; make room",
+            take.path.string(), folder.string(), free_mb, free_mb / needed_mb_s);
+    TakeFacts facts;
+    facts.pulse_rate_hz = settings_.pulse_rate_hz;
+    facts.origin = *take.origin;
+    facts.program = settings_.program;
+    facts.timecode = TimecodeClock(settings_.pulse_rate_hz).at(*take.origin, take.tai_offset_s);
+    facts.show = settings_.show;
+    facts.attachments = settings_.attachments;
+    // A rig that comes later is taken to send what the first one does.
+    const auto present = std::find_if(take.rigs.begin(), take.rigs.end(),
+                                      [](const auto& rig) { return rig.has_value(); });
+    for (std::size_t i = 0; i < take.rigs.size(); ++i) {
+        facts.rigs.push_back(take.rigs[i].value_or(**present));
+        facts.rigs.back().name = settings_.rigs[i];
+    }
+    take.writer.emplace(take.path, facts);
+    take.begun = MonotonicClock::now();
+    for (std::size_t i = 0; i < facts.rigs.size(); ++i)
+        take.storers[i] = std::make_unique<FrameStorer>(facts.rigs[i]);
+    log_info("recording {}: {:.1f} MB a second, of {:.0f} that its disk takes", take.path.string(),
+             needed_mb_s, take.disk_mb_s);
+    for (const Item& item : std::exchange(take.held, {})) store(take, std::span(&item, 1));
+}
+
+void TakeRecorder::store(Take& take, std::span<const Item> items) {
+    std::vector<std::future<StoredFrame>> coding;
+    for (const Item& item : items)
+        coding.push_back(item.frame ? std::async(std::launch::async,
+                                                 [&] {
+                                                     return take.storers[item.frame->rig]->store(
+                                                         *item.frame->packed);
+                                                 })
+                                    : std::future<StoredFrame>());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (!items[i].frame) {
+            take.writer->add(items[i].camera);
+            continue;
+        }
+        std::optional<StoredFrame> stored;
+        try {
+            stored = coding[i].get();
+        } catch (const Error& error) {
+            refuse(take, *items[i].frame, error.what());
+        }
+        if (stored) write(take, *items[i].frame, std::move(*stored));
+    }
+}
+
+void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stored) {
+    stored.record.arrival = frame.arrival_tai;
+    stored.record.link = frame.link;
+    {
+        const std::lock_guard lock(mutex_);
+        const TakeState::Rig& rig = state_.rigs[frame.rig];
+        stored.record.dropped = rig.dropped + rig.refused;
+    }
+    if (!take.writer->add(frame.rig, std::move(stored))) {
+        refuse(take, frame, "its pulse is not after the one before it");
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    ++state_.rigs[frame.rig].frames;
+}
+
+void TakeRecorder::refuse(Take& take, const ArrivedFrame& frame, const std::string& why) {
+    if (std::exchange(take.told[frame.rig], why) != why)
+        log_warning("a frame of rig {} is not in the take: {}", settings_.rigs[frame.rig], why);
+    const std::lock_guard lock(mutex_);
+    ++state_.rigs[frame.rig].refused;
+}
+
+void TakeRecorder::close(Take& take) {
+    if (!take.writer) {
+        if (take.held.empty()) fail("{} is not written: no frame came", take.path.string());
+        open(take);
+    }
+    take.writer->finish();
+    take.is_dead = true;
+    const std::lock_guard lock(mutex_);
+    state_.phase = TakePhase::none;
+}
+
+void TakeRecorder::fail_take(Take& take, const std::string& sentence) {
+    log_error("{}", sentence);
+    take.is_dead = true;
+    const std::lock_guard lock(mutex_);
+    state_.phase = TakePhase::failed;
+    state_.failure = sentence;
+}
+
+void TakeRecorder::note(const Take& take) {
+    const std::lock_guard lock(mutex_);
+    state_.disk_mb_s = take.disk_mb_s;
+    if (!take.writer) return;
+    if (state_.phase == TakePhase::opening) state_.phase = TakePhase::recording;
+    state_.frames = take.writer->frames();
+    state_.gaps = take.writer->gaps();
+    state_.bytes = take.writer->bytes();
+    state_.duration_s = take.writer->duration_s();
+    state_.mb_s =
+        state_.duration_s > 0 ? static_cast<double>(state_.bytes) / 1e6 / state_.duration_s : 0;
+}
+
+}  // namespace vantage

@@ -1,0 +1,207 @@
+#include "host_app/takes/take_recorder.h"
+
+#include <future>
+
+#include <gtest/gtest.h>
+
+#include "common/base/pulse_grid.h"
+#include "common/take/take_reader.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+#include "tests/unit/take/small_take.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+class TakeRecorderTest : public testing::Test {
+  protected:
+    static TakeRecorder::Settings settings() {
+        TakeRecorder::Settings settings;
+        settings.rigs = {"north", "south"};
+        settings.pulse_rate_hz = 25;
+        settings.program = "a test";
+        settings.show = {{"key", "value"}};
+        settings.disk_mb_s = [](const auto&) { return 1000.0; };
+        return settings;
+    }
+    static ArrivedFrame arrived(std::size_t rig, std::uint64_t pulse, MonotonicTime at = {}) {
+        ArrivedFrame frame;
+        frame.rig = rig;
+        frame.packed =
+            std::make_shared<const PackedFrame>(sent_frame(rig == 0 ? "north" : "south", pulse));
+        frame.link.sent = pulse;
+        frame.arrival = at;
+        return frame;
+    }
+    static void offer_both(TakeRecorder& recorder, std::uint64_t first, std::uint64_t last) {
+        for (std::uint64_t pulse = first; pulse <= last; ++pulse)
+            for (const std::size_t rig : {0, 1}) recorder.offer(arrived(rig, pulse));
+    }
+    std::uint64_t frames_of(std::size_t rig) const { return TakeReader(take_).frames(rig).size(); }
+
+    TemporaryFolder folder_;
+    std::filesystem::path take_ = folder_.path() / "take.mkv";
+};
+
+TEST_F(TakeRecorderTest, WritesWhatWasOfferedWhileItRan) {
+    TakeRecorder recorder(settings());
+    offer_both(recorder, 1000, 1004);
+    recorder.begin(take_);
+    EXPECT_TRUE(recorder.is_running());
+    offer_both(recorder, 1005, 1030);
+    CameraRecord camera;
+    camera.tick = 3;
+    camera.time = PulseGrid(25).time_of(1010);
+    recorder.offer(camera);
+    recorder.finish();
+    EXPECT_FALSE(recorder.is_running());
+    offer_both(recorder, 1031, 1032);
+
+    const TakeReader reader(take_);
+    EXPECT_TRUE(reader.is_ended());
+    EXPECT_TRUE(reader.damage().empty());
+    for (const std::size_t rig : {0, 1}) {
+        ASSERT_EQ(reader.frames(rig).size(), 26u);
+        EXPECT_EQ(reader.frames(rig).front().pulse, 1005u);
+        EXPECT_EQ(reader.frames(rig).back().pulse, 1030u);
+        EXPECT_EQ(reader.frames(rig).back().link.sent, 1030u);
+        EXPECT_EQ(reader.load(rig, reader.frames(rig)[3]).colour,
+                  arrived(rig, 1008).packed->colour);
+    }
+    EXPECT_EQ(reader.facts().show["key"], "value");
+    const TakeState state = recorder.state();
+    EXPECT_EQ(state.phase, TakePhase::none);
+    EXPECT_EQ(state.frames, 52u);
+    EXPECT_EQ(state.rigs[1].frames, 26u);
+    EXPECT_EQ(state.rigs[1].dropped + state.rigs[1].refused, 0u);
+    EXPECT_EQ(state.bytes, std::filesystem::file_size(take_));
+}
+
+TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
+    TakeRecorder::Settings wanted = settings();
+    wanted.pre_roll = 2s;
+    TakeRecorder recorder(wanted);
+    const MonotonicTime start = MonotonicTime(100s);
+    for (std::uint64_t pulse = 1000; pulse <= 1100; ++pulse)
+        for (const std::size_t rig : {0, 1})
+            recorder.offer(arrived(rig, pulse, start + (pulse - 1000) * 40ms));
+    EXPECT_NEAR(recorder.pre_roll().seconds, 2, 0.05);
+    EXPECT_GT(recorder.pre_roll().bytes, 0u);
+    recorder.begin(take_);
+    recorder.offer(arrived(0, 1101));
+    recorder.finish();
+    const TakeReader reader(take_);
+    EXPECT_EQ(reader.frames(0).front().pulse, 1050u);
+    EXPECT_EQ(reader.frames(0).size(), 52u) << "neither a frame twice nor one missing";
+    EXPECT_EQ(reader.frames(0).back().pulse, 1101u);
+    EXPECT_EQ(recorder.state().gaps, 0u);
+}
+
+TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
+    TakeRecorder::Settings wanted = settings();
+    std::promise<void> release;
+    wanted.queue_bytes = 40'000;
+    // The disk is looked at for so long that the queue overflows.
+    wanted.disk_mb_s = [gate = release.get_future().share()](const auto&) {
+        gate.wait();
+        return 1000.0;
+    };
+    TakeRecorder recorder(wanted);
+    recorder.begin(take_);
+    offer_both(recorder, 1000, 1000);
+    offer_both(recorder, 1001, 1060);
+    release.set_value();
+    recorder.finish();
+    const TakeState state = recorder.state();
+    const TakeReader reader(take_);
+    for (const std::size_t rig : {0, 1}) {
+        EXPECT_GT(state.rigs[rig].dropped, 0u);
+        EXPECT_EQ(state.rigs[rig].dropped + state.rigs[rig].frames, 61u);
+        EXPECT_EQ(reader.frames(rig).size(), state.rigs[rig].frames);
+        EXPECT_EQ(reader.frames(rig).back().pulse, 1060u) << "the oldest went";
+        EXPECT_EQ(reader.frames(rig).back().dropped, state.rigs[rig].dropped);
+    }
+    EXPECT_GT(state.gaps, 0u);
+}
+
+TEST_F(TakeRecorderTest, RefusesADiskThatCannotKeepUpAndNamesTheNumbers) {
+    TakeRecorder::Settings wanted = settings();
+    wanted.disk_mb_s = [](const auto&) { return 0.1; };
+    TakeRecorder recorder(wanted);
+    recorder.begin(take_);
+    offer_both(recorder, 1000, 1001);
+    recorder.finish();
+    const TakeState state = recorder.state();
+    EXPECT_EQ(state.phase, TakePhase::failed);
+    EXPECT_NE(state.failure.find("takes 0.1 MB a second, and these rigs' frames need"),
+              std::string::npos)
+        << state.failure;
+    EXPECT_FALSE(std::filesystem::exists(take_));
+}
+
+TEST_F(TakeRecorderTest, WaitsForRigsOnlySoLongAndTakesThemWhenTheyCome) {
+    TakeRecorder::Settings wanted = settings();
+    wanted.rig_wait = 20ms;
+    TakeRecorder recorder(wanted);
+    recorder.begin(take_);
+    recorder.offer(arrived(0, 1000));
+    for (int i = 0; i < 5000 && recorder.state().phase == TakePhase::opening; ++i)
+        std::this_thread::sleep_for(2ms);
+    EXPECT_EQ(recorder.state().phase, TakePhase::recording);
+    recorder.offer(arrived(1, 1003));
+    recorder.finish();
+    EXPECT_EQ(frames_of(0), 1u);
+    EXPECT_EQ(frames_of(1), 1u);
+}
+
+TEST_F(TakeRecorderTest, RefusesWhatIsNoPlaceForATake) {
+    TakeRecorder recorder(settings());
+    write_small_take(take_, {"north"}, 1, 2);
+    EXPECT_NE(thrown_sentence([&] { recorder.begin(take_); }).find("never replaces a file"),
+              std::string::npos);
+    EXPECT_NE(thrown_sentence([&] {
+                  recorder.begin(folder_.path() / "take.mp4");
+              }).find("whose name ends in .mkv"),
+              std::string::npos);
+    EXPECT_NE(thrown_sentence([&] {
+                  recorder.begin(folder_.path() / "no" / "take.mkv");
+              }).find("cannot write"),
+              std::string::npos);
+    EXPECT_FALSE(recorder.is_running());
+}
+
+TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
+    TakeRecorder recorder(settings());
+    for (const int take : {1, 2}) {
+        recorder.begin(free_take_name(take_));
+        offer_both(recorder, 1000, 1000 + static_cast<std::uint64_t>(take));
+        recorder.finish();
+    }
+    EXPECT_EQ(frames_of(0), 2u);
+    EXPECT_EQ(TakeReader(folder_.path() / "take-2.mkv").frames(0).size(), 3u);
+    EXPECT_EQ(recorder.state().takes, 2u);
+}
+
+TEST_F(TakeRecorderTest, SaysWhenNothingCame) {
+    TakeRecorder recorder(settings());
+    recorder.begin(take_);
+    recorder.finish();
+    EXPECT_EQ(recorder.state().phase, TakePhase::failed);
+    EXPECT_NE(recorder.state().failure.find("no frame came"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(take_));
+}
+
+TEST(DiskBenchmark, MeasuresAFolderAndLeavesNothingInIt) {
+    const TemporaryFolder folder;
+    EXPECT_GT(measure_disk_mb_s(folder.path()), 0);
+    EXPECT_GT(free_disk_mb(folder.path()), 0);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_NE(
+        thrown_sentence([&] { measure_disk_mb_s(folder.path() / "no"); }).find("cannot write"),
+        std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage
