@@ -11,6 +11,7 @@
 #include "common/base/log.h"
 #include "common/base/misfit_words.h"
 #include "common/base/stop_signal.h"
+#include "common/base/version.h"
 
 namespace vantage {
 namespace {
@@ -21,7 +22,7 @@ constexpr int cannot_be_told = 3;
 constexpr int interrupted = 130;
 
 std::string version_text(const ProgramFacts& facts) {
-    std::string text = fmt::format("{} {}", facts.name, VANTAGE_VERSION);
+    std::string text = fmt::format("{} {}", facts.name, version());
     if (!facts.commit.empty()) text += fmt::format(" (commit {})", facts.commit);
     text += fmt::format("\n{}", facts.description);
     if (!facts.libraries.empty()) text += fmt::format("\nwith {}", facts.libraries);
@@ -48,7 +49,7 @@ int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& comm
     for (const CommandEntry& command : commands) command.add(program);
     const std::vector<std::string> words = words_of(argc, argv);
     if (words == std::vector<std::string>{"--man-page"}) {
-        std::cout << man_page(program, VANTAGE_VERSION);
+        std::cout << man_page(program, version());
         return 0;
     }
     if (words == std::vector<std::string>{"--bash-completion"}) {

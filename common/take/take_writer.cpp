@@ -52,6 +52,7 @@ TakeWriter::~TakeWriter() {
 }
 
 void TakeWriter::open() {
+    av_log_set_level(AV_LOG_ERROR);
     AVFormatContext* context = nullptr;
     if (avformat_alloc_output_context2(&context, nullptr, "matroska", nullptr) < 0)
         fail("{} cannot be written: this FFmpeg comes without Matroska", path_.string());

@@ -23,15 +23,16 @@
 #include "host_app/live/panel_feed.h"
 #include "host_app/live/progress_log.h"
 #include "host_app/output/picture_target.h"
+#include "host_app/takes/take_desk.h"
 
 namespace vantage {
 namespace {
 
 struct LiveOptions {
-    std::string stage, path, snapshot, film, contact_sheet, size, synthesiser, wheels;
+    std::string stage, path, snapshot, film, take, contact_sheet, size, synthesiser, wheels;
     std::string quality = "auto";
     std::uint64_t frames = 0;
-    double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024;
+    double rate_hz = 0, seconds = 0, wait_s = 10, past_mb = 1024, pre_roll_s = 0;
     bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
     bool free_flight = false;
     StereoscopicOptions stereoscopic;
@@ -104,10 +105,12 @@ std::unique_ptr<JogDeck> make_deck(const LiveOptions& options) {
 
 /// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
 /// the names of outputs that failed.
-void finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck,
+void finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck, TakeDesk& takes,
             const CorridorWatch& corridor, const std::function<ColourImage()>& last_picture) {
     show.finish();
+    takes.finish();
     LiveReport report = show.report();
+    if (takes.state().takes > 0) report.take = takes.state();
     report.uncovered = corridor.uncovered_parts();
     if (deck) report.wheels = deck->devices();
     if (options.json)
@@ -121,10 +124,15 @@ void finish(const LiveOptions& options, LiveShow& show, const JogDeck* deck,
 }
 
 void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
-                   const JogDeck* deck, StopSignal& stop) {
+                   const JogDeck* deck, TakeDesk& takes, StopSignal& stop) {
     const auto limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
         std::chrono::duration<double>(options.wait_s));
     if (!show.wait_for_rigs(limit, stop)) return;
+    // A disk that is too slow is to be known before the first picture.
+    while (takes.state().phase == TakePhase::opening &&
+           !stop.wait_for(std::chrono::milliseconds(20)))
+        ;
+    if (takes.state().phase == TakePhase::failed) fail("{}", takes.state().failure);
     show.start();
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
@@ -132,14 +140,14 @@ void live_headless(const LiveOptions& options, LiveShow& show, const FlightPlan&
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(options, show, deck, corridor, [&] {
+    finish(options, show, deck, takes, corridor, [&] {
         const auto last = show.state().picture;
         return last->sources ? last->sources->picture : last->picture;
     });
 }
 
 void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan& plan,
-                    const JogDeck* deck, StopSignal& stop) {
+                    const JogDeck* deck, TakeDesk& takes, StopSignal& stop) {
     // However small the picture, there is room for what an operator reads.
     constexpr double least_width_px = 960;
     const PictureFormat& format = show.settings().format;
@@ -159,21 +167,22 @@ void live_in_window(const LiveOptions& options, LiveShow& show, const FlightPlan
            !stop.wait_for(
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
         const MonotonicTime now = MonotonicClock::now();
-        show.controls().hands().put(window.poll(std::chrono::duration<double>(now - last).count()),
-                                    now);
+        const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
+        if (input.toggle_take) takes.toggle();
+        show.controls().hands().put(input, now);
         last = now;
         if (const auto picture = show.state().picture;
             picture != shown || now - drawn > longest_unchanged) {
             shown = picture;
             drawn = now;
-            window.show(panel.state(show));
+            window.show(panel.state(show, takes.state()));
         } else {
             window.leave();
         }
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(options, show, deck, corridor, [&] { return window.screenshot(); });
+    finish(options, show, deck, takes, corridor, [&] { return window.screenshot(); });
 }
 
 void live(const LiveOptions& options) {
@@ -195,12 +204,17 @@ void live(const LiveOptions& options) {
         plan.seconds = plan.move->duration_s();
     const LiveSettings settings = live_settings(options, stage);
     const std::unique_ptr<JogDeck> deck = make_deck(options);
-    StageReceiver receiver(stage);
-    LiveShow show(settings, plan, feed_of(receiver), deck.get());
+    TakeDesk takes(stage, options.stage, options.take,
+                   std::chrono::duration_cast<std::chrono::nanoseconds>(
+                       std::chrono::duration<double>(options.pre_roll_s)));
+    if (!options.take.empty()) takes.begin(options.take);
+    StageReceiver receiver(stage, StageReceiver::Purpose::film, takes.tap());
+    LiveShow show(settings, plan, takes.feed(feed_of(receiver)), deck.get());
+    show.add(takes.camera_sink());
     if (options.headless)
-        live_headless(options, show, plan, deck.get(), stop);
+        live_headless(options, show, plan, deck.get(), takes, stop);
     else
-        live_in_window(options, show, plan, deck.get(), stop);
+        live_in_window(options, show, plan, deck.get(), takes, stop);
 }
 
 }  // namespace
@@ -224,6 +238,14 @@ CommandEntry live_command_entry() {
                             "Write the last picture (.png, .jpg); of a window, the panels too");
         command->add_option("--record", options->film,
                             "Write the flight as a film (.mkv, .mp4), with the house's time code");
+        command->add_option("--take", options->take,
+                            "Record what the rigs send from the start (.mkv; see vantage take); in "
+                            "a window the key T ends it and begins another");
+        command
+            ->add_option("--pre-roll", options->pre_roll_s,
+                         "Seconds that a take begun with the key T begins before it")
+            ->check(CLI::Range(0.0, 120.0))
+            ->capture_default_str();
         command->add_option("--contact-sheet", options->contact_sheet,
                             "Write stills of the flight, with a rig's colour and disparity");
         command->add_flag("--free-flight", options->free_flight,

@@ -104,6 +104,15 @@ void draw_corridor_badge(const Coverage& coverage, const UiFonts& fonts) {
     }
 }
 
+void draw_take_badge(const PanelTake& take, const UiFonts& fonts) {
+    if (!take.is_running) {
+        badge(fonts, "TAKE ENDED", palette::warn);
+        return;
+    }
+    const auto seconds = static_cast<int>(take.duration_s);
+    badge(fonts, fmt::format("TAKE {}:{:02}", seconds / 60, seconds % 60).c_str(), palette::bad);
+}
+
 /// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
 void draw_coverage(const Coverage& coverage) {
     const CorridorPlace place = Corridor::place_of(coverage.share);
@@ -154,6 +163,7 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         badge(fonts, title_of(state.signal), colour_of(state.signal));
     if (state.coverage) draw_corridor_badge(*state.coverage, fonts);
     if (state.recording) badge(fonts, "REC", palette::bad);
+    if (state.take) draw_take_badge(*state.take, fonts);
     if (!state.waiting) {
         ImGui::PushFont(fonts.strong);
         text(state.timecode);
@@ -265,6 +275,17 @@ void draw_latency(const PanelState& state, const UiFonts& fonts) {
          fmt::format("worst of the last {}: {:.0f} ms", state.latency_history_ms.size(), most));
 }
 
+void draw_take(const PanelTake& take, const UiFonts& fonts) {
+    ImGui::Spacing();
+    heading(fonts, "TAKE");
+    ImGui::PushTextWrapPos(0);
+    if (take.is_running)
+        text(palette::dim, fmt::format("{:.1f} s, {:.1f} MB a second", take.duration_s, take.mb_s));
+    if (take.left_out > 0) text(palette::warn, fmt::format("{} frames left out", take.left_out));
+    if (!take.failure.empty()) text(palette::bad, take.failure);
+    ImGui::PopTextWrapPos();
+}
+
 void draw_left_panel(const PanelState& state, const UiFonts& fonts, float top) {
     ImGui::SetNextWindowPos({panel_gap * em(), top + panel_gap * em()});
     ImGui::SetNextWindowSize({left_panel_width * em(), 0});
@@ -274,6 +295,7 @@ void draw_left_panel(const PanelState& state, const UiFonts& fonts, float top) {
     draw_stages(state, fonts);
     ImGui::Spacing();
     draw_latency(state, fonts);
+    if (state.take) draw_take(*state.take, fonts);
     ImGui::End();
 }
 
@@ -405,6 +427,7 @@ void draw_help(const UiFonts& fonts) {
         {", .", "a frame back, a frame on, through what is kept of the past"},
         {"L", "back to live"},
         {"P", "play or leave the planned move"},
+        {"T", "begin or end a take of what the rigs send"},
         {"F2", "next synthesiser"},
         {"N", "show which rig each pixel comes from"},
         {"Tab", "show or hide the panels"},

@@ -43,6 +43,14 @@ struct PanelNovelty {
     std::string remark;  ///< why there is no overlay; empty: there is one
 };
 
+/// The take that is recorded, or what ended it.
+struct PanelTake {
+    bool is_running = false;
+    double duration_s = 0, mb_s = 0;
+    std::uint64_t left_out = 0;  ///< frames that came and are not in it
+    std::string failure;
+};
+
 /// All that the operator's screen tells.
 struct PanelState {
     const Texture* picture = nullptr;  ///< the virtual view
@@ -50,7 +58,8 @@ struct PanelState {
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
-    bool recording = false;
+    bool recording = false;          ///< a film
+    std::optional<PanelTake> take;   ///< nothing: no take is recorded
     std::optional<double> behind_s;  ///< while in the past: how far
     double picture_rate_hz = 0, latency_ms = 0;
     std::vector<float> latency_history_ms;  ///< oldest first

@@ -111,6 +111,9 @@ void OperatorWindow::take_key(int key, bool control) {
         case GLFW_KEY_L:
             input_.to_live = true;
             break;
+        case GLFW_KEY_T:
+            input_.toggle_take = !input_.toggle_take;
+            break;
         case GLFW_KEY_N:
             input_.toggle_novelty = !input_.toggle_novelty;
             break;

@@ -9,7 +9,7 @@ struct FlightInput {
     double pan_right_widths = 0, pan_up_widths = 0;
     double dolly = 0, zoom = 0;
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
-    bool next_wheel_mode = false, to_live = false, toggle_novelty = false;
+    bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
     int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
 
     /// Detents of a jog wheel, clockwise positive.

@@ -148,6 +148,48 @@ std::string corridor_text(const LiveReport& report) {
     return text + '\n';
 }
 
+const char* key_of(TakePhase phase) {
+    switch (phase) {
+        case TakePhase::none:
+            break;
+        case TakePhase::opening:
+            return "opening";
+        case TakePhase::recording:
+            return "recording";
+        case TakePhase::failed:
+            return "failed";
+    }
+    return "ended";
+}
+
+nlohmann::ordered_json take_json(const TakeState& take) {
+    nlohmann::ordered_json json{
+        {"path", take.path},          {"takes", take.takes},   {"state", key_of(take.phase)},
+        {"failure", take.failure},    {"frames", take.frames}, {"gaps", take.gaps},
+        {"bytes", take.bytes},        {"mb_s", take.mb_s},     {"duration_s", take.duration_s},
+        {"disk_mb_s", take.disk_mb_s}};
+    for (const TakeState::Rig& rig : take.rigs)
+        json["rigs"].push_back({{"name", rig.name},
+                                {"frames", rig.frames},
+                                {"dropped", rig.dropped},
+                                {"refused", rig.refused}});
+    return json;
+}
+
+std::string take_text(const TakeState& take) {
+    std::string text = fmt::format(
+        "take: {}, {:.1f} s, {} frames and {} missing, {:.1f} MB, {:.1f} MB a second\n", take.path,
+        take.duration_s, take.frames, take.gaps, static_cast<double>(take.bytes) / 1e6, take.mb_s);
+    for (const TakeState::Rig& rig : take.rigs)
+        if (rig.dropped + rig.refused > 0)
+            text += fmt::format(
+                "take: of rig {} are {} frames left out since they came faster than they could be "
+                "written, and {} that did not fit\n",
+                rig.name, rig.dropped, rig.refused);
+    if (!take.failure.empty()) text += fmt::format("take: {}\n", take.failure);
+    return text;
+}
+
 }  // namespace
 
 std::string state_of(const RigStatus& status) {
@@ -302,6 +344,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                   {"fault", wheel.fault},
                                   {"reports", wheel.reports},
                                   {"unread", wheel.unread}});
+    if (report.take) json["take"] = take_json(*report.take);
     if (!report.film.empty())
         json["film"] = {{"path", report.film},
                         {"pictures", report.film_pictures},
@@ -372,6 +415,7 @@ std::string to_text(const LiveReport& report) {
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
                             wheel.model, wheel.place.path, wheel.reports, wheel.unread,
                             wheel.fault.empty() ? "" : "; ", wheel.fault);
+    if (report.take) text += take_text(*report.take);
     if (!report.film.empty())
         text += fmt::format("film: {}, {} pictures, {} left out because the encoder was busy\n",
                             report.film, report.film_pictures, report.film_dropped);

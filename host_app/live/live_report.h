@@ -18,6 +18,7 @@
 #include "host_app/programme/programme.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
+#include "host_app/takes/take_recorder.h"
 
 namespace vantage {
 
@@ -56,6 +57,8 @@ struct LiveReport {
     std::optional<NoveltyShares> novelty;  ///< of the last picture, where its source map was shown
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
+
+    std::optional<TakeState> take;  ///< nothing: there was none
 
     std::string film;  ///< path; empty: none
     std::uint64_t film_pictures = 0, film_dropped = 0;

@@ -31,6 +31,17 @@ bool is_at_rig(const std::string& step) {
     return step == "capture" || step == "rectify" || step == "match" || step == "pack";
 }
 
+std::optional<PanelTake> panel_take(const TakeState& take) {
+    if (take.phase == TakePhase::none && take.failure.empty()) return std::nullopt;
+    PanelTake panel;
+    panel.is_running = take.phase == TakePhase::opening || take.phase == TakePhase::recording;
+    panel.duration_s = take.duration_s;
+    panel.mb_s = take.mb_s;
+    for (const TakeState::Rig& rig : take.rigs) panel.left_out += rig.dropped + rig.refused;
+    panel.failure = take.failure;
+    return panel;
+}
+
 }  // namespace
 
 PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
@@ -104,7 +115,7 @@ void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const F
         if (!sink.failure.empty()) state_.recording = false;
 }
 
-PanelState PanelFeed::state(LiveShow& show) {
+PanelState PanelFeed::state(LiveShow& show, const std::optional<TakeState>& take) {
     const MonotonicTime now = MonotonicClock::now();
     const ProgrammeState programme = show.state();
     if (!timecodes_)
@@ -134,6 +145,7 @@ PanelState PanelFeed::state(LiveShow& show) {
         state_.pulse = set->trigger_index;
         state_.timecode = timecodes_->of(*set);
     }
+    state_.take = take ? panel_take(*take) : std::nullopt;
     state_.behind_s = programme.behind_s;
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.synthesiser = programme.synthesiser;

@@ -16,8 +16,9 @@ namespace vantage {
 /// the disparity pictures are looked at a few times a second, so that numbers can be read.
 class PanelFeed {
   public:
-    /// The context that shows it must be current at every call.
-    PanelState state(LiveShow& show);
+    /// The context that shows it must be current at every call. `take`: nothing: none is recorded
+    /// here.
+    PanelState state(LiveShow& show, const std::optional<TakeState>& take);
 
   private:
     void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,

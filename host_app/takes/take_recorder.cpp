@@ -20,11 +20,29 @@ constexpr double least_room_s = 10;
 /// How long the thread waits for something to do before it writes what it keeps back.
 constexpr std::chrono::milliseconds patience{100};
 
+nlohmann::ordered_json calibration_json(const RigFrame& frame) {
+    const RectifiedStereo& geometry = frame.geometry;
+    nlohmann::ordered_json json{{"id", frame.calibration_id},
+                                {"width_px", geometry.width_px},
+                                {"height_px", geometry.height_px},
+                                {"f_px", geometry.f_px},
+                                {"cx_left_px", geometry.cx_left_px},
+                                {"cx_right_px", geometry.cx_right_px},
+                                {"cy_px", geometry.cy_px},
+                                {"baseline_m", geometry.baseline_m},
+                                {"place_is_assumed", frame.place_is_assumed}};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            json["world_from_camera"].push_back(frame.world_from_camera.matrix()(row, column));
+    return json;
+}
+
 }  // namespace
 
 struct TakeRecorder::Take {
     std::filesystem::path path;
     std::optional<TakeWriter> writer;
+    nlohmann::ordered_json calibrations;       ///< of the rigs' first frames, for people
     std::vector<std::optional<TakeRig>> rigs;  ///< as the first frame of each says
     std::vector<std::unique_ptr<FrameStorer>> storers;
     std::deque<Item> held;  ///< until the writer is there
@@ -240,6 +258,7 @@ void TakeRecorder::look_at_first(Take& take, const Item& item) {
     const FrameHead head = decode_frame_head(frame.packed->header);
     if (!take.rigs[frame.rig]) {
         take.rigs[frame.rig] = take_rig_of(head);
+        take.calibrations[settings_.rigs[frame.rig]] = calibration_json(head.frame);
         // Disparity takes about as much here as it did on the way.
         take.bytes_a_pulse += static_cast<double>(item.bytes());
     }
@@ -282,6 +301,7 @@ void TakeRecorder::open(Take& take) {
     facts.program = settings_.program;
     facts.timecode = TimecodeClock(settings_.pulse_rate_hz).at(*take.origin, take.tai_offset_s);
     facts.show = settings_.show;
+    facts.show["calibrations"] = take.calibrations;
     facts.attachments = settings_.attachments;
     // A rig that comes later is taken to send what the first one does.
     const auto present = std::find_if(take.rigs.begin(), take.rigs.end(),

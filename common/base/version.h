@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace vantage {
+
+/// Of Vantage: "0.2.0".
+std::string_view version();
+
+}  // namespace vantage

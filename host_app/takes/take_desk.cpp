@@ -1,0 +1,117 @@
+#include "host_app/takes/take_desk.h"
+
+#include <ctime>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/version.h"
+#include "common/colour/colour_file.h"
+#include "host_app/takes/take_show.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t most_attached_bytes = 1 << 20;
+
+TakeRecorder::Settings recorder_settings(const StageConfig& stage,
+                                         const std::filesystem::path& stage_file,
+                                         std::chrono::nanoseconds pre_roll) {
+    TakeRecorder::Settings settings;
+    TakeShow show{stage.timecode_zone, stage.view, {}};
+    settings.attachments.push_back(
+        {"stage.toml", "application/toml", read_file(stage_file, most_attached_bytes)});
+    for (const StageConfig::Rig& rig : stage.rigs) {
+        settings.rigs.push_back(rig.name);
+        if (rig.colour.empty()) continue;
+        show.colours[rig.name] = load_colour(rig.colour);
+        settings.attachments.push_back({rig.name + ".colour.toml", "application/toml",
+                                        read_file(rig.colour, most_attached_bytes)});
+    }
+    settings.pulse_rate_hz = stage.rate_hz;
+    settings.program = fmt::format("vantage {}", version());
+    settings.show = to_json(show);
+    settings.pre_roll = pre_roll;
+    return settings;
+}
+
+/// "take-2026-11-22-201500.mkv", by this process's clock and zone.
+std::filesystem::path name_for_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    localtime_r(&now, &parts);
+    char text[40];
+    std::strftime(text, sizeof text, "take-%Y-%m-%d-%H%M%S.mkv", &parts);
+    return text;
+}
+
+class CameraSink final : public PictureSink {
+  public:
+    explicit CameraSink(TakeRecorder& recorder) : recorder_(recorder) {}
+    std::string name() const override { return "camera of the take"; }
+    void take(const ProgrammePicture& picture) override {
+        CameraRecord record;
+        record.tick = picture.tick;
+        record.pulse = picture.set ? picture.set->trigger_index : 0;
+        record.time = TaiClock::now();
+        record.world_from_camera = picture.camera.world_from_camera;
+        record.field_of_view_rad = picture.camera.field_of_view_rad;
+        record.focus_m = picture.camera.focus_m;
+        recorder_.offer(record);
+    }
+
+  private:
+    TakeRecorder& recorder_;
+};
+
+}  // namespace
+
+TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
+                   std::filesystem::path path, std::chrono::nanoseconds pre_roll)
+    : path_(std::move(path)), recorder_(recorder_settings(stage, stage_file, pre_roll)) {}
+
+FrameTap TakeDesk::tap() {
+    return [this](const ArrivedFrame& frame) { recorder_.offer(frame); };
+}
+
+StageFeed TakeDesk::feed(StageFeed feed) {
+    if (!feed.ask) return feed;
+    ask_ = feed.ask;
+    for (const RigStatus& rig : feed.status().rigs) wishes_[rig.rig] = true;
+    feed.ask = [this](const std::string& rig, bool streaming) {
+        const std::lock_guard lock(mutex_);
+        wishes_[rig] = streaming;
+        ask_(rig, streaming || recorder_.is_running());
+    };
+    return feed;
+}
+
+std::unique_ptr<PictureSink> TakeDesk::camera_sink() {
+    return std::make_unique<CameraSink>(recorder_);
+}
+
+void TakeDesk::ask_all() {
+    const std::lock_guard lock(mutex_);
+    const bool is_running = recorder_.is_running();
+    for (const auto& [rig, streaming] : wishes_) ask_(rig, streaming || is_running);
+}
+
+void TakeDesk::begin(const std::filesystem::path& path) {
+    recorder_.begin(path);
+    ask_all();
+}
+
+void TakeDesk::toggle() {
+    try {
+        if (!recorder_.is_running()) {
+            begin(free_take_name(path_.empty() ? name_for_now() : path_));
+            return;
+        }
+        recorder_.end();
+        ask_all();
+    } catch (const Error& error) {
+        log_error("{}", error.what());
+    }
+}
+
+}  // namespace vantage

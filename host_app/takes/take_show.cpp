@@ -1,0 +1,77 @@
+#include "host_app/takes/take_show.h"
+
+#include <cmath>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+double within(const nlohmann::ordered_json& json, const char* key, double least, double most) {
+    const double value = json.at(key).get<double>();
+    if (!std::isfinite(value) || value < least || value > most)
+        fail("its take.json has {} = {}, outside {}..{}", key, value, least, most);
+    return value;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const TakeShow& show) {
+    const StageConfig::View& view = show.view;
+    nlohmann::ordered_json json{
+        {"timecode_zone", show.timecode_zone},
+        {"view",
+         {{"width_px", view.width_px},
+          {"height_px", view.height_px},
+          {"field_of_view_deg", view.field_of_view_deg},
+          {"target_m", {view.target_m[0], view.target_m[1], view.target_m[2]}},
+          {"distance_m", view.distance_m},
+          {"azimuth_deg", view.azimuth_deg},
+          {"elevation_deg", view.elevation_deg},
+          {"is_placed", view.is_placed},
+          {"synthesiser", view.synthesiser}}}};
+    json["colours"] = nlohmann::ordered_json::object();
+    for (const auto& [rig, colour] : show.colours) {
+        nlohmann::ordered_json entry;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                entry["matrix"].push_back(colour.matrix(row, column));
+        for (int i = 0; i < 3; ++i) entry["tone"].push_back(colour.tone[i]);
+        json["colours"][rig] = entry;
+    }
+    return json;
+}
+
+TakeShow take_show_from(const nlohmann::ordered_json& json) {
+    try {
+        TakeShow show;
+        show.timecode_zone = json.at("timecode_zone").get<std::string>();
+        const nlohmann::ordered_json& view = json.at("view");
+        constexpr double least_px = 16, most_px = 4096;
+        show.view.width_px = static_cast<int>(within(view, "width_px", least_px, most_px));
+        show.view.height_px = static_cast<int>(within(view, "height_px", least_px, most_px));
+        show.view.field_of_view_deg = within(view, "field_of_view_deg", 1, 150);
+        for (std::size_t i = 0; i < 3; ++i)
+            show.view.target_m[i] = view.at("target_m").at(i).get<double>();
+        show.view.distance_m = within(view, "distance_m", 0.05, 1000);
+        show.view.azimuth_deg = within(view, "azimuth_deg", -360, 360);
+        show.view.elevation_deg = within(view, "elevation_deg", -89, 89);
+        show.view.is_placed = view.at("is_placed").get<bool>();
+        show.view.synthesiser = view.at("synthesiser").get<std::string>();
+        for (const auto& [rig, entry] : json.at("colours").items()) {
+            ColourCorrection colour;
+            for (std::size_t i = 0; i < 9; ++i)
+                colour.matrix(static_cast<int>(i / 3), static_cast<int>(i % 3)) =
+                    entry.at("matrix").at(i).get<double>();
+            for (std::size_t i = 0; i < 3; ++i)
+                colour.tone[static_cast<int>(i)] = entry.at("tone").at(i).get<double>();
+            colour.validate();
+            show.colours[rig] = colour;
+        }
+        return show;
+    } catch (const nlohmann::json::exception&) {
+        fail("its take.json does not tell of the show as Vantage does");
+    }
+}
+
+}  // namespace vantage
