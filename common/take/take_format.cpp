@@ -93,13 +93,11 @@ std::int64_t TakeFacts::time_ms_of(const FrameRecord& record) const {
 }
 
 nlohmann::ordered_json to_json(const TakeFacts& facts) {
-    nlohmann::ordered_json json{{"vantage_take", take_version},
-                                {"program", facts.program},
-                                {"pulse_rate_hz", facts.pulse_rate_hz},
-                                {"origin_tai_ns", to_ns(facts.origin)},
-                                {"timecode", facts.timecode},
-                                {"disparity_step_px", 1.0 / 32},
-                                {"unknown_disparity", 0}};
+    nlohmann::ordered_json json{
+        {"vantage_take", take_version},         {"program", facts.program},
+        {"pulse_rate_hz", facts.pulse_rate_hz}, {"origin_tai_ns", to_ns(facts.origin)},
+        {"timecode", facts.timecode},           {"tai_offset_s", facts.tai_offset_s},
+        {"disparity_step_px", 1.0 / 32},        {"unknown_disparity", 0}};
     for (const TakeRig& rig : facts.rigs) json["rigs"].push_back(rig.name);
     json["show"] = facts.show;
     return json;
@@ -122,6 +120,7 @@ TakeFacts take_facts_from(std::string_view text) {
         if (to_ns(facts.origin) < 0 || to_ns(facts.origin) > latest_ns)
             fail("its origin of {} ns is no time", to_ns(facts.origin));
         facts.timecode = json.at("timecode").get<std::string>();
+        facts.tai_offset_s = json.at("tai_offset_s").get<int>();
         for (const auto& rig : json.at("rigs")) {
             facts.rigs.emplace_back();
             facts.rigs.back().name = rig.get<std::string>();

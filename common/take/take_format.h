@@ -52,6 +52,7 @@ struct TakeFacts {
     TaiTime origin{};  ///< of the file's times
     std::string program;
     std::string timecode;         ///< the house's, of the origin; empty: not known
+    int tai_offset_s = 0;         ///< of the rigs' clock from UTC
     nlohmann::ordered_json show;  ///< the stage, calibrations and colours, as the host writes them
     std::vector<TakeRig> rigs;
     std::vector<TakeAttachment> attachments;  ///< beside take.json, which holds the above

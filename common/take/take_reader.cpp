@@ -305,6 +305,7 @@ void TakeReader::take_record(std::size_t rig, std::int64_t time_ms, const Block&
         frames_[rig].push_back({record.pulse,
                                 record.gap,
                                 record.dropped,
+                                record.session,
                                 record.exposure,
                                 time_ms,
                                 block,
@@ -353,15 +354,22 @@ double TakeReader::duration_s() const {
 }
 
 StoredFrame TakeReader::load(std::size_t rig, const Frame& frame) const {
+    const auto damaged = [&](const std::string& what, std::uint64_t at) {
+        throw TakeDamaged(fmt::format("{}: rig {}'s {} of pulse {}, at byte {}, is damaged",
+                                      path_.string(), facts_.rigs[rig].name, what, frame.pulse,
+                                      at));
+    };
     StoredFrame stored;
-    stored.record = frame_record_from(text_of(file_.bytes(frame.record.at, frame.record.size)));
+    try {
+        stored.record = frame_record_from(text_of(file_.bytes(frame.record.at, frame.record.size)));
+    } catch (const Error&) {
+        damaged("record", frame.record.at);
+    }
     const auto load_block = [&](const Block& block, const std::optional<std::uint32_t>& crc,
                                 const char* what) {
         if (!crc) return std::vector<std::byte>();
         std::vector<std::byte> bytes = file_.bytes(block.at, block.size);
-        if (crc32(bytes) != *crc)
-            fail("{}: rig {}'s {} of pulse {}, at byte {}, is damaged", path_.string(),
-                 facts_.rigs[rig].name, what, frame.pulse, block.at);
+        if (crc32(bytes) != *crc) damaged(what, block.at);
         return bytes;
     };
     stored.colour = load_block(frame.colour, frame.colour_crc, "colour");

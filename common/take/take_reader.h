@@ -7,11 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "common/base/error.h"
 #include "common/take/ebml_file.h"
 #include "common/take/take_format.h"
 #include "common/take/take_writer.h"
 
 namespace vantage {
+
+/// Bytes of a take are not those that were written.
+class TakeDamaged : public Error {
+  public:
+    using Error::Error;
+};
 
 /// A place in a take that is not what was written there.
 struct TakeDamage {
@@ -32,7 +39,7 @@ class TakeReader {
         std::uint32_t size = 0;  ///< 0: there is none
     };
     struct Frame {
-        std::uint64_t pulse = 0, gap = 0, dropped = 0;
+        std::uint64_t pulse = 0, gap = 0, dropped = 0, session = 0;
         TaiTime exposure{};
         std::int64_t time_ms = 0;
         Block record, colour, depth;
@@ -55,7 +62,7 @@ class TakeReader {
     /// From the first to the last frame.
     double duration_s() const;
 
-    /// The frame with all its bytes. Throws Error if they are not those that were written.
+    /// The frame with all its bytes. Throws TakeDamaged if they are not those that were written.
     StoredFrame load(std::size_t rig, const Frame& frame) const;
 
   private:

@@ -61,7 +61,6 @@ void TakeWriter::open() {
     output_->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT;
     output_->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
     av_opt_set_int(output_->priv_data, "cluster_time_limit", longest_unwritten_ms, 0);
-    av_dict_set(&output_->metadata, "title", path_.stem().c_str(), 0);
     if (!facts_.timecode.empty())
         av_dict_set(&output_->metadata, "timecode", facts_.timecode.c_str(), 0);
 

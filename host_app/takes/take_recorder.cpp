@@ -299,6 +299,7 @@ void TakeRecorder::open(Take& take) {
     facts.pulse_rate_hz = settings_.pulse_rate_hz;
     facts.origin = *take.origin;
     facts.program = settings_.program;
+    facts.tai_offset_s = take.tai_offset_s;
     facts.timecode = TimecodeClock(settings_.pulse_rate_hz).at(*take.origin, take.tai_offset_s);
     facts.show = settings_.show;
     facts.show["calibrations"] = take.calibrations;

@@ -1,0 +1,161 @@
+#include "common/take/take_edit.h"
+
+#include <algorithm>
+#include <set>
+
+#include "common/base/error.h"
+#include "common/base/output_path.h"
+#include "common/base/pulse_grid.h"
+#include "common/base/timecode.h"
+
+namespace vantage {
+namespace {
+
+/// A frame of one of the takes.
+struct Source {
+    std::uint64_t pulse = 0;
+    std::size_t rig = 0;  ///< of the copy
+    std::size_t take = 0, rig_there = 0, frame = 0;
+};
+
+bool is_before(const Source& a, const Source& b) {
+    return std::tie(a.pulse, a.rig, a.take) < std::tie(b.pulse, b.rig, b.take);
+}
+
+/// The rigs of all takes, each once.
+std::vector<TakeRig> rigs_of(const std::vector<const TakeReader*>& takes) {
+    std::vector<TakeRig> rigs;
+    for (const TakeReader* take : takes) {
+        if (take->facts().pulse_rate_hz != takes.front()->facts().pulse_rate_hz)
+            fail("{} is of {} pulses a second and {} of {}: they are of different stages",
+                 takes.front()->path().string(), takes.front()->facts().pulse_rate_hz,
+                 take->path().string(), take->facts().pulse_rate_hz);
+        for (std::size_t i = 0; i < take->facts().rigs.size(); ++i) {
+            const TakeRig& rig = take->facts().rigs[i];
+            const auto known = std::find_if(rigs.begin(), rigs.end(), [&](const TakeRig& each) {
+                return each.name == rig.name;
+            });
+            if (known == rigs.end())
+                rigs.push_back(rig);
+            else if (*known != rig && !take->frames(i).empty())
+                fail(
+                    "rig {} of {} sent pictures of another size or coding than in the take "
+                    "before it: such takes stay apart",
+                    rig.name, take->path().string());
+        }
+    }
+    return rigs;
+}
+
+std::vector<Source> sources_of(const std::vector<const TakeReader*>& takes,
+                               const std::vector<TakeRig>& rigs, std::uint64_t from,
+                               std::uint64_t to) {
+    std::vector<Source> sources;
+    for (std::size_t t = 0; t < takes.size(); ++t)
+        for (std::size_t there = 0; there < takes[t]->facts().rigs.size(); ++there) {
+            const auto rig = std::find_if(rigs.begin(), rigs.end(), [&](const TakeRig& each) {
+                return each.name == takes[t]->facts().rigs[there].name;
+            });
+            const std::vector<TakeReader::Frame>& frames = takes[t]->frames(there);
+            for (std::size_t f = 0; f < frames.size(); ++f)
+                if (frames[f].pulse >= from && frames[f].pulse < to)
+                    sources.push_back({frames[f].pulse,
+                                       static_cast<std::size_t>(rig - rigs.begin()), t, there, f});
+        }
+    std::sort(sources.begin(), sources.end(), is_before);
+    return sources;
+}
+
+std::vector<CameraRecord> cameras_of(const std::vector<const TakeReader*>& takes, TaiTime from,
+                                     TaiTime to) {
+    std::vector<CameraRecord> cameras;
+    for (const TakeReader* take : takes)
+        for (const CameraRecord& camera : take->cameras())
+            if (camera.time >= from && camera.time < to) cameras.push_back(camera);
+    std::stable_sort(cameras.begin(), cameras.end(),
+                     [](const CameraRecord& a, const CameraRecord& b) { return a.time < b.time; });
+    cameras.erase(std::unique(cameras.begin(), cameras.end(),
+                              [](const CameraRecord& a, const CameraRecord& b) {
+                                  return a.time == b.time && a.tick == b.tick;
+                              }),
+                  cameras.end());
+    return cameras;
+}
+
+void write(const std::vector<const TakeReader*>& takes, const std::vector<Source>& sources,
+           TakeWriter& writer, TakeCopy& copy, const std::function<void(double)>& progress) {
+    const PulseGrid pulses(writer.facts().pulse_rate_hz);
+    const std::vector<CameraRecord> cameras =
+        cameras_of(takes, writer.facts().origin, pulses.time_of(sources.back().pulse + 1));
+    auto camera = cameras.begin();
+    std::optional<std::pair<std::uint64_t, std::size_t>> written;
+    std::size_t done = 0;
+    for (const Source& source : sources) {
+        constexpr std::size_t now_and_then = 500;
+        if (++done % now_and_then == 0 && progress)
+            progress(static_cast<double>(done) / static_cast<double>(sources.size()));
+        for (; camera != cameras.end() && camera->time <= pulses.time_of(source.pulse); ++camera)
+            copy.cameras += writer.add(*camera);
+        if (written == std::pair(source.pulse, source.rig)) {
+            ++copy.twice;
+            continue;
+        }
+        const TakeReader& take = *takes[source.take];
+        try {
+            StoredFrame frame =
+                take.load(source.rig_there, take.frames(source.rig_there)[source.frame]);
+            copy.frames += writer.add(source.rig, std::move(frame));
+            written.emplace(source.pulse, source.rig);
+        } catch (const TakeDamaged&) {
+            ++copy.damaged;
+        }
+    }
+    for (; camera != cameras.end(); ++camera) copy.cameras += writer.add(*camera);
+    writer.finish();
+}
+
+}  // namespace
+
+TakeCopy copy_takes(const std::vector<const TakeReader*>& takes, std::uint64_t from,
+                    std::uint64_t to, const std::filesystem::path& path,
+                    const std::function<void(double)>& progress) {
+    require_writable_output(path, {});
+    if (path.extension() != ".mkv")
+        fail("{} cannot be written: a take is a Matroska file, whose name ends in .mkv",
+             path.string());
+    if (std::filesystem::exists(path))
+        fail("{} is there already, and a take never replaces a file: take another name",
+             path.string());
+    TakeFacts facts = takes.front()->facts();
+    facts.rigs = rigs_of(takes);
+    const std::vector<Source> sources = sources_of(takes, facts.rigs, from, to);
+    if (sources.empty()) fail("{} is not written: no frame is in that part", path.string());
+    const Source& first = sources.front();
+    const TakeReader::Frame& frame = takes[first.take]->frames(first.rig_there)[first.frame];
+    facts.origin = takes[first.take]->facts().origin + std::chrono::milliseconds(frame.time_ms);
+    const PulseGrid pulses(facts.pulse_rate_hz);
+    // Milliseconds are what the file counts; a pulse is where the grid says.
+    if (const TaiTime exact = pulses.time_of(first.pulse);
+        std::chrono::abs(exact - facts.origin) <= std::chrono::milliseconds(1))
+        facts.origin = exact;
+    facts.timecode = TimecodeClock(facts.pulse_rate_hz).at(facts.origin, facts.tai_offset_s);
+
+    std::filesystem::path partial = path;
+    partial += ".partial";
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    TakeCopy copy;
+    try {
+        TakeWriter writer(partial, facts);
+        write(takes, sources, writer, copy, progress);
+    } catch (...) {
+        std::filesystem::remove(partial, ignored);
+        throw;
+    }
+    std::error_code error;
+    std::filesystem::rename(partial, path, error);
+    if (error) fail("cannot write {}: {}", path.string(), error.message());
+    return copy;
+}
+
+}  // namespace vantage

@@ -1,0 +1,279 @@
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/pulse_grid.h"
+#include "common/base/time_zone.h"
+#include "common/base/timecode.h"
+#include "common/take/take_check.h"
+#include "common/take/take_edit.h"
+#include "host_app/takes/take_show.h"
+
+namespace vantage {
+namespace {
+
+struct TakeOptions {
+    std::string take, from, to, output;
+    std::vector<std::string> takes;
+    bool json = false;
+};
+
+/// Time codes are the house's, as when the take was made.
+void use_zone_of(const TakeReader& take) {
+    const std::string zone = take_show_from(take.facts().show).timecode_zone;
+    if (!zone.empty() && is_time_zone(zone)) use_time_zone(zone);
+}
+
+struct Span {
+    std::uint64_t first = 0, last = 0;  ///< pulses
+};
+
+Span span_of(const TakeReader& take) {
+    Span span{~std::uint64_t{0}, 0};
+    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
+        if (take.frames(rig).empty()) continue;
+        span.first = std::min(span.first, take.frames(rig).front().pulse);
+        span.last = std::max(span.last, take.frames(rig).back().pulse);
+    }
+    if (span.first > span.last) fail("{} holds no frame", take.path().string());
+    return span;
+}
+
+std::string codec_text(const TakePictures& pictures) {
+    switch (pictures.codec) {
+        case TakePictures::Codec::none:
+            break;
+        case TakePictures::Codec::jpeg:
+            return fmt::format("JPEG {}x{}", pictures.size_px.width, pictures.size_px.height);
+        case TakePictures::Codec::ffv1:
+            return fmt::format("FFV1 {}x{}", pictures.size_px.width, pictures.size_px.height);
+    }
+    return "none";
+}
+
+std::uint64_t missing_of(const std::vector<TakeReader::Frame>& frames) {
+    return frames.empty() ? 0 : frames.back().pulse - frames.front().pulse + 1 - frames.size();
+}
+
+nlohmann::ordered_json info_json(const TakeReader& take) {
+    const TakeFacts& facts = take.facts();
+    nlohmann::ordered_json json{{"path", take.path().string()},
+                                {"program", facts.program},
+                                {"timecode", facts.timecode},
+                                {"pulse_rate_hz", facts.pulse_rate_hz},
+                                {"duration_s", take.duration_s()},
+                                {"bytes", take.bytes()},
+                                {"ended", take.is_ended()},
+                                {"damaged_places", take.damage().size()},
+                                {"camera_ticks", take.cameras().size()}};
+    json["rigs"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < facts.rigs.size(); ++i) {
+        const std::vector<TakeReader::Frame>& frames = take.frames(i);
+        nlohmann::ordered_json rig{{"name", facts.rigs[i].name},
+                                   {"colour", codec_text(facts.rigs[i].colour)},
+                                   {"disparity", codec_text(facts.rigs[i].depth)},
+                                   {"frames", frames.size()},
+                                   {"missing", missing_of(frames)}};
+        if (!frames.empty()) {
+            rig["first_pulse"] = frames.front().pulse;
+            rig["last_pulse"] = frames.back().pulse;
+            rig["left_out_by_host"] = frames.back().dropped;
+        }
+        json["rigs"].push_back(std::move(rig));
+    }
+    for (const TakeAttachment& attachment : facts.attachments)
+        json["attachments"].push_back(attachment.name);
+    return json;
+}
+
+void info(const TakeOptions& options) {
+    const TakeReader take(options.take);
+    const nlohmann::ordered_json json = info_json(take);
+    if (options.json) {
+        std::cout << json.dump() << '\n';
+        return;
+    }
+    std::cout << fmt::format(
+        "{}: {:.1f} s from {}, {:g} pulses a second, {:.1f} MB, written by {}\n",
+        take.path().string(), take.duration_s(), take.facts().timecode, take.facts().pulse_rate_hz,
+        static_cast<double>(take.bytes()) / 1e6, take.facts().program);
+    for (const auto& rig : json["rigs"])
+        std::cout << fmt::format(
+            "{}: {} frames, {} missing; colour {}, disparity {}\n", rig["name"].get<std::string>(),
+            rig["frames"].get<std::uint64_t>(), rig["missing"].get<std::uint64_t>(),
+            rig["colour"].get<std::string>(), rig["disparity"].get<std::string>());
+    std::cout << fmt::format("camera: {} ticks\n", take.cameras().size());
+    for (const TakeAttachment& attachment : take.facts().attachments)
+        std::cout << fmt::format("attached: {}, {} bytes\n", attachment.name,
+                                 attachment.bytes.size());
+    if (!take.is_ended())
+        std::cout << "its end was never written: all before it is read all the same\n";
+    if (!take.damage().empty())
+        std::cout << fmt::format("{} places are damaged; vantage take check names them\n",
+                                 take.damage().size());
+}
+
+/// A line in the log every tenth of the way.
+std::function<void(double)> progress_of(const std::string& what) {
+    return [what, told = 0](double share) mutable {
+        const auto tenth = static_cast<int>(10 * share);
+        if (tenth <= told) return;
+        told = tenth;
+        log_info("{}: {} %", what, 10 * tenth);
+    };
+}
+
+void check(const TakeOptions& options) {
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    const TakeVerdict verdict = check_take(take, progress_of(options.take));
+    const TimecodeClock clock(take.facts().pulse_rate_hz);
+    const auto code = [&](std::uint64_t pulse) {
+        return clock.of_pulse(pulse, take.facts().tai_offset_s);
+    };
+    std::uint64_t missing = 0;
+    for (const TakeGap& gap : verdict.gaps) missing += gap.pulses();
+    if (options.json) {
+        nlohmann::ordered_json json{{"path", options.take},
+                                    {"whole", verdict.is_whole()},
+                                    {"ended", take.is_ended()},
+                                    {"frames", verdict.frames},
+                                    {"missing", missing}};
+        json["gaps"] = json["damage"] = nlohmann::ordered_json::array();
+        for (const TakeGap& gap : verdict.gaps)
+            json["gaps"].push_back({{"rig", gap.rig},
+                                    {"from_pulse", gap.from},
+                                    {"to_pulse", gap.to},
+                                    {"from", code(gap.from)},
+                                    {"why", gap.why}});
+        for (const TakeDamage& damage : verdict.damage)
+            json["damage"].push_back({{"at_byte", damage.at}, {"what", damage.words}});
+        std::cout << json.dump() << '\n';
+    } else {
+        for (const TakeGap& gap : verdict.gaps)
+            std::cout << fmt::format("{}: {} pulses missing from {} (pulse {}) on{}{}\n", gap.rig,
+                                     gap.pulses(), code(gap.from), gap.from,
+                                     gap.why.empty() ? "" : ": ", gap.why);
+        for (const TakeDamage& damage : verdict.damage)
+            std::cout << fmt::format("byte {}: {}\n", damage.at, damage.words);
+        std::cout << fmt::format("{} frames are as they came\n", verdict.frames);
+    }
+    if (!verdict.is_whole())
+        fail("{} is not whole: {} frames are missing in {} gaps, and {} places are damaged",
+             options.take, missing, verdict.gaps.size(), verdict.damage.size());
+}
+
+/// "12.5": seconds after the take's beginning; "10:00:12:05": the house's time code.
+std::uint64_t pulse_of(const TakeReader& take, const std::string& text, const Span& span) {
+    const PulseGrid pulses(take.facts().pulse_rate_hz);
+    if (text.find(':') == std::string::npos) {
+        std::size_t used = 0;
+        double seconds = -1;
+        try {
+            seconds = std::stod(text, &used);
+        } catch (const std::exception&) {
+        }
+        constexpr double longest_s = 1e7;
+        if (used != text.size() || !(seconds >= 0 && seconds <= longest_s))
+            fail(
+                "'{}' is neither seconds after the beginning, such as 12.5, nor a time code, such "
+                "as {}",
+                text, take.facts().timecode);
+        return span.first + static_cast<std::uint64_t>(std::llround(seconds * pulses.rate_hz()));
+    }
+    const TimecodeClock clock(take.facts().pulse_rate_hz);
+    for (std::uint64_t pulse = span.first; pulse <= span.last + 1; ++pulse)
+        if (clock.of_pulse(pulse, take.facts().tai_offset_s) == text) return pulse;
+    fail("{} is not in {}, which goes from {} to {}", text, take.path().string(),
+         clock.of_pulse(span.first, take.facts().tai_offset_s),
+         clock.of_pulse(span.last, take.facts().tai_offset_s));
+}
+
+void tell(const TakeCopy& copy, const TakeOptions& options) {
+    if (options.json)
+        std::cout << nlohmann::ordered_json{{"path", options.output},
+                                            {"frames", copy.frames},
+                                            {"camera_ticks", copy.cameras},
+                                            {"damaged", copy.damaged},
+                                            {"twice", copy.twice}}
+                         .dump()
+                  << '\n';
+    else
+        std::cout << fmt::format(
+            "{}: {} frames{}{}\n", options.output, copy.frames,
+            copy.damaged > 0 ? fmt::format(", {} damaged ones left out", copy.damaged) : "",
+            copy.twice > 0 ? fmt::format(", {} were there twice", copy.twice) : "");
+}
+
+void cut(const TakeOptions& options) {
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    const Span span = span_of(take);
+    const std::uint64_t from =
+        options.from.empty() ? span.first : pulse_of(take, options.from, span);
+    const std::uint64_t to = options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span);
+    if (from >= to) fail("--from {} is not before --to {}", options.from, options.to);
+    tell(copy_takes({&take}, from, to, options.output, progress_of(options.output)), options);
+}
+
+void join(const TakeOptions& options) {
+    std::vector<std::unique_ptr<TakeReader>> readers;
+    std::vector<const TakeReader*> takes;
+    for (const std::string& take : options.takes) {
+        readers.push_back(std::make_unique<TakeReader>(take));
+        takes.push_back(readers.back().get());
+    }
+    use_zone_of(*takes.front());
+    tell(copy_takes(takes, 0, ~std::uint64_t{0}, options.output, progress_of(options.output)),
+         options);
+}
+
+}  // namespace
+
+CommandEntry take_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<TakeOptions>();
+        CLI::App* take =
+            program.add_subcommand("take", "Takes: what rigs sent, as vantage live --take records");
+        take->require_subcommand(1);
+        const auto add = [&](const char* name, const char* words,
+                             void (*work)(const TakeOptions&)) {
+            CLI::App* command = take->add_subcommand(name, words);
+            command->add_flag("--json", options->json, "For machines");
+            command->callback([options, work] { work(*options); });
+            return command;
+        };
+        const auto add_take = [&](CLI::App* command) {
+            command->add_option("TAKE", options->take, "The take (.mkv)")->required();
+        };
+        add_take(add("info", "What is in a take", info));
+        add_take(add("check",
+                     "Look at every byte: names every gap and damage, and ends with 1 if there is "
+                     "any",
+                     check));
+        CLI::App* cut_command =
+            add("cut", "A part of a take as a new one; nothing is coded anew", cut);
+        add_take(cut_command);
+        cut_command->add_option("--from", options->from,
+                                "Seconds after the beginning, or time code (default: all)");
+        cut_command->add_option("--to", options->to,
+                                "The first that is left out, likewise (default: to the end)");
+        cut_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
+        CLI::App* join_command =
+            add("join", "Several takes of a stage as one, by pulse: of other rigs, or other times",
+                join);
+        join_command->add_option("TAKES", options->takes, "The takes (.mkv)")
+            ->required()
+            ->expected(1, 1000);
+        join_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
+    }};
+}
+
+}  // namespace vantage
