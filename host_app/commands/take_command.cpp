@@ -1,4 +1,3 @@
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -9,11 +8,11 @@
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/time_zone.h"
 #include "common/base/timecode.h"
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
+#include "host_app/commands/take_time.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
@@ -170,32 +169,6 @@ void check(const TakeOptions& options) {
              options.take, missing, verdict.gaps.size(), verdict.damage.size());
 }
 
-/// "12.5": seconds after the take's beginning; "10:00:12:05": the house's time code.
-std::uint64_t pulse_of(const TakeReader& take, const std::string& text, const Span& span) {
-    const PulseGrid pulses(take.facts().pulse_rate_hz);
-    if (text.find(':') == std::string::npos) {
-        std::size_t used = 0;
-        double seconds = -1;
-        try {
-            seconds = std::stod(text, &used);
-        } catch (const std::exception&) {
-        }
-        constexpr double longest_s = 1e7;
-        if (used != text.size() || !(seconds >= 0 && seconds <= longest_s))
-            fail(
-                "'{}' is neither seconds after the beginning, such as 12.5, nor a time code, such "
-                "as {}",
-                text, take.facts().timecode);
-        return span.first + static_cast<std::uint64_t>(std::llround(seconds * pulses.rate_hz()));
-    }
-    const TimecodeClock clock(take.facts().pulse_rate_hz);
-    for (std::uint64_t pulse = span.first; pulse <= span.last + 1; ++pulse)
-        if (clock.of_pulse(pulse, take.facts().tai_offset_s) == text) return pulse;
-    fail("{} is not in {}, which goes from {} to {}", text, take.path().string(),
-         clock.of_pulse(span.first, take.facts().tai_offset_s),
-         clock.of_pulse(span.last, take.facts().tai_offset_s));
-}
-
 void tell(const TakeCopy& copy, const TakeOptions& options) {
     if (options.json)
         std::cout << nlohmann::ordered_json{{"path", options.output},
@@ -217,8 +190,9 @@ void cut(const TakeOptions& options) {
     use_zone_of(take);
     const Span span = span_of(take);
     const std::uint64_t from =
-        options.from.empty() ? span.first : pulse_of(take, options.from, span);
-    const std::uint64_t to = options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span);
+        options.from.empty() ? span.first : pulse_of(take, options.from, span.first, span.last);
+    const std::uint64_t to =
+        options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span.first, span.last);
     if (from >= to) fail("--from {} is not before --to {}", options.from, options.to);
     tell(copy_takes({&take}, from, to, options.output, progress_of(options.output)), options);
 }

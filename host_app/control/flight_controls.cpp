@@ -50,13 +50,19 @@ PilotStep FlightControls::step(double time_s) {
     }
     PilotStep step;
     step.hand = since;
-    step.toggle_hold = hands.toggle_freeze;
     step.next_synthesiser = hands.next_synthesiser;
     step.toggle_source_map = hands.toggle_novelty;
-    step.to_live = hands.to_live;
-    step.past_pulses = hands.past_steps;
+    step.time = {.pulses = hands.past_steps,
+                 .speed_steps = hands.speed_steps,
+                 .toggle_hold = hands.toggle_freeze,
+                 .to_live = hands.to_live,
+                 .mark_in = hands.mark_in,
+                 .mark_out = hands.mark_out,
+                 .clear_marks = hands.clear_marks,
+                 .toggle_loop = hands.toggle_loop,
+                 .cue = hands.cue};
     if (helm_.wheel_mode() == WheelMode::past)
-        step.past_pulses += hands.wheel_steps + hands.shuttle_s * settings_.pulse_rate_hz;
+        step.time.pulses += hands.wheel_steps + hands.shuttle_s * settings_.pulse_rate_hz;
     helm_.take(hands, rig_view_);
     helm_.advance(dt_s);
     step.view = helm_.view();

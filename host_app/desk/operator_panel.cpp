@@ -104,6 +104,26 @@ void draw_corridor_badge(const Coverage& coverage, const UiFonts& fonts) {
     }
 }
 
+std::string speed_words(const PanelTime& time) {
+    return fmt::format("{}{}", time.speed == 0 ? "HOLD" : fmt::format("PLAY {:g}x", time.speed),
+                       time.loops ? " LOOP" : "");
+}
+
+/// A line across the screen: what there is of the past, the part between the marks, and where the
+/// programme is.
+void draw_time_line(const PanelTime& time, float top) {
+    const float width = ImGui::GetIO().DisplaySize.x;
+    const auto x = [&](double share) { return static_cast<float>(share) * width; };
+    ImDrawList& ground = *ImGui::GetBackgroundDrawList();
+    const float bottom = top + 0.35f * em();
+    ground.AddRectFilled({0, top}, {width, bottom}, ImGui::GetColorU32(palette::line));
+    if (time.in || time.out)
+        ground.AddRectFilled({x(time.in.value_or(0)), top}, {x(time.out.value_or(1)), bottom},
+                             ImGui::GetColorU32(palette::good));
+    ground.AddRectFilled({x(time.at) - 2, top}, {x(time.at) + 2, bottom},
+                         ImGui::GetColorU32(palette::accent));
+}
+
 void draw_take_badge(const PanelTake& take, const UiFonts& fonts) {
     if (!take.is_running) {
         badge(fonts, "TAKE ENDED", palette::warn);
@@ -159,8 +179,11 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         badge(fonts, "WAITING FOR RIGS", palette::warn);
     else if (state.behind_s)
         badge(fonts, fmt::format("{:.1f} s BACK", *state.behind_s).c_str(), palette::accent);
+    else if (state.time)
+        badge(fonts, "TAKE", palette::accent);
     else
         badge(fonts, title_of(state.signal), colour_of(state.signal));
+    if (state.time) badge(fonts, speed_words(*state.time).c_str(), palette::accent);
     if (state.coverage) draw_corridor_badge(*state.coverage, fonts);
     if (state.recording) badge(fonts, "REC", palette::bad);
     if (state.take) draw_take_badge(*state.take, fonts);
@@ -423,9 +446,12 @@ void draw_help(const UiFonts& fonts) {
         {"1 .. 9", "fly to a shot (at first: what rig 1 .. 9 sees)"},
         {"Ctrl + 1 .. 9", "keep this view as a shot"},
         {"R", "back to the start"},
-        {"Space", "freeze the instant and fly on"},
+        {"Space", "freeze the instant and fly on; in the past: stop, play on"},
         {", .", "a frame back, a frame on, through what is kept of the past"},
-        {"L", "back to live"},
+        {"[ ]", "play the past slower, faster: from twice back to twice on"},
+        {"I O U B", "mark in, mark out, no marks, loop between them"},
+        {"Home", "to the in mark"},
+        {"L", "back to live; of a take: normal speed"},
         {"P", "play or leave the planned move"},
         {"T", "begin or end a take of what the rigs send"},
         {"F2", "next synthesiser"},
@@ -453,7 +479,11 @@ void draw_help(const UiFonts& fonts) {
 void draw_operator_screen(const PanelState& state, const UiFonts& fonts) {
     draw_picture(state);
     if (state.show_panels) {
-        const float top = draw_top_bar(state, fonts);
+        float top = draw_top_bar(state, fonts);
+        if (state.time) {
+            draw_time_line(*state.time, top);
+            top += 0.35f * em();
+        }
         draw_left_panel(state, fonts, top);
         draw_camera_panel(state, fonts, top);
         if (!state.rigs.empty()) draw_thumbnails(state);

@@ -51,6 +51,13 @@ struct PanelTake {
     std::string failure;
 };
 
+/// Where in the past the programme is: shares of what there is.
+struct PanelTime {
+    double speed = 0, at = 0;
+    std::optional<double> in, out;
+    bool loops = false;
+};
+
 /// All that the operator's screen tells.
 struct PanelState {
     const Texture* picture = nullptr;  ///< the virtual view
@@ -60,7 +67,8 @@ struct PanelState {
     SignalState signal = SignalState::live;
     bool recording = false;          ///< a film
     std::optional<PanelTake> take;   ///< nothing: no take is recorded
-    std::optional<double> behind_s;  ///< while in the past: how far
+    std::optional<double> behind_s;  ///< while in a stage's past: how far
+    std::optional<PanelTime> time;   ///< while in the past, or in a take
     double picture_rate_hz = 0, latency_ms = 0;
     std::vector<float> latency_history_ms;  ///< oldest first
     std::string synthesiser, renderer;

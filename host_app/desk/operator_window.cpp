@@ -93,6 +93,8 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
     // Held, these go on from frame to frame.
     if (action != GLFW_RELEASE && (key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD))
         self.input_.past_steps += key == GLFW_KEY_COMMA ? -1 : 1;
+    if (action != GLFW_RELEASE && (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET))
+        self.input_.speed_steps += key == GLFW_KEY_LEFT_BRACKET ? -1 : 1;
     if (action != GLFW_PRESS) return;
     self.take_key(key, (modifiers & GLFW_MOD_CONTROL) != 0);
 }
@@ -110,6 +112,21 @@ void OperatorWindow::take_key(int key, bool control) {
             break;
         case GLFW_KEY_L:
             input_.to_live = true;
+            break;
+        case GLFW_KEY_I:
+            input_.mark_in = true;
+            break;
+        case GLFW_KEY_O:
+            input_.mark_out = true;
+            break;
+        case GLFW_KEY_U:
+            input_.clear_marks = true;
+            break;
+        case GLFW_KEY_B:
+            input_.toggle_loop = !input_.toggle_loop;
+            break;
+        case GLFW_KEY_HOME:
+            input_.cue = true;
             break;
         case GLFW_KEY_T:
             input_.toggle_take = !input_.toggle_take;

@@ -19,6 +19,12 @@ void FlightInput::add(const FlightInput& other) {
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
     past_steps += other.past_steps;
+    speed_steps += other.speed_steps;
+    mark_in |= other.mark_in;
+    mark_out |= other.mark_out;
+    clear_marks |= other.clear_marks;
+    toggle_loop ^= other.toggle_loop;
+    cue |= other.cue;
     next_wheel_mode |= other.next_wheel_mode;
     if (other.recall_shot != 0) recall_shot = other.recall_shot;
     if (other.store_shot != 0) store_shot = other.store_shot;

@@ -10,6 +10,8 @@ struct FlightInput {
     double dolly = 0, zoom = 0;
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
     bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
+    bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
+    int speed_steps = 0;                  ///< to faster or slower playing of the past
     int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
 
     /// Detents of a jog wheel, clockwise positive.
@@ -29,7 +31,8 @@ struct FlightInput {
     /// True if there is anything in it.
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
-               next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0;
+               next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
+               mark_in || mark_out || clear_marks || toggle_loop || cue || speed_steps != 0;
     }
     bool turns_wheel() const { return wheel_steps != 0 || shuttle_s != 0; }
 

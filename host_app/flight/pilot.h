@@ -4,14 +4,15 @@
 
 #include "common/base/time.h"
 #include "host_app/flight/orbit_view.h"
+#include "host_app/replay/transport_input.h"
 
 namespace vantage {
 
 /// What hands and plans want of one tick.
 struct PilotStep {
     OrbitView view;
-    bool toggle_hold = false, to_live = false, next_synthesiser = false, toggle_source_map = false;
-    double past_pulses = 0;               ///< through the past, either way
+    bool next_synthesiser = false, toggle_source_map = false;
+    TransportInput time{};
     std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in this step
 };
 

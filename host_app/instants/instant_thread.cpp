@@ -138,15 +138,15 @@ std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish,
     // Once only: what is shown stays, though the buffer drops its set meanwhile.
     if (wish.pulse && wish.pulse != fetched_) {
         fetched_ = wish.pulse;
-        std::optional<FrameSet> set = replay_.at(*wish.pulse);
-        if (set && set->trigger_index != shown_pulse) return set;
+        const std::optional<std::uint64_t> there = past().pulse_at(*wish.pulse);
+        if (there && *there != shown_pulse) return past().at(*wish.pulse);
     }
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, patience, [&] { return is_stopping_; });
     return std::nullopt;
 }
 
-std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_live) {
+std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
     std::vector<DepthView> views;
     for (const FrameSet::Slot& slot : set.slots) {
         if (!slot.frame) continue;
@@ -155,7 +155,7 @@ std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_live
         if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
     }
     if (!settings_.harmonise) return views;
-    if (is_live) {
+    if (is_counted) {
         const double pulses = last_harmonised_ && set.trigger_index > *last_harmonised_
                                   ? static_cast<double>(set.trigger_index - *last_harmonised_)
                                   : 0;
@@ -231,7 +231,9 @@ void InstantThread::prepare_instants() {
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
             const bool is_live = !wish.pulse;
-            if (is_live) unprepared_ = *set;
+            // Of a take everything counts; of a stage's past it was counted when it was live.
+            const bool is_counted = is_live || settings_.take;
+            if (is_counted) unprepared_ = *set;
             const std::uint64_t pulse = set->trigger_index;
             const double dt_s =
                 last_pulse_ && pulse > *last_pulse_
@@ -239,7 +241,7 @@ void InstantThread::prepare_instants() {
                     : 2 * longest_gap_s;
             if (dt_s > longest_gap_s) preparer->forget();
             last_pulse_ = pulse;
-            const std::vector<DepthView> views = views_of(*set, is_live);
+            const std::vector<DepthView> views = views_of(*set, is_counted);
             // In the past the camera says nothing of what is needed live.
             if (is_live) ask_for_rigs(views, wish.target);
             preparer->take(views, std::min(dt_s, longest_gap_s));
@@ -251,7 +253,7 @@ void InstantThread::prepare_instants() {
             prepared = wish;
             unprepared_.reset();
             const std::lock_guard lock(mutex_);
-            if (is_live) {
+            if (is_counted) {
                 ++books_.prepared;
                 count_frames(*last_.set, books_.frames);
                 for (const FrameSet::Slot& slot : last_.set->slots) {

@@ -62,6 +62,8 @@ class InstantThread {
         std::size_t replay_bytes = 0;
         bool harmonise = true;
         std::map<std::string, ColourCorrection> colours = {};  ///< by rig
+        /// Of a take, from which all is shown and learnt; null: the replay buffer's.
+        std::shared_ptr<const PastSets> take = nullptr;
     };
     /// `context` is current on no thread. `feed` is read from now on.
     InstantThread(Settings settings, StageFeed feed, const EglContext& context);
@@ -75,11 +77,14 @@ class InstantThread {
     /// The newest that is ready; null before the first. Throws what the feed threw.
     std::shared_ptr<const ReadyInstant> newest() const;
 
-    std::optional<ReplayBuffer::Span> replay_span() const { return replay_.span(); }
+    std::optional<PastSets::Span> past_span() const { return past().span(); }
+    std::optional<std::uint64_t> past_pulse_at(double pulse) const {
+        return past().pulse_at(pulse);
+    }
     ReceiverStatus status() const { return sets_.status(); }
 
     struct Books {
-        std::uint64_t prepared = 0;        ///< live sets
+        std::uint64_t prepared = 0;        ///< live sets, or a take's
         RigCounts frames;                  ///< of them
         NewestSet::Superseded superseded;  ///< also what could not be prepared for a fault
         std::map<std::string, ColourHarmoniser::Rig> harmony;
@@ -97,10 +102,13 @@ class InstantThread {
         std::string synthesiser;
         MakePreparer make;
     };
+    const PastSets& past() const {
+        return settings_.take ? *settings_.take : static_cast<const PastSets&>(replay_);
+    }
     void run();
     void prepare_instants();
     std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse);
-    std::vector<DepthView> views_of(const FrameSet& set, bool is_live);
+    std::vector<DepthView> views_of(const FrameSet& set, bool is_counted);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
     /// `ready` but for its instant, which is prepared.
@@ -114,7 +122,7 @@ class InstantThread {
     ColourHarmoniser harmoniser_;  ///< of the thread
     RigDemand demand_;             ///< of the thread
     std::optional<std::uint64_t> last_pulse_, last_harmonised_;
-    std::optional<double> fetched_;  ///< the pulse that was looked up in the buffer last
+    std::optional<double> fetched_;  ///< the pulse that was looked up in the past last
     std::vector<std::shared_ptr<InstantPreparer>>
         preparers_;                       ///< of the thread; the last is in use
     bool is_retaking_ = false;            ///< of the thread: a new preparer takes what is shown

@@ -148,6 +148,17 @@ std::string corridor_text(const LiveReport& report) {
     return text + '\n';
 }
 
+nlohmann::ordered_json time_json(const LiveReport& report) {
+    const TransportState& time = report.time;
+    nlohmann::ordered_json json{{"shown_pulse", report.shown_pulse}, {"speed", time.speed}};
+    if (time.pulse) json["pulse"] = *time.pulse;
+    if (time.in) json["in"] = *time.in;
+    if (time.out) json["out"] = *time.out;
+    json["loops"] = time.loops;
+    if (!report.played.empty()) json["take"] = report.played;
+    return json;
+}
+
 const char* key_of(TakePhase phase) {
     switch (phase) {
         case TakePhase::none:
@@ -280,6 +291,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         {"duration_s", programme.duration_s}, {"repeated_ticks", programme.repeated},
         {"synthesiser", report.synthesiser},  {"renderer", report.renderer},
         {"signal", key_of(report.signal)}};
+    json["time"] = time_json(report);
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);
@@ -368,34 +380,17 @@ std::string line_of(const char* what, const Percentiles& ms) {
                        ms.p95, ms.p99, ms.max);
 }
 
-}  // namespace
-
-std::string to_text(const LiveReport& report) {
-    const ProgrammeBooks& programme = report.programme;
-    std::string text = fmt::format(
-        "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, {} of {} "
-        "ticks repeated the last one (synthesiser {}, on {})\n",
-        report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
-        report.format.height_px, programme.duration_s, programme.repeated, programme.ticks,
-        report.synthesiser, report.renderer);
-    text += line_of("between two pictures", programme.interval_ms);
-    text += line_of("exposure to picture", programme.latency_ms);
-    if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
-    text +=
-        fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
-                    shares_text(programme.render_shares), shares_text(programme.prepare_shares));
-    text += fmt::format(
-        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
-        "newer one, {} dropped\n",
-        report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
-        report.instants_prepared, report.sets_superseded, report.sets_dropped);
-    text += corridor_text(report) + '\n' + rig_tables(report);
-    if (!report.rigs.empty()) text += counters_legend() + '\n';
-    text += fmt::format("signal at the end: {}\n", title_of(report.signal));
-    text += rig_remarks(report);
+std::string steps_text(const LiveReport& report) {
+    std::string text;
     text += fmt::format("{:<10}  {:>8}  {:>8}\n", "step", "p50 ms", "p95 ms");
     for (const StepTime& step : step_times(report))
         text += fmt::format("{:<10}  {:>8.2f}  {:>8.2f}\n", step.name, step.ms.p50, step.ms.p95);
+    return text;
+}
+
+std::string results_text(const LiveReport& report) {
+    const ProgrammeBooks& programme = report.programme;
+    std::string text;
     if (report.faults > 0)
         text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
                             report.faults);
@@ -420,6 +415,41 @@ std::string to_text(const LiveReport& report) {
         text += fmt::format("film: {}, {} pictures, {} left out because the encoder was busy\n",
                             report.film, report.film_pictures, report.film_dropped);
     return text;
+}
+
+}  // namespace
+
+std::string to_text(const LiveReport& report) {
+    const ProgrammeBooks& programme = report.programme;
+    std::string text = fmt::format(
+        "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, {} of {} "
+        "ticks repeated the last one (synthesiser {}, on {})\n",
+        report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
+        report.format.height_px, programme.duration_s, programme.repeated, programme.ticks,
+        report.synthesiser, report.renderer);
+    text += line_of("between two pictures", programme.interval_ms);
+    if (programme.latency_ms.count > 0)
+        text += line_of("exposure to picture", programme.latency_ms);
+    if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    text +=
+        fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
+                    shares_text(programme.render_shares), shares_text(programme.prepare_shares));
+    if (!report.played.empty()) {
+        text += fmt::format("{} was played: {} instants, the last of pulse {}\n", report.played,
+                            report.instants_prepared, report.shown_pulse);
+        text += corridor_text(report) + steps_text(report) + results_text(report);
+        return text;
+    }
+    text += fmt::format(
+        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
+        "newer one, {} dropped\n",
+        report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
+        report.instants_prepared, report.sets_superseded, report.sets_dropped);
+    text += corridor_text(report) + '\n' + rig_tables(report);
+    if (!report.rigs.empty()) text += counters_legend() + '\n';
+    text += fmt::format("signal at the end: {}\n", title_of(report.signal));
+    text += rig_remarks(report);
+    return text + steps_text(report) + results_text(report);
 }
 
 }  // namespace vantage

@@ -37,6 +37,8 @@ struct LiveReport {
     double rate_hz = 0;  ///< that was asked for
     std::string synthesiser, renderer;
     SignalState signal = SignalState::no_signal;  ///< at the end
+    TransportState time;                          ///< at the end
+    std::uint64_t shown_pulse = 0;                ///< of the last picture
     OrbitView view;                               ///< of the last picture
     CorridorBooks corridor;
     bool free_flight = false;              ///< hands may leave the corridor
@@ -58,7 +60,8 @@ struct LiveReport {
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
-    std::optional<TakeState> take;  ///< nothing: there was none
+    std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
+    std::string played;             ///< the take that was played; empty: the stage was live
 
     std::string film;  ///< path; empty: none
     std::uint64_t film_pictures = 0, film_dropped = 0;

@@ -71,19 +71,23 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
       instants_({.pulse_rate_hz = settings.pulse_rate_hz,
                  .replay_bytes = settings.replay_bytes,
                  .harmonise = settings.harmonise,
-                 .colours = settings.colours},
+                 .colours = settings.colours,
+                 .take = settings.take},
                 std::move(feed), instants_context_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
-          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0, settings.free_flight}, deck,
-          [this](int number) { return rig_view(number); }, [this] { return framing(); },
+          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0 || settings.take,
+           settings.free_flight},
+          deck, [this](int number) { return rig_view(number); }, [this] { return framing(); },
           [this] { return corridor_now(); }),
       programme_({.format = settings.format,
                   .rate_hz = settings.rate_hz,
                   .pulse_rate_hz = settings.pulse_rate_hz,
                   .synthesiser = settings.synthesiser,
                   .quality = settings.quality,
-                  .source_map = settings.source_map},
+                  .source_map = settings.source_map,
+                  .transport = settings.transport,
+                  .ends_with_past = settings.ends_with_take},
                  instants_, controls_) {
     GlInfo::query().require_vantage_minimum();
     if (!settings.film.empty()) {
@@ -130,6 +134,12 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
     return true;
 }
 
+bool LiveShow::wait_for_first_set(StopSignal& stop) {
+    while (!instants_.newest())
+        if (stop.wait_for(std::chrono::milliseconds(5))) return false;
+    return true;
+}
+
 void LiveShow::start() {
     programme_.start(
         [this](std::uint64_t pictures, double time_s) { return plan_.is_over(pictures, time_s); });
@@ -166,7 +176,7 @@ std::optional<StageFraming> LiveShow::framing() {
 
 std::shared_ptr<const Corridor> LiveShow::corridor_now() {
     if (const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
-        ready && ready->is_live)
+        ready && (ready->is_live || settings_.take))
         stage_corridor_.look(*ready->set);
     return stage_corridor_.now();
 }
@@ -185,7 +195,7 @@ std::optional<OrbitView> LiveShow::rig_view(int number) const {
 }
 
 SignalState LiveShow::signal_of(const ReceiverStatus& status, const ProgrammeState& state) const {
-    return signal_state(status, state.is_held || state.behind_s.has_value(),
+    return signal_state(status, state.time.is_held || state.time.pulse,
                         PulseGrid(settings_.pulse_rate_hz).period(), MonotonicClock::now());
 }
 
@@ -201,6 +211,8 @@ LiveReport LiveShow::report() const {
     report.view = state.view;
     report.renderer = renderer_;
     report.signal = signal_of(status, state);
+    report.time = state.time;
+    if (state.picture) report.shown_pulse = state.picture->job.instant->set->trigger_index;
     report.corridor = controls_.lines().corridor;
     report.free_flight = settings_.free_flight;
     report.instants_prepared = instants.prepared;

@@ -30,6 +30,9 @@ struct LiveSettings {
     bool free_flight = false;                   ///< hands may leave the corridor
     bool harmonise = true;                      ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
+    std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
+    Transport transport = {};                              ///< at first
+    bool ends_with_take = false;                           ///< where it is played to its end
 };
 
 /// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
@@ -46,6 +49,9 @@ class LiveShow {
     /// there and says which are missing. Throws Error, with every rig's state, if none came, and at
     /// once if all rigs refuse this host. False: the program was asked to stop meanwhile.
     bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+
+    /// Of a take: until its first instant is ready. False: the program was asked to stop meanwhile.
+    bool wait_for_first_set(StopSignal& stop);
 
     /// Another output. Before start().
     void add(std::unique_ptr<PictureSink> sink) { programme_.add(std::move(sink)); }

@@ -31,6 +31,22 @@ bool is_at_rig(const std::string& step) {
     return step == "capture" || step == "rectify" || step == "match" || step == "pack";
 }
 
+std::optional<PanelTime> panel_time(const ProgrammeState& programme) {
+    if (!programme.time.pulse || !programme.past) return std::nullopt;
+    const auto oldest = static_cast<double>(programme.past->oldest);
+    const double length = std::max(1.0, static_cast<double>(programme.past->newest) - oldest);
+    const auto share = [&](double pulse) {
+        return std::clamp((pulse - oldest) / length, 0.0, 1.0);
+    };
+    PanelTime time;
+    time.speed = programme.time.speed;
+    time.at = share(*programme.time.pulse);
+    if (programme.time.in) time.in = share(static_cast<double>(*programme.time.in));
+    if (programme.time.out) time.out = share(static_cast<double>(*programme.time.out));
+    time.loops = programme.time.loops;
+    return time;
+}
+
 std::optional<PanelTake> panel_take(const TakeState& take) {
     if (take.phase == TakePhase::none && take.failure.empty()) return std::nullopt;
     PanelTake panel;
@@ -147,6 +163,7 @@ PanelState PanelFeed::state(LiveShow& show, const std::optional<TakeState>& take
     }
     state_.take = take ? panel_take(*take) : std::nullopt;
     state_.behind_s = programme.behind_s;
+    state_.time = panel_time(programme);
     state_.latency_history_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.synthesiser = programme.synthesiser;
     state_.render_level = programme.render_level;

@@ -52,6 +52,7 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       contexts_{EglContext::sharing_with_current(), EglContext::sharing_with_current()},
       still_context_(EglContext::sharing_with_current()),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
+      transport_(settings_.transport),
       entry_(find_synthesiser(settings_.synthesiser)),
       source_map_(settings_.source_map) {
     // The first instant is prepared for where the camera begins.
@@ -145,6 +146,9 @@ void Programme::run() {
         tick = next;
         const std::lock_guard lock(mutex_);
         if (is_over_(books_.ticks, due_s)) return;
+        if (settings_.ends_with_past && transport_.is_at_end() && shown_ &&
+            instants_.past_pulse_at(*transport_.pulse()) == shown_->job.instant->set->trigger_index)
+            return;
     }
 }
 
@@ -152,11 +156,12 @@ bool Programme::look(double time_s, MonotonicTime now) {
     const PilotStep step = pilot_.step(time_s);
     if (step.hand && !hand_) hand_ = step.hand;
     instant_ = instants_.newest();
-    const std::optional<ReplayBuffer::Span> span = instants_.replay_span();
-    if (step.toggle_hold) transport_.toggle_hold();
-    if (step.to_live) transport_.to_live();
-    if (step.past_pulses != 0 && instant_)
-        transport_.travel(step.past_pulses, instant_->set->trigger_index, span);
+    const std::optional<PastSets::Span> span = instants_.past_span();
+    // Time begins with the first picture.
+    if (shown_ && last_look_s_)
+        transport_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
+    last_look_s_ = time_s;
+    if (instant_) transport_.take(step.time, instant_->set->trigger_index, span);
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
         const std::vector<SynthesiserEntry> all = synthesiser_entries();
@@ -170,7 +175,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         begun_still_.reset();
     }
     const CameraState camera = step.view.camera();
-    if (!is_same_view(camera, camera_) || step.past_pulses != 0 || step.toggle_hold || step.to_live)
+    if (!is_same_view(camera, camera_) || step.time.is_any() || transport_.is_moving())
         changed_ = now;
     view_ = step.view;
     camera_ = camera;
@@ -178,9 +183,10 @@ bool Programme::look(double time_s, MonotonicTime now) {
     {
         const std::lock_guard lock(mutex_);
         state_.view = view_;
-        state_.is_held = transport_.is_held();
+        state_.time = transport_.state();
+        state_.past = span;
         state_.source_map = source_map_;
-        state_.behind_s = transport_.pulse() && span
+        state_.behind_s = transport_.pulse() && span && !transport_.is_of_take()
                               ? std::optional(std::max(
                                     0.0, (static_cast<double>(span->newest) - *transport_.pulse()) /
                                              settings_.pulse_rate_hz))
@@ -201,13 +207,12 @@ bool Programme::look(double time_s, MonotonicTime now) {
 }
 
 void Programme::wish_for_instant(MonotonicTime now) {
-    const bool is_resting = !transport_.is_live() && now - changed_ > rest;
+    const bool is_resting = !transport_.is_moving() && now - changed_ > rest;
     instants_.wish(
         {transport_.pulse(), transport_.is_held(),
          view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
          is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare()});
-    if (instant_ && instant_->is_live && instant_->number != seen_prepared_ &&
-        transport_.is_live()) {
+    if (instant_ && instant_->number != seen_prepared_ && transport_.is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);
     }
@@ -219,7 +224,7 @@ void Programme::begin_picture() {
 }
 
 void Programme::better_what_is_held(MonotonicTime now) {
-    if (settings_.quality.level || transport_.is_live() || now - changed_ < rest || !instant_ ||
+    if (settings_.quality.level || transport_.is_moving() || now - changed_ < rest || !instant_ ||
         !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
         return;
     if (retired_still_) return;
@@ -286,7 +291,7 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
         }
         if (!is_new && still_maker_) {
             fresh = still_maker_->take_finished();
-            if (fresh && (transport_.is_live() || !is_same_view(fresh->job.camera, camera_) ||
+            if (fresh && (transport_.is_moving() || !is_same_view(fresh->job.camera, camera_) ||
                           fresh->job.instant != instant_))
                 fresh.reset();
         }

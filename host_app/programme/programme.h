@@ -47,8 +47,10 @@ struct ProgrammeBooks {
 struct ProgrammeState {
     std::shared_ptr<const MadePicture> picture;  ///< null before the first
     OrbitView view;
-    bool is_held = false, source_map = false;
-    std::optional<double> behind_s;  ///< in the past: how far
+    bool source_map = false;
+    TransportState time;
+    std::optional<PastSets::Span> past;  ///< that there is
+    std::optional<double> behind_s;      ///< in a stage's past: how far
     std::string synthesiser;
     int render_level = 0, prepare_level = 0;
     double latency_ms = 0;
@@ -65,6 +67,8 @@ class Programme {
         std::string synthesiser = default_synthesiser;
         QualityWish quality;
         bool source_map = false;  ///< shown at first
+        Transport transport = {};
+        bool ends_with_past = false;  ///< once the end of what is played is shown
     };
     /// Makes contexts that share with the current one. Runs from start() on. `pilot` and `instants`
     /// must outlive it.
@@ -114,6 +118,7 @@ class Programme {
     // Of the programme's thread.
     Governor governor_;
     Transport transport_;
+    std::optional<double> last_look_s_;
     SynthesiserEntry entry_;   ///< that is wanted
     std::size_t context_ = 0;  ///< of maker_
     std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;

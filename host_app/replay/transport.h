@@ -3,38 +3,61 @@
 #include <cstdint>
 #include <optional>
 
-#include "host_app/sets/replay_buffer.h"
+#include "host_app/replay/transport_input.h"
+#include "host_app/sets/past_sets.h"
 
 namespace vantage {
 
+/// How it stands, for the desk.
+struct TransportState {
+    bool is_held = false;
+    std::optional<double> pulse;  ///< nothing: live
+    double speed = 0;
+    std::optional<std::uint64_t> in, out;  ///< `out` is the first that is left out
+    bool loops = false;
+};
+
 /// Where in time the programme is: live, held on the instant that is shown, or at a pulse of the
-/// replay buffer. Recording and what arrives go on whatever it says.
+/// past, standing or playing at a speed from -2 to 2. The past is the replay buffer's, or a take's,
+/// which has no live. Recording and what arrives go on whatever it says.
 class Transport {
   public:
-    void toggle_hold() { is_held_ = !is_held_; }
-    /// The newest instant, from now on.
-    void to_live() {
-        pulse_.reset();
-        is_held_ = false;
-    }
-    /// Goes by so many pulses, either way, from the pulse that is shown, and stays there.
-    void travel(double pulses, std::uint64_t shown_pulse,
-                const std::optional<ReplayBuffer::Span>& span) {
-        if (!span) return;
-        const double from = pulse_.value_or(static_cast<double>(shown_pulse));
-        pulse_ = from + pulses;
-        if (*pulse_ < static_cast<double>(span->oldest)) pulse_ = static_cast<double>(span->oldest);
-        if (*pulse_ > static_cast<double>(span->newest)) pulse_ = static_cast<double>(span->newest);
-    }
+    Transport() = default;
+    /// In a take: at the pulse, playing.
+    static Transport of_take(double pulse, double speed);
 
-    bool is_live() const { return !pulse_ && !is_held_; }
-    bool is_held() const { return is_held_; }
+    /// What hands want, of the pulse that is shown.
+    void take(const TransportInput& input, std::uint64_t shown_pulse,
+              const std::optional<PastSets::Span>& span);
+    /// Time goes by. At the out mark, or the end of what there is, it stops, or begins again at the
+    /// in mark where it loops; playing that comes up to the newest pulse of a stage is live again.
+    void advance(double dt_s, double pulse_rate_hz, const std::optional<PastSets::Span>& span);
+
+    /// From `in` to before `out`.
+    void mark(std::optional<std::uint64_t> in, std::optional<std::uint64_t> out);
+    void set_loop(bool loops) { state_.loops = loops; }
+
+    bool is_of_take() const { return is_of_take_; }
+    bool is_live() const { return !state_.pulse && !state_.is_held; }
+    bool is_held() const { return state_.is_held; }
+    /// What is shown changes by itself.
+    bool is_moving() const { return is_live() || (state_.pulse && state_.speed != 0); }
+    /// It played to an end and stopped there.
+    bool is_at_end() const { return is_at_end_; }
     /// In the past: the pulse.
-    std::optional<double> pulse() const { return pulse_; }
+    std::optional<double> pulse() const { return state_.pulse; }
+    const TransportState& state() const { return state_; }
 
   private:
-    bool is_held_ = false;
-    std::optional<double> pulse_;
+    void toggle_hold();
+    void to_live();
+    void go_to(double pulse, const PastSets::Span& span);
+    void change_speed(int steps);
+    void arrive(double at, double again_at);
+
+    TransportState state_;
+    bool is_of_take_ = false, is_at_end_ = false;
+    double last_speed_ = 1;
 };
 
 }  // namespace vantage

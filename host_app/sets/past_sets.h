@@ -14,8 +14,10 @@ class PastSets {
   public:
     virtual ~PastSets() = default;
 
-    /// The newest set that is not later than the pulse, else the oldest there is; empty if none is.
-    /// Decodes it.
+    /// Of the newest set that is not later than `pulse`, else of the oldest there is; empty if none
+    /// is.
+    virtual std::optional<std::uint64_t> pulse_at(double pulse) const = 0;
+    /// That set. Decodes it.
     virtual std::optional<FrameSet> at(double pulse) const = 0;
 
     struct Span {

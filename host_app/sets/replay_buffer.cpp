@@ -49,16 +49,29 @@ void ReplayBuffer::add(const FrameSet& set) {
     }
 }
 
+/// Null if there is none. Precondition: mutex_ is held.
+const ReplayBuffer::Kept* ReplayBuffer::find(double pulse) const {
+    if (kept_.empty()) return nullptr;
+    const auto later =
+        std::upper_bound(kept_.begin(), kept_.end(), pulse, [](double wanted, const Kept& each) {
+            return wanted < static_cast<double>(each.trigger_index);
+        });
+    return later == kept_.begin() ? &kept_.front() : &*std::prev(later);
+}
+
+std::optional<std::uint64_t> ReplayBuffer::pulse_at(double pulse) const {
+    const std::lock_guard lock(mutex_);
+    const Kept* kept = find(pulse);
+    return kept ? std::optional(kept->trigger_index) : std::nullopt;
+}
+
 std::optional<FrameSet> ReplayBuffer::at(double pulse) const {
     Kept kept;
     {
         const std::lock_guard lock(mutex_);
-        if (kept_.empty()) return std::nullopt;
-        const auto later = std::upper_bound(
-            kept_.begin(), kept_.end(), pulse, [](double wanted, const Kept& each) {
-                return wanted < static_cast<double>(each.trigger_index);
-            });
-        kept = later == kept_.begin() ? kept_.front() : *std::prev(later);
+        const Kept* found = find(pulse);
+        if (!found) return std::nullopt;
+        kept = *found;
     }
     std::vector<std::future<std::shared_ptr<const RigFrame>>> decoding;
     for (const Slot& slot : kept.slots)

@@ -24,6 +24,7 @@ class ReplayBuffer final : public PastSets {
     /// since the stage has. A set that does not fit alone is not kept.
     void add(const FrameSet& set);
 
+    std::optional<std::uint64_t> pulse_at(double pulse) const override;
     std::optional<FrameSet> at(double pulse) const override;
     std::optional<Span> span() const override;
 
@@ -41,6 +42,7 @@ class ReplayBuffer final : public PastSets {
         std::size_t bytes = 0;
     };
     static Kept kept_of(const FrameSet& set);
+    const Kept* find(double pulse) const;
 
     std::size_t max_bytes_;
     mutable std::mutex mutex_;

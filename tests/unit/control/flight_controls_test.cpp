@@ -108,9 +108,9 @@ TEST_F(FlightControlsTest, HoldsItsPoseWhileNoHandMoves) {
     for (int i = 0; i < 20; ++i) {
         const PilotStep still = step();
         EXPECT_FALSE(still.hand);
-        EXPECT_FALSE(still.toggle_hold || still.to_live || still.next_synthesiser ||
+        EXPECT_FALSE(still.time.toggle_hold || still.time.to_live || still.next_synthesiser ||
                      still.toggle_source_map);
-        EXPECT_EQ(still.past_pulses, 0);
+        EXPECT_EQ(still.time.pulses, 0);
     }
     EXPECT_EQ(azimuth_rad_, before_rad);
 }
@@ -139,8 +139,8 @@ TEST_F(FlightControlsTest, TheShuttleMovesTheNextStepAndAllAfterIt) {
 
 TEST_F(FlightControlsTest, TheStepAfterTheFreezeButtonHolds) {
     push_button(3);
-    EXPECT_TRUE(step().toggle_hold);
-    EXPECT_FALSE(step().toggle_hold);
+    EXPECT_TRUE(step().time.toggle_hold);
+    EXPECT_FALSE(step().time.toggle_hold);
 }
 
 TEST_F(FlightControlsTest, HoldsItsPoseWithoutTheWheelAndGoesOnWhenItIsBack) {
@@ -167,11 +167,11 @@ TEST_F(FlightControlsTest, TheWheelGoesThroughThePastPulseByPulse) {
     ASSERT_NE(controls_.lines().wheel.find("past"), std::string::npos) << controls_.lines().wheel;
     const double before_rad = azimuth_rad_;
     turn(-3);
-    EXPECT_EQ(step().past_pulses, -3);
-    EXPECT_EQ(step().past_pulses, 0);
+    EXPECT_EQ(step().time.pulses, -3);
+    EXPECT_EQ(step().time.pulses, 0);
     send({5, detent_, 0, 0, 0});
     double pulses = 0;
-    for (int i = 0; i < 50; ++i) pulses += step().past_pulses;
+    for (int i = 0; i < 50; ++i) pulses += step().time.pulses;
     EXPECT_GT(pulses, 1) << "forward, by the ring";
     EXPECT_LE(pulses, 2 * 25 + 1e-9) << "at most at twice the stage's rate";
     EXPECT_EQ(azimuth_rad_, before_rad) << "the camera stays";
@@ -188,9 +188,9 @@ TEST_F(FlightControlsTest, MouseAndWheelMeetInOneStep) {
                           earlier);
     const double before_rad = azimuth_rad_;
     const PilotStep both = step();
-    EXPECT_TRUE(both.toggle_hold && both.next_synthesiser && both.to_live &&
+    EXPECT_TRUE(both.time.toggle_hold && both.next_synthesiser && both.time.to_live &&
                 both.toggle_source_map);
-    EXPECT_EQ(both.past_pulses, -2);
+    EXPECT_EQ(both.time.pulses, -2);
     EXPECT_GT(std::abs(azimuth_rad_ - before_rad), 1e-4);
     EXPECT_EQ(both.hand, earlier) << "the earlier of the two hands";
 }

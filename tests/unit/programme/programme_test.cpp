@@ -350,8 +350,8 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
         const auto picture = programme_->state().picture;
         return picture && picture->job.instant->instant->level > 0;
     }));
-    pilot_.next([](PilotStep& step) { step.toggle_hold = true; });
-    ASSERT_TRUE(wait_for([&] { return programme_->state().is_held; }));
+    pilot_.next([](PilotStep& step) { step.time.toggle_hold = true; });
+    ASSERT_TRUE(wait_for([&] { return programme_->state().time.is_held; }));
     *sleep_ms_ = 0;
     ASSERT_TRUE(wait_for([&] {
         const auto picture = programme_->state().picture;
@@ -363,9 +363,9 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
     pilot_.turn(0.01);
     ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 5; }));
     EXPECT_EQ(shown_pulse(), held) << "the camera flies and time stands";
-    pilot_.next([](PilotStep& step) { step.toggle_hold = true; });
+    pilot_.next([](PilotStep& step) { step.time.toggle_hold = true; });
     EXPECT_TRUE(wait_for_pulse(pulse + 10)) << "what came meanwhile";
-    EXPECT_FALSE(programme_->state().is_held);
+    EXPECT_FALSE(programme_->state().time.is_held);
 }
 
 TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
@@ -377,20 +377,20 @@ TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
     EXPECT_FALSE(programme_->state().behind_s);
-    pilot_.next([](PilotStep& step) { step.past_pulses = -2; });
+    pilot_.next([](PilotStep& step) { step.time.pulses = -2; });
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_NEAR(*programme_->state().behind_s, 2 / rate_hz, 1e-9);
     push(6);
     ASSERT_TRUE(wait_for([&] { return *programme_->state().behind_s > 2.5 / rate_hz; }))
         << "it stands while the stage goes on";
     EXPECT_EQ(shown_pulse(), 3u);
-    pilot_.next([](PilotStep& step) { step.past_pulses = 1; });
+    pilot_.next([](PilotStep& step) { step.time.pulses = 1; });
     ASSERT_TRUE(wait_for_pulse(4));
-    pilot_.next([](PilotStep& step) { step.past_pulses = -100; });
+    pilot_.next([](PilotStep& step) { step.time.pulses = -100; });
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.next([](PilotStep& step) { step.past_pulses = 100; });
+    pilot_.next([](PilotStep& step) { step.time.pulses = 100; });
     ASSERT_TRUE(wait_for_pulse(6));
-    pilot_.next([](PilotStep& step) { step.to_live = true; });
+    pilot_.next([](PilotStep& step) { step.time.to_live = true; });
     push(7);
     ASSERT_TRUE(wait_for_pulse(7));
     EXPECT_FALSE(programme_->state().behind_s);
@@ -405,10 +405,10 @@ TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
-    pilot_.next([](PilotStep& step) { step.past_pulses = -2; });
+    pilot_.next([](PilotStep& step) { step.time.pulses = -2; });
     ASSERT_TRUE(wait_for_pulse(1));
     for (std::uint64_t pulse = 4; pulse <= 12; ++pulse) push(pulse);
-    ASSERT_TRUE(wait_for([&] { return instants_->replay_span()->oldest == 10; }));
+    ASSERT_TRUE(wait_for([&] { return instants_->past_span()->oldest == 10; }));
     const std::uint64_t before = programme_->books().pictures;
     pilot_.turn(0.01);
     ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 10; }));

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/time_zone.h"
+#include "host_app/commands/show_session.h"
+#include "host_app/commands/take_time.h"
+#include "host_app/takes/take_sets.h"
+#include "host_app/takes/take_show.h"
+
+namespace vantage {
+namespace {
+
+struct PlayOptions {
+    ShowOptions show;
+    std::string take, from, to;
+    double speed = 1;
+    bool loops = false;
+};
+
+Transport transport_of(const PlayOptions& options, const TakeReader& take,
+                       const PastSets::Span& span) {
+    std::optional<std::uint64_t> in, out;
+    if (!options.from.empty()) in = pulse_of(take, options.from, span.oldest, span.newest);
+    if (!options.to.empty()) out = pulse_of(take, options.to, span.oldest, span.newest);
+    if (in && *in > span.newest)
+        fail("--from {} is after the end of {}", options.from, options.take);
+    if (in.value_or(span.oldest) >= out.value_or(span.newest + 1))
+        fail("--from {} is not before --to {}", options.from, options.to);
+    const std::uint64_t last = std::min(out.value_or(span.newest + 1) - 1, span.newest);
+    const std::uint64_t begin = options.speed < 0 ? last : in.value_or(span.oldest);
+    Transport transport = Transport::of_take(static_cast<double>(begin), options.speed);
+    transport.mark(in, out);
+    transport.set_loop(options.loops);
+    return transport;
+}
+
+void play(const PlayOptions& options) {
+    // Before any other thread, so that they leave the signals to it.
+    StopSignal stop;
+    const auto take = std::make_shared<const TakeReader>(options.take);
+    const TakeShow told = take_show_from(take->facts().show);
+    if (is_time_zone(told.timecode_zone)) use_time_zone(told.timecode_zone);
+    const auto sets = std::make_shared<const TakeSets>(take);
+    FlightPlan plan = options.show.plan(told.view);
+    LiveSettings settings = options.show.settings(told.view, take->facts().pulse_rate_hz);
+    settings.colours = told.colours;
+    settings.take = sets;
+    settings.transport = transport_of(options, *take, *sets->span());
+    // What nobody steers ends with the take.
+    const bool has_hands = options.show.jog.value_or(!options.show.headless);
+    settings.ends_with_take = options.show.headless && !has_hands && !plan.frames && !plan.seconds;
+    if (settings.ends_with_take && (options.loops || options.speed == 0))
+        fail("what loops or stands has no end: say --frames or --seconds with --headless");
+    const std::unique_ptr<JogDeck> deck = options.show.make_deck();
+    LiveShow show(settings, plan, feed_of(*take), deck.get());
+    ShowSession session{
+        options.show, show, plan, deck.get(), nullptr, options.take, [&](StopSignal& signal) {
+            return show.wait_for_first_set(signal);
+        }};
+    session.run(stop);
+}
+
+}  // namespace
+
+CommandEntry play_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<PlayOptions>();
+        CLI::App* command = program.add_subcommand(
+            "play", "All of vantage live on a take: scrub, freeze, fly, put out");
+        command->add_option("TAKE", options->take, "The take (.mkv)")->required();
+        command->add_option("--from", options->from,
+                            "In mark: seconds after the beginning, or time code");
+        command->add_option("--to", options->to,
+                            "Out mark, the first that is not played, likewise");
+        command->add_option("--speed", options->speed, "-2 to 2; 1 is as it was, 0 stands")
+            ->check(CLI::Range(-2.0, 2.0))
+            ->capture_default_str();
+        command->add_flag("--loop", options->loops, "From the out mark on at the in mark");
+        options->show.add_to(*command, "the stage's");
+        command->footer(
+            "Without --headless a window opens: space stops and plays on, [ and ] change the "
+            "speed, F1 helps.\nThe summary goes to stdout, the log to stderr.");
+        command->callback([options] { play(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,230 @@
+#include "host_app/commands/show_session.h"
+
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+
+#include <fmt/ranges.h>
+
+#include "common/base/error.h"
+#include "common/gl/limits.h"
+#include "common/image/image_file.h"
+#include "host_app/desk/operator_window.h"
+#include "host_app/live/corridor_watch.h"
+#include "host_app/live/panel_feed.h"
+#include "host_app/live/progress_log.h"
+#include "host_app/output/picture_target.h"
+
+namespace vantage {
+namespace {
+
+/// "1280x720", each side 16..4096.
+cv::Size parse_size(const std::string& text) {
+    int width = 0, height = 0, used = 0;
+    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
+        static_cast<std::size_t>(used) != text.size() || width < 16 || height < 16 ||
+        width > PiLimits::max_image_side_px || height > PiLimits::max_image_side_px)
+        fail("--size is WIDTHxHEIGHT with 16 to {} pixels each, such as 1280x720, not '{}'",
+             PiLimits::max_image_side_px, text);
+    return {width, height};
+}
+
+OrbitView start_view(const StageConfig::View& view) {
+    constexpr double rad = std::numbers::pi / 180;
+    OrbitView start;
+    start.pivot_m = {view.target_m[0], view.target_m[1], view.target_m[2]};
+    start.azimuth_rad = view.azimuth_deg * rad;
+    start.elevation_rad = view.elevation_deg * rad;
+    start.distance_m = view.distance_m;
+    start.field_of_view_rad = view.field_of_view_deg * rad;
+    return start;
+}
+
+}  // namespace
+
+LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_rate_hz) const {
+    LiveSettings settings{.format = {.width_px = view.width_px,
+                                     .height_px = view.height_px,
+                                     .stereoscopy = stereoscopic.stereoscopy()},
+                          .rate_hz = rate_hz > 0 ? rate_hz : pulse_rate_hz,
+                          .pulse_rate_hz = pulse_rate_hz,
+                          .synthesiser = synthesiser.empty() ? view.synthesiser : synthesiser,
+                          .quality = QualityWish::parse(quality),
+                          .source_map = novelty,
+                          .film = film,
+                          .contact_sheet = contact_sheet,
+                          .free_flight = free_flight,
+                          .harmonise = harmonise};
+    if (!size.empty()) {
+        const cv::Size wanted = parse_size(size);
+        settings.format.width_px = wanted.width;
+        settings.format.height_px = wanted.height;
+    }
+    std::error_code ignored;
+    if (!settings.film.empty() && !overwrite && std::filesystem::exists(settings.film, ignored))
+        fail(
+            "{} is there already, and a film is not replaced without being asked: take another "
+            "name, or --overwrite",
+            settings.film.string());
+    if (!settings.film.empty() &&
+        (settings.format.width_px % 2 != 0 || settings.format.height_px % 2 != 0))
+        fail("a film of {}x{} cannot be recorded: its sides have to be even",
+             settings.format.width_px, settings.format.height_px);
+    (void)find_synthesiser(settings.synthesiser);
+    return settings;
+}
+
+FlightPlan ShowOptions::plan(const StageConfig::View& view) const {
+    FlightPlan plan;
+    if (view.is_placed) plan.start = start_view(view);
+    if (!path.empty()) plan.move = Move::load(path);
+    if (frames > 0) plan.frames = frames;
+    if (seconds > 0) plan.seconds = seconds;
+    for (const std::string& picture : {snapshot, contact_sheet})
+        if (!picture.empty()) require_picture_target(picture);
+    return plan;
+}
+
+std::unique_ptr<JogDeck> ShowOptions::make_deck() const {
+    if (!jog.value_or(!headless)) return nullptr;
+    return std::make_unique<JogDeck>(make_system_jog_bus(), load_wheel_profiles(wheels));
+}
+
+void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
+    command.add_flag("--headless", headless, "No window");
+    command
+        .add_option("--frames", frames,
+                    "End after this many pictures (default, without a window: at the end of a move "
+                    "that does not loop)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--seconds", seconds, "End after this time")->check(CLI::Range(0.01, 1e6));
+    command.add_option("--path", path, "Fly this move (TOML)");
+    command.add_option("--snapshot", snapshot,
+                       "Write the last picture (.png, .jpg); of a window, the panels too");
+    command.add_option("--record", film,
+                       "Write the flight as a film (.mkv, .mp4), with the house's time code");
+    command.add_option("--contact-sheet", contact_sheet,
+                       "Write stills of the flight, with a rig's colour and disparity");
+    command.add_flag("--free-flight", free_flight,
+                     "Let hands fly beyond what the rigs cover; without this the camera is slowed "
+                     "towards the end of its corridor and stands there");
+    command.add_option("--rate", rate_hz, "Pictures a second (default: " + default_rate + " rate)")
+        ->check(CLI::Range(0.1, 240.0));
+    command.add_option("--size", size,
+                       "Of the picture, WIDTHxHEIGHT (default: " + default_rate + ")");
+    command.add_option("--synth", synthesiser,
+                       "Synthesiser (default: " + default_rate + "; see render --help)");
+    command.add_flag("--overwrite", overwrite, "Let --record replace a film that is there");
+    command.add_flag_callback(
+        "--no-harmonise", [this] { harmonise = false; },
+        "Leave the rigs' colours as the calibration makes them; without this, small gains take out "
+        "slowly what differs where rigs show the same surface");
+    command.add_flag("--novelty", novelty,
+                     "Show which rigs the pixels come from, a colour a rig, what none has seen "
+                     "hatched (key N); on screen and in snapshots, never in films");
+    command
+        .add_option("--quality", quality,
+                    "auto: as good as the ticks allow; best; or a level from 0 (the best) on")
+        ->capture_default_str();
+    stereoscopic.add_to(command, "the camera's distance from its pivot");
+    command.add_flag_callback(
+        "--jog", [this] { jog = true; },
+        "Let jog wheels fly without a window too (with one they do)");
+    command.add_flag_callback(
+        "--no-jog", [this] { jog = false; }, "Leave jog wheels alone");
+    command.add_option("--wheels", wheels,
+                       "What the controls of wheels do: a file like those in hw_config/jog, or a "
+                       "folder of them (TOML)");
+    command.add_flag("--json", json, "Write the summary as one JSON object");
+}
+
+void ShowSession::run(StopSignal& stop) {
+    if (options.headless)
+        run_headless(stop);
+    else
+        run_in_window(stop);
+}
+
+/// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
+/// the names of outputs that failed, a take among them.
+void ShowSession::finish(const CorridorWatch& corridor,
+                         const std::function<ColourImage()>& last_picture) {
+    show.finish();
+    if (takes) takes->finish();
+    LiveReport report = show.report();
+    if (takes && takes->state().takes > 0) report.take = takes->state();
+    report.played = played;
+    report.uncovered = corridor.uncovered_parts();
+    if (deck) report.wheels = deck->devices();
+    if (options.json)
+        std::cout << to_json(report).dump() << '\n';
+    else
+        std::cout << to_text(report);
+    if (report.programme.pictures > 0 && !options.snapshot.empty())
+        write_colour_image(options.snapshot, last_picture());
+    std::vector<std::string> failures = failures_of(report.programme.sinks);
+    if (report.take && report.take->phase == TakePhase::failed)
+        failures.push_back(report.take->failure);
+    if (!failures.empty())
+        fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
+}
+
+void ShowSession::run_headless(StopSignal& stop) {
+    if (!wait(stop)) return;
+    // A disk that is too slow is to be known before the first picture.
+    while (takes && takes->state().phase == TakePhase::opening &&
+           !stop.wait_for(std::chrono::milliseconds(20)))
+        ;
+    if (takes && takes->state().phase == TakePhase::failed) fail("{}", takes->state().failure);
+    show.start();
+    ProgressLog progress(plan);
+    CorridorWatch corridor(plan);
+    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) {
+        progress.tell(show);
+        corridor.tell(show);
+    }
+    finish(corridor, [&] {
+        const auto last = show.state().picture;
+        return last->sources ? last->sources->picture : last->picture;
+    });
+}
+
+void ShowSession::run_in_window(StopSignal& stop) {
+    // However small the picture, there is room for what an operator reads.
+    constexpr double least_width_px = 960;
+    const PictureFormat& format = show.settings().format;
+    const double larger = std::max(1.0, least_width_px / format.width_px);
+    OperatorWindow window("Vantage", cvRound(larger * format.width_px),
+                          cvRound(larger * format.height_px));
+    show.start();
+    PanelFeed panel;
+    ProgressLog progress(plan);
+    CorridorWatch corridor(plan);
+    // Hands are looked at at a rate of its own; the screen is drawn with every new picture, and now
+    // and then without one: where the processor draws, it has better things to do.
+    constexpr std::chrono::milliseconds period{16}, longest_unchanged{200};
+    MonotonicTime last = MonotonicClock::now(), drawn{};
+    std::shared_ptr<const MadePicture> shown;
+    while (!show.is_over() && !window.closed() &&
+           !stop.wait_for(
+               std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
+        const MonotonicTime now = MonotonicClock::now();
+        const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
+        if (takes && input.toggle_take) takes->toggle();
+        show.controls().hands().put(input, now);
+        last = now;
+        if (const auto picture = show.state().picture;
+            picture != shown || now - drawn > longest_unchanged) {
+            shown = picture;
+            drawn = now;
+            window.show(panel.state(show, takes ? std::optional(takes->state()) : std::nullopt));
+        } else {
+            window.leave();
+        }
+        progress.tell(show);
+        corridor.tell(show);
+    }
+    finish(corridor, [&] { return window.screenshot(); });
+}
+
+}  // namespace vantage

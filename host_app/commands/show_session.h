@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/stop_signal.h"
+#include "common/config/stage_config.h"
+#include "host_app/commands/stereoscopic_options.h"
+#include "host_app/live/live_show.h"
+#include "host_app/takes/take_desk.h"
+
+namespace vantage {
+
+/// The options that every show has, be it live or of a take.
+struct ShowOptions {
+    std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels;
+    std::string quality = "auto";
+    std::uint64_t frames = 0;
+    double rate_hz = 0, seconds = 0;
+    bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
+    bool free_flight = false;
+    StereoscopicOptions stereoscopic;
+    std::optional<bool> jog;  ///< default: with a window
+
+    void add_to(CLI::App& command, const std::string& default_rate);
+
+    /// Throw Error for what cannot be.
+    LiveSettings settings(const StageConfig::View& view, double pulse_rate_hz) const;
+    FlightPlan plan(const StageConfig::View& view) const;
+    std::unique_ptr<JogDeck> make_deck() const;
+};
+
+/// A show from its first picture to its summary.
+struct ShowSession {
+    const ShowOptions& options;
+    LiveShow& show;
+    const FlightPlan& plan;
+    const JogDeck* deck;
+    TakeDesk* takes;     ///< null: nothing can be recorded
+    std::string played;  ///< the take that is shown; empty: the stage is live
+    /// Without a window: waits until there is something to show. False: it was told to stop.
+    std::function<bool(StopSignal&)> wait;
+
+    void run(StopSignal& stop);
+
+  private:
+    void run_headless(StopSignal& stop);
+    void run_in_window(StopSignal& stop);
+    void finish(const class CorridorWatch& corridor,
+                const std::function<ColourImage()>& last_picture);
+};
+
+}  // namespace vantage

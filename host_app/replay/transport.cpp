@@ -1,0 +1,129 @@
+#include "host_app/replay/transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+/// As on the shuttle of a replay machine.
+constexpr std::array speeds{-2.0, -1.0, -0.75, -0.5, -0.33, -0.25, -0.1, 0.0,
+                            0.1,  0.25, 0.33,  0.5,  0.75,  1.0,   2.0};
+
+double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
+
+}  // namespace
+
+Transport Transport::of_take(double pulse, double speed) {
+    Transport transport;
+    transport.is_of_take_ = true;
+    transport.state_.pulse = pulse;
+    transport.state_.speed = speed;
+    if (speed != 0) transport.last_speed_ = speed;
+    return transport;
+}
+
+void Transport::mark(std::optional<std::uint64_t> in, std::optional<std::uint64_t> out) {
+    state_.in = in;
+    state_.out = out;
+}
+
+void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
+                     const std::optional<PastSets::Span>& span) {
+    if (input.is_any()) is_at_end_ = false;
+    if (input.toggle_hold) toggle_hold();
+    if (input.to_live) to_live();
+    if (input.toggle_loop) state_.loops = !state_.loops;
+    if (input.clear_marks) mark(std::nullopt, std::nullopt);
+    if (input.mark_in) {
+        state_.in = shown_pulse;
+        if (state_.out && *state_.out <= shown_pulse) state_.out.reset();
+    }
+    if (input.mark_out) {
+        state_.out = shown_pulse;
+        if (state_.in && *state_.in >= shown_pulse) state_.in.reset();
+    }
+    if (!span) return;
+    if (input.cue) {
+        state_.speed = 0;
+        go_to(as_pulse(state_.in.value_or(span->oldest)), *span);
+    }
+    if (input.pulses != 0) {
+        state_.speed = 0;
+        go_to(state_.pulse.value_or(as_pulse(shown_pulse)) + input.pulses, *span);
+    }
+    if (input.speed_steps != 0) {
+        if (!state_.pulse) go_to(as_pulse(shown_pulse), *span);
+        change_speed(input.speed_steps);
+    }
+}
+
+void Transport::toggle_hold() {
+    if (!state_.pulse) {
+        state_.is_held = !state_.is_held;
+        return;
+    }
+    if (state_.speed != 0)
+        last_speed_ = std::exchange(state_.speed, 0.0);
+    else
+        state_.speed = last_speed_;
+}
+
+void Transport::to_live() {
+    if (is_of_take_) {
+        state_.speed = last_speed_ = 1;
+        return;
+    }
+    state_.pulse.reset();
+    state_.speed = 0;
+    state_.is_held = false;
+}
+
+void Transport::go_to(double pulse, const PastSets::Span& span) {
+    state_.pulse = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
+}
+
+void Transport::change_speed(int steps) {
+    const auto at = std::min_element(speeds.begin(), speeds.end(), [&](double a, double b) {
+        return std::abs(a - state_.speed) < std::abs(b - state_.speed);
+    });
+    const auto wanted = (at - speeds.begin()) + steps;
+    state_.speed = speeds[static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(speeds.size()) - 1))];
+    if (state_.speed != 0) last_speed_ = state_.speed;
+}
+
+void Transport::arrive(double at, double again_at) {
+    if (state_.loops) {
+        state_.pulse = again_at;
+        return;
+    }
+    state_.pulse = at;
+    last_speed_ = std::exchange(state_.speed, 0.0);
+    is_at_end_ = true;
+}
+
+void Transport::advance(double dt_s, double pulse_rate_hz,
+                        const std::optional<PastSets::Span>& span) {
+    if (!span || !state_.pulse) return;
+    const double oldest = as_pulse(span->oldest), newest = as_pulse(span->newest);
+    const double before = *state_.pulse;
+    if (state_.speed == 0) return;
+    const double now = before + state_.speed * dt_s * pulse_rate_hz;
+    const double in = state_.in ? std::max(oldest, as_pulse(*state_.in)) : oldest;
+    const double last = state_.out ? std::min(newest, as_pulse(*state_.out) - 1) : newest;
+    // A whole pulse is shown for a whole period.
+    if (state_.speed > 0 && before < last + 1 && now >= last + 1) {
+        if (!is_of_take_ && !state_.loops && last == newest)
+            to_live();
+        else
+            arrive(last, in);
+    } else if (state_.speed < 0 && before >= in && now < in) {
+        arrive(in, last);
+    } else {
+        state_.pulse = std::clamp(now, oldest, newest + 1);
+    }
+}
+
+}  // namespace vantage

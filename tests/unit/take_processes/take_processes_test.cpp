@@ -1,0 +1,154 @@
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/config/stage_config.h"
+#include "common/receive/stage_receiver.h"
+#include "common/take/take_check.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/free_ports.h"
+
+namespace vantage {
+namespace {
+
+/// Two tiny rigs on the virtual stage, each a process of its own, and what listens to them.
+class TakeProcesses : public testing::Test {
+  protected:
+    TakeProcesses() {
+        std::ofstream(file("stage.toml"))
+            << "version = 1\nrate_hz = 5\nlatency_budget_ms = 5000\n[view]\nwidth_px = 96\n"
+               "height_px = 64\n"
+            << stage_entry("left", ports_.first) << stage_entry("right", ports_.second);
+        start_rig("left", ports_.first, -12);
+        start_rig("right", ports_.second, 12);
+    }
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+    static std::string endpoint(int port) { return fmt::format("tcp://127.0.0.1:{}", port); }
+    static std::string stage_entry(const std::string& rig, int port) {
+        return "[[rigs]]\nname = \"" + rig + "\"\nendpoint = \"" + endpoint(port) + "\"\n";
+    }
+    void start_rig(const std::string& name, int port, double azimuth_deg) {
+        std::ofstream(file(name + ".toml"))
+            << "version = 1\nname = \"" << name
+            << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n"
+            << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
+            << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+            << "[stream]\nbind = \"" << endpoint(port) << "\"\n";
+        rigs_.push_back(std::make_unique<ChildProgram>(
+            VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
+            folder_.path()));
+    }
+    std::vector<std::string> live(const std::vector<std::string>& options) const {
+        std::vector<std::string> all{"live",       "--stage", file("stage.toml"),
+                                     "--headless", "--json",  "--wait",
+                                     "60",         "--synth", "mesh"};
+        all.insert(all.end(), options.begin(), options.end());
+        return all;
+    }
+    static nlohmann::json run(const std::vector<std::string>& arguments) {
+        const ProgramResult result = run_to_end(VANTAGE_PROGRAM, arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return nlohmann::json::parse(result.out, nullptr, false);
+    }
+    template <class Condition>
+    static bool wait_for(Condition condition) {
+        for (int i = 0; i < 6000; ++i) {
+            if (condition()) return true;
+            usleep(10'000);
+        }
+        return false;
+    }
+
+    TemporaryFolder folder_;
+    std::pair<int, int> ports_ = two_free_ports();
+    std::vector<std::unique_ptr<ChildProgram>> rigs_;
+};
+
+TEST_F(TakeProcesses, ATakeHoldsWhatTheRigsSentByteForByteAndPlays) {
+    // Another host of the same rigs, which notes all that comes.
+    std::mutex mutex;
+    std::map<std::pair<std::size_t, std::uint64_t>, std::shared_ptr<const PackedFrame>> sent;
+    const StageReceiver tap(load_stage_config(file("stage.toml")), StageReceiver::Purpose::film,
+                            [&](const ArrivedFrame& frame) {
+                                const std::uint64_t pulse =
+                                    decode_frame_head(frame.packed->header).frame.trigger_index;
+                                const std::lock_guard lock(mutex);
+                                sent[{frame.rig, pulse}] = frame.packed;
+                            });
+    const nlohmann::json summary = run(live({"--frames", "15", "--take", file("take.mkv")}));
+    EXPECT_EQ(summary["take"]["state"], "ended");
+    EXPECT_EQ(summary["take"]["failure"], "");
+    EXPECT_GE(summary["take"]["frames"], 20);
+
+    const TakeReader take(file("take.mkv"));
+    EXPECT_EQ(check_take(take).damage.size(), 0u);
+    EXPECT_EQ(summary["take"]["frames"], take.frames(0).size() + take.frames(1).size());
+    EXPECT_GE(take.cameras().size(), 10u);
+    std::size_t compared = 0;
+    for (std::size_t rig = 0; rig < 2; ++rig)
+        for (const TakeReader::Frame& frame : take.frames(rig)) {
+            const std::lock_guard lock(mutex);
+            const auto found = sent.find({rig, frame.pulse});
+            if (found == sent.end()) continue;
+            const StoredFrame stored = take.load(rig, frame);
+            EXPECT_EQ(stored.colour, found->second->colour);
+            EXPECT_EQ(stored.record.header, found->second->header);
+            ++compared;
+        }
+    EXPECT_GE(compared, 20u);
+
+    const nlohmann::json played =
+        run({"play", file("take.mkv"), "--headless", "--json", "--synth", "mesh"});
+    const std::uint64_t last = std::max(take.frames(0).back().pulse, take.frames(1).back().pulse);
+    EXPECT_EQ(played["time"]["shown_pulse"], last) << "played to the end";
+    EXPECT_GE(played["new_pictures"], 5);
+    // The head of a take is seconds after its beginning.
+    const std::uint64_t first =
+        std::min(take.frames(0).front().pulse, take.frames(1).front().pulse);
+    for (const auto& [from, pulses] : {std::pair("0", 0u), {"1.4", 7u}, {"0.6", 3u}})
+        EXPECT_EQ(run({"play", file("take.mkv"), "--headless", "--json", "--synth", "mesh",
+                       "--speed", "0", "--frames", "1", "--from", from})["time"]["shown_pulse"],
+                  first + pulses);
+}
+
+TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
+    ChildProgram host(VANTAGE_PROGRAM, live({"--take", file("take.mkv")}), folder_.path());
+    const auto frames = [&]() -> std::size_t {
+        try {
+            return TakeReader(file("take.mkv")).frames(0).size();
+        } catch (const Error&) {
+            return 0;
+        }
+    };
+    ASSERT_TRUE(wait_for([&] { return frames() >= 10; })) << host.err();
+    host.send_signal(SIGKILL);
+    host.wait();
+    const TakeReader take(file("take.mkv"));
+    EXPECT_FALSE(take.is_ended());
+    const TakeVerdict verdict = check_take(take);
+    EXPECT_TRUE(verdict.gaps.empty());
+    EXPECT_GE(verdict.frames, 20u - 2);
+    // It may have been killed in the middle of a write.
+    EXPECT_LE(verdict.damage.size(), 1u);
+    for (const TakeDamage& damage : verdict.damage)
+        EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+}
+
+TEST_F(TakeProcesses, ATakeThatCannotBeBegunIsToldBeforeAnythingIsFlown) {
+    std::ofstream(file("take.mkv")) << "somebody's";
+    const ProgramResult result =
+        run_to_end(VANTAGE_PROGRAM, live({"--frames", "2", "--take", file("take.mkv")}));
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("never replaces a file"), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+}
+
+}  // namespace
+}  // namespace vantage
