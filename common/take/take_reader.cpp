@@ -324,12 +324,18 @@ void TakeReader::sort_frames() {
     const auto by_pulse = [](const Frame& a, const Frame& b) { return a.pulse < b.pulse; };
     for (std::size_t rig = 0; rig < frames_.size(); ++rig) {
         std::vector<Frame>& frames = frames_[rig];
+        const std::uint64_t last_at = frames.empty() ? 0 : frames.back().record.at;
         std::erase_if(frames, [&](const Frame& frame) {
             const bool is_whole = frame.colour_crc.has_value() == (frame.colour.size != 0) &&
                                   frame.depth_crc.has_value() == (frame.depth.size != 0);
+            const bool is_last = frame.record.at == last_at;
             if (!is_whole)
-                add_damage(frame.record.at, fmt::format("rig {} lacks pictures of pulse {}",
-                                                        facts_.rigs[rig].name, frame.pulse));
+                add_damage(frame.record.at,
+                           !is_ended_ && is_last
+                               ? fmt::format("pictures of pulse {} of rig {} are cut off",
+                                             frame.pulse, facts_.rigs[rig].name)
+                               : fmt::format("rig {} lacks pictures of pulse {}",
+                                             facts_.rigs[rig].name, frame.pulse));
             return !is_whole;
         });
         std::stable_sort(frames.begin(), frames.end(), by_pulse);

@@ -136,7 +136,7 @@ TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
     EXPECT_TRUE(verdict.gaps.empty());
     EXPECT_GE(verdict.frames, 20u - 2);
     // It may have been killed in the middle of a write.
-    EXPECT_LE(verdict.damage.size(), 1u);
+    EXPECT_LE(verdict.damage.size(), 2u);
     for (const TakeDamage& damage : verdict.damage)
         EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
 }
