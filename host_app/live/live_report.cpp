@@ -156,6 +156,12 @@ nlohmann::ordered_json time_json(const LiveReport& report) {
     if (time.out) json["out"] = *time.out;
     json["loops"] = time.loops;
     if (!report.played.empty()) json["take"] = report.played;
+    if (report.past)
+        json["past"] = {
+            {"sets", report.past->sets},
+            {"bytes", report.past->bytes},
+            {"duration_s", static_cast<double>(report.past->newest - report.past->oldest) /
+                               report.pulse_rate_hz}};
     return json;
 }
 

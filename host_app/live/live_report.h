@@ -39,6 +39,8 @@ struct LiveReport {
     SignalState signal = SignalState::no_signal;  ///< at the end
     TransportState time;                          ///< at the end
     std::uint64_t shown_pulse = 0;                ///< of the last picture
+    std::optional<PastSets::Span> past;           ///< that can be gone back to
+    double pulse_rate_hz = 0;
     OrbitView view;                               ///< of the last picture
     CorridorBooks corridor;
     bool free_flight = false;              ///< hands may leave the corridor

@@ -212,6 +212,8 @@ LiveReport LiveShow::report() const {
     report.renderer = renderer_;
     report.signal = signal_of(status, state);
     report.time = state.time;
+    report.past = state.past;
+    report.pulse_rate_hz = settings_.pulse_rate_hz;
     if (state.picture) report.shown_pulse = state.picture->job.instant->set->trigger_index;
     report.corridor = controls_.lines().corridor;
     report.free_flight = settings_.free_flight;

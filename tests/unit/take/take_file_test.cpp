@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/take/take_reader.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
 #include "tests/unit/take/small_take.h"
@@ -281,6 +283,56 @@ TEST_F(TakeFileTest, RefusesFramesThatDoNotFitItsTracks) {
                   storer.store(FrameEncoder(85).encode(larger));
               }).find("80x60 and disparities of 80x60, and the take's tracks are for 62x46"),
               std::string::npos);
+}
+
+TEST_F(TakeFileTest, OpensAfterAnyKill) {
+    cv::RNG random(static_cast<std::uint64_t>(getpid()));
+    for (int i = 0; i < 25; ++i) {
+        const std::filesystem::path path = folder_.path() / fmt::format("killed-{}.mkv", i);
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            TakeWriter writer(path, small_facts({"north"}, first_pulse));
+            FrameStorer storer(writer.facts().rigs[0]);
+            for (std::uint64_t pulse = first_pulse;; ++pulse)
+                writer.add(0, storer.store(sent_frame("north", pulse)));
+        }
+        while (!std::filesystem::exists(path)) usleep(100);
+        usleep(static_cast<useconds_t>(random.uniform(5'000, 60'000)));
+        kill(child, SIGKILL);
+        int status = 0;
+        waitpid(child, &status, 0);
+        const TakeReader reader(path);
+        std::uint64_t next = first_pulse;
+        for (const TakeReader::Frame& frame : reader.frames(0)) {
+            EXPECT_EQ(frame.pulse, next++);
+            EXPECT_NO_THROW(reader.load(0, frame));
+        }
+        for (const TakeDamage& damage : reader.damage())
+            EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+    }
+}
+
+TEST_F(TakeFileTest, ReadsATakeOfVersion1ForEver) {
+    const TakeReader reader(source_folder() / "tests" / "takes" / "version_1.mkv");
+    EXPECT_TRUE(reader.is_ended());
+    EXPECT_TRUE(reader.damage().empty());
+    EXPECT_EQ(reader.facts().pulse_rate_hz, 5);
+    EXPECT_EQ(reader.facts().show["view"]["synthesiser"], "mesh");
+    ASSERT_EQ(reader.facts().attachments.size(), 1u);
+    EXPECT_EQ(reader.facts().attachments[0].name, "stage.toml");
+    EXPECT_EQ(reader.cameras().size(), 15u);
+    for (const std::size_t rig : {0, 1}) {
+        EXPECT_EQ(reader.facts().rigs[rig].name, rig == 0 ? "left" : "right");
+        ASSERT_EQ(reader.frames(rig).size(), 15u);
+        FrameRestorer restorer(reader.facts().rigs[rig]);
+        for (const TakeReader::Frame& frame : reader.frames(rig)) {
+            const RigFrame restored = restorer.restore(reader.load(rig, frame));
+            EXPECT_EQ(restored.trigger_index, frame.pulse);
+            EXPECT_EQ(restored.colour.size(), cv::Size(96, 72));
+            EXPECT_GT(cv::countNonZero(restored.disparity), 96 * 72 / 2);
+        }
+    }
 }
 
 }  // namespace
