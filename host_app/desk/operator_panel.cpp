@@ -120,8 +120,8 @@ void draw_time_line(const PanelTime& time, float top) {
     if (time.in || time.out)
         ground.AddRectFilled({x(time.in.value_or(0)), top}, {x(time.out.value_or(1)), bottom},
                              ImGui::GetColorU32(palette::good));
-    ground.AddRectFilled({x(time.at) - 2, top}, {x(time.at) + 2, bottom},
-                         ImGui::GetColorU32(palette::accent));
+    ground.AddRectFilled({x(time.at) - 3, top}, {x(time.at) + 3, bottom},
+                         ImGui::GetColorU32(palette::text));
 }
 
 void draw_take_badge(const PanelTake& take, const UiFonts& fonts) {
@@ -130,7 +130,7 @@ void draw_take_badge(const PanelTake& take, const UiFonts& fonts) {
         return;
     }
     const auto seconds = static_cast<int>(take.duration_s);
-    badge(fonts, fmt::format("TAKE {}:{:02}", seconds / 60, seconds % 60).c_str(), palette::bad);
+    badge(fonts, fmt::format("REC TAKE {}:{:02}", seconds / 60, seconds % 60).c_str(), palette::bad);
 }
 
 /// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
@@ -180,12 +180,12 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
     else if (state.behind_s)
         badge(fonts, fmt::format("{:.1f} s BACK", *state.behind_s).c_str(), palette::accent);
     else if (state.time)
-        badge(fonts, "TAKE", palette::accent);
+        badge(fonts, "FROM A TAKE", palette::accent);
     else
         badge(fonts, title_of(state.signal), colour_of(state.signal));
     if (state.time) badge(fonts, speed_words(*state.time).c_str(), palette::accent);
     if (state.coverage) draw_corridor_badge(*state.coverage, fonts);
-    if (state.recording) badge(fonts, "REC", palette::bad);
+    if (state.recording) badge(fonts, "REC FILM", palette::bad);
     if (state.take) draw_take_badge(*state.take, fonts);
     if (!state.waiting) {
         ImGui::PushFont(fonts.strong);

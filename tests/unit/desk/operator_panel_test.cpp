@@ -79,6 +79,26 @@ class OperatorScreen : public testing::Test {
     PanelState state_;
 };
 
+TEST_F(OperatorScreen, ShowsTheTakeAndWhereInThePastItIs) {
+    const ColourImage before = draw(state_);
+    PanelState taking = state_;
+    taking.take = {
+        .is_running = true, .duration_s = 75, .mb_s = 36.9, .left_out = 3, .failure = ""};
+    taking.time = {.speed = 0.5, .at = 0.3, .in = 0.25, .out = 0.75, .loops = true};
+    const ColourImage after = draw(taking);
+    // The line of time lies right under the bar: green between the marks only.
+    const auto colour_at = [&](const ColourImage& screen, double share) {
+        const int x = cvRound(share * width_px);
+        for (int y = 35; y < 38; ++y)
+            if (screen(y, x)[1] > 150 && screen(y, x)[0] < 120) return true;
+        return false;
+    };
+    EXPECT_TRUE(colour_at(after, 0.5));
+    EXPECT_FALSE(colour_at(before, 0.5));
+    EXPECT_FALSE(colour_at(after, 0.2));
+    EXPECT_GT(cv::norm(before, after, cv::NORM_L1), 10000);
+}
+
 TEST_F(OperatorScreen, ShowsThePictureInItsShapeAndColour) {
     state_.show_panels = false;
     const ColourImage screen = draw(state_);

@@ -117,6 +117,14 @@ TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
     EXPECT_TRUE(after({"key", "l"}).to_live);
     EXPECT_EQ(after({"key", "comma", "key", "comma"}).past_steps, -2);
     EXPECT_EQ(after({"key", "period"}).past_steps, 1);
+    EXPECT_EQ(after({"key", "bracketleft", "key", "bracketleft"}).speed_steps, -2);
+    EXPECT_EQ(after({"key", "bracketright"}).speed_steps, 1);
+    EXPECT_TRUE(after({"key", "i"}).mark_in);
+    EXPECT_TRUE(after({"key", "o"}).mark_out);
+    EXPECT_TRUE(after({"key", "u"}).clear_marks);
+    EXPECT_TRUE(after({"key", "b"}).toggle_loop);
+    EXPECT_TRUE(after({"key", "Home"}).cue);
+    EXPECT_TRUE(after({"key", "t"}).toggle_take);
     EXPECT_TRUE(after({"key", "F2"}).next_synthesiser);
     EXPECT_EQ(after({"key", "4"}).recall_shot, 4);
     const FlightInput stored = after({"key", "ctrl+3"});
