@@ -15,6 +15,7 @@ void FlightInput::add(const FlightInput& other) {
     toggle_freeze ^= other.toggle_freeze;
     toggle_move ^= other.toggle_move;
     toggle_novelty ^= other.toggle_novelty;
+    toggle_take ^= other.toggle_take;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
