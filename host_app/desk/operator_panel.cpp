@@ -130,7 +130,8 @@ void draw_take_badge(const PanelTake& take, const UiFonts& fonts) {
         return;
     }
     const auto seconds = static_cast<int>(take.duration_s);
-    badge(fonts, fmt::format("REC TAKE {}:{:02}", seconds / 60, seconds % 60).c_str(), palette::bad);
+    badge(fonts, fmt::format("REC TAKE {}:{:02}", seconds / 60, seconds % 60).c_str(),
+          palette::bad);
 }
 
 /// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
@@ -208,6 +209,19 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
     ImGui::End();
     ImGui::PopStyleVar(2);
     return height;
+}
+
+/// Of a take there are no rates and no latencies, only who is in the set that is shown.
+void draw_rigs_of_take(const PanelState& state, const UiFonts& fonts) {
+    heading(fonts, "RIGS");
+    for (const PanelRig& rig : state.rigs) {
+        text(rig.name);
+        ImGui::SameLine(0, em());
+        if (rig.state == RigState::present)
+            text(palette::dim, "in this set");
+        else
+            text(palette::warn, "missing");
+    }
 }
 
 void draw_rig_table(const PanelState& state, const UiFonts& fonts) {
@@ -313,11 +327,17 @@ void draw_left_panel(const PanelState& state, const UiFonts& fonts, float top) {
     ImGui::SetNextWindowPos({panel_gap * em(), top + panel_gap * em()});
     ImGui::SetNextWindowSize({left_panel_width * em(), 0});
     ImGui::Begin("rigs and times", nullptr, fixed_panel | ImGuiWindowFlags_AlwaysAutoResize);
-    draw_rig_table(state, fonts);
+    const bool is_of_take = state.time && !state.behind_s;
+    if (is_of_take)
+        draw_rigs_of_take(state, fonts);
+    else
+        draw_rig_table(state, fonts);
     ImGui::Spacing();
     draw_stages(state, fonts);
-    ImGui::Spacing();
-    draw_latency(state, fonts);
+    if (!is_of_take) {
+        ImGui::Spacing();
+        draw_latency(state, fonts);
+    }
     if (state.take) draw_take(*state.take, fonts);
     ImGui::End();
 }

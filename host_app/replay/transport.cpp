@@ -113,13 +113,14 @@ void Transport::advance(double dt_s, double pulse_rate_hz,
     const double now = before + state_.speed * dt_s * pulse_rate_hz;
     const double in = state_.in ? std::max(oldest, as_pulse(*state_.in)) : oldest;
     const double last = state_.out ? std::min(newest, as_pulse(*state_.out) - 1) : newest;
-    // A whole pulse is shown for a whole period.
-    if (state_.speed > 0 && before < last + 1 && now >= last + 1) {
+    // A whole pulse is shown for a whole period. A loop is also entered from beyond its end, as
+    // when its out mark is set where the programme is.
+    if (state_.speed > 0 && now >= last + 1 && (before < last + 1 || state_.loops)) {
         if (!is_of_take_ && !state_.loops && last == newest)
             to_live();
         else
             arrive(last, in);
-    } else if (state_.speed < 0 && before >= in && now < in) {
+    } else if (state_.speed < 0 && now < in && (before >= in || state_.loops)) {
         arrive(in, last);
     } else {
         state_.pulse = std::clamp(now, oldest, newest + 1);

@@ -163,6 +163,15 @@ TEST_F(TransportTest, LoopsBetweenItsMarksAndLeavesTheOutFrameOut) {
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 100);
 }
 
+TEST_F(TransportTest, EntersALoopWhoseOutMarkIsSetWhereItPlays) {
+    transport_ = Transport::of_take(110, 1);
+    transport_.take({.mark_in = true}, 110, span_);
+    advance(0.42);
+    transport_.take({.mark_out = true, .toggle_loop = true}, 120, span_);
+    advance(0.04);
+    EXPECT_DOUBLE_EQ(*transport_.pulse(), 110);
+}
+
 TEST_F(TransportTest, AMarkBeyondTheOtherTakesItAway) {
     transport_ = Transport::of_take(110, 1);
     transport_.take({.mark_in = true}, 130, span_);
