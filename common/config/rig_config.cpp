@@ -93,6 +93,13 @@ void read_stream(TomlTable& table, RigConfig::Stream& stream) {
     table.read("authorized_hosts", stream.authorized_hosts);
 }
 
+void read_keep(TomlTable& table, RigConfig::Keep& keep) {
+    table.read("folder", keep.folder);
+    table.read("hours", keep.hours, {0.01, 10000});
+    table.read("gigabytes", keep.gigabytes, {0.01, 1e6});
+    table.read("minutes", keep.minutes, {0.05, 60});
+}
+
 }  // namespace
 
 RigConfig load_rig_config(const std::filesystem::path& path) {
@@ -109,6 +116,7 @@ RigConfig load_rig_config(const std::filesystem::path& path) {
         top.read_table("trigger", [&](TomlTable& t) { read_trigger(t, config.trigger); });
         top.read_table("match", [&](TomlTable& t) { read_match(t, config.match); });
         top.read_table("stream", [&](TomlTable& t) { read_stream(t, config.stream); });
+        top.read_table("keep", [&](TomlTable& t) { read_keep(t, config.keep); });
     });
     return config;
 }

@@ -86,6 +86,12 @@ struct RigConfig {
         std::filesystem::path
             authorized_hosts;  ///< public keys of the hosts it talks to, one a line
     } stream;
+
+    struct Keep {
+        std::filesystem::path folder;        ///< for the rig's own take; empty: it keeps none
+        double hours = 24, gigabytes = 100;  ///< beyond either the oldest files are dropped
+        double minutes = 5;                  ///< of a file
+    } keep;
 };
 
 /// Throws Error with file and line for whatever does not fit.

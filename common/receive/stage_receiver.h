@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/config/stage_config.h"
-#include "common/receive/arrived_frame.h"
+#include "common/wire/arrived_frame.h"
 #include "common/receive/frame_set.h"
 #include "common/receive/rig_status.h"
 

@@ -18,7 +18,7 @@
 #include "host_app/programme/programme.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
-#include "host_app/takes/take_recorder.h"
+#include "common/take/take_recorder.h"
 
 namespace vantage {
 

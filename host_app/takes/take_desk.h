@@ -8,9 +8,9 @@
 #include <string>
 
 #include "common/config/stage_config.h"
+#include "common/take/take_recorder.h"
 #include "host_app/output/picture_sink.h"
 #include "host_app/sets/stage_feed.h"
-#include "host_app/takes/take_recorder.h"
 
 namespace vantage {
 

@@ -43,6 +43,8 @@ nlohmann::ordered_json to_json(const TakeShow& show) {
 }
 
 TakeShow take_show_from(const nlohmann::ordered_json& json) {
+    // A rig's own take knows of no show.
+    if (!json.contains("view")) return {};
     try {
         TakeShow show;
         show.timecode_zone = json.at("timecode_zone").get<std::string>();

@@ -73,7 +73,8 @@ class StatusLines {
                    rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
                    status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50,
                    status.pack_ms.p50, status.latency_ms.p50) +
-               (pulses.empty() ? "" : "; " + pulses);
+               (pulses.empty() ? "" : "; " + pulses) +
+               (status.keeps.empty() ? "" : "; " + status.keeps);
     }
 
   private:

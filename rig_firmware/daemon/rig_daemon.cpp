@@ -20,6 +20,7 @@
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
 #include "rig_firmware/daemon/heartbeat.h"
+#include "rig_firmware/keep/take_keeper.h"
 #include "rig_firmware/trigger/rig_trigger.h"
 
 namespace vantage {
@@ -78,7 +79,11 @@ struct RigDaemon::Impl {
         : config(rig_config),
           frame_limit(most_frames),
           publisher(rig_config.stream, rig_config.name),
-          trigger(RigTrigger::make(rig_config)) {
+          trigger(RigTrigger::make(rig_config)),
+          keeper(rig_config.keep.folder.empty()
+                     ? nullptr
+                     : std::make_unique<TakeKeeper>(rig_config.keep, rig_config.name,
+                                                    rig_config.source.rate_hz)) {
         // Hosts may be there already; what this rig is to do they learn before what it does.
         RigSync first;
         first.rate_hz = config.source.rate_hz;
@@ -124,6 +129,7 @@ struct RigDaemon::Impl {
     const std::uint64_t frame_limit;
     Publisher publisher;
     const std::unique_ptr<RigTrigger> trigger;  ///< null: the role free
+    const std::unique_ptr<TakeKeeper> keeper;   ///< null: nothing is kept
 
     BoundedQueue<CapturedFrame> captured{1};
     BoundedQueue<Instant> matched{1};
@@ -353,7 +359,8 @@ void RigDaemon::Impl::publish() {
                 const std::lock_guard lock(mutex);
                 (*frame)->counters = counters;
             }
-            publisher.publish(std::move(**frame));
+            const auto packed = publisher.publish(std::move(**frame));
+            if (keeper && packed) keeper->offer(packed);
         }
         const auto packing = MonotonicClock::now() - start;
         const auto latency = TaiClock::now() - exposure;
@@ -432,6 +439,7 @@ DaemonStatus RigDaemon::status() const {
         if (counter.name == copied_pictures) counter.count += impl_->lent_pictures.copied;
     status.source_counters.push_back({"imported_pictures", impl_->lent_pictures.imported});
     status.sync = impl_->sync;
+    if (impl_->keeper) status.keeps = impl_->keeper->line();
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();

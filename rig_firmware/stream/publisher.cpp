@@ -226,7 +226,7 @@ Publisher::Publisher(const RigConfig::Stream& config, std::string rig_name)
 
 Publisher::~Publisher() = default;
 
-void Publisher::publish(RigFrame frame) {
+std::shared_ptr<const PackedFrame> Publisher::publish(RigFrame frame) {
     frame.rig = impl_->rig;
     frame.session = impl_->session;
     {
@@ -238,7 +238,7 @@ void Publisher::publish(RigFrame frame) {
         const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
         if (is_raw_pair && !links.wants_raw_pair(frame.trigger_index)) {
             if (links.serves_raw_pairs_only()) links.pass_over();
-            return;
+            return nullptr;
         }
         frame.counters = links.rig_counters();
         if (!is_raw_pair || links.serves_raw_pairs_only()) ++frame.counters.published;
@@ -247,9 +247,10 @@ void Publisher::publish(RigFrame frame) {
     auto packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
     {
         const std::lock_guard lock(impl_->mutex);
-        impl_->links.offer(std::move(packed));
+        impl_->links.offer(packed);
     }
     impl_->wake.notify();
+    return packed;
 }
 
 bool Publisher::wants_raw_pair(std::uint64_t trigger_index) const {

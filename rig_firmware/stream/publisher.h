@@ -31,8 +31,8 @@ class Publisher {
     /// Packs on the calling thread and never waits for the network. `rig`, `session`, `published`,
     /// pack_ms and two of the counters are filled in here. Throws Error naming the first value of
     /// the frame that may not travel, or why publishing came to an end. A raw pair that no host
-    /// asks for is not packed. One thread at a time.
-    void publish(RigFrame frame);
+    /// asks for is not packed, and null returned; else the packed frame. One thread at a time.
+    std::shared_ptr<const PackedFrame> publish(RigFrame frame);
 
     /// A host asks for the raw pair of this pulse. Any thread.
     bool wants_raw_pair(std::uint64_t trigger_index) const;

@@ -59,6 +59,9 @@ matcher = "gradient"
 preset = "fast"
 disparities = 32
 fill = false
+[keep]
+folder = "/var/takes"
+gigabytes = 12.5
 [stream]
 bind = "tcp://0.0.0.0:5601"
 jpeg_quality = 0
@@ -98,6 +101,9 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.stream.bind, "tcp://0.0.0.0:5601");
     EXPECT_EQ(config.stream.jpeg_quality, 0);
     EXPECT_EQ(config.stream.queue_frames, 2);
+    EXPECT_EQ(config.keep.folder, "/var/takes");
+    EXPECT_EQ(config.keep.gigabytes, 12.5);
+    EXPECT_EQ(config.keep.hours, 24);
     EXPECT_EQ(config.stream.key_file, folder_.path() / "keys/rig.key");
     EXPECT_EQ(config.stream.authorized_hosts, "/etc/hosts.keys");
 }
@@ -109,7 +115,7 @@ TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
               "config.toml:3: there is no key 'sauce'; the nearest is 'source'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n\nwheels = 4\n"),
               "config.toml:4: there is no key 'wheels'; the ones there are: version, name, "
-              "calibration, source, virtual_rig, trigger, match, stream");
+              "calibration, source, virtual_rig, trigger, match, stream, keep");
 }
 
 TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {

@@ -40,6 +40,7 @@ class TakeProcesses : public testing::Test {
             << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n"
             << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
             << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+            << "[keep]\nfolder = \"" << file("kept") << "\"\n"
             << "[stream]\nbind = \"" << endpoint(port) << "\"\n";
         rigs_.push_back(std::make_unique<ChildProgram>(
             VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
@@ -139,6 +140,39 @@ TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
     EXPECT_LE(verdict.damage.size(), 2u);
     for (const TakeDamage& damage : verdict.damage)
         EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+}
+
+TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {
+    run(live({"--frames", "5", "--take", file("one.mkv")}));
+    run(live({"--frames", "5", "--take", file("two.mkv")}));
+    for (const auto& rig : rigs_) {
+        rig->send_signal(SIGTERM);
+        EXPECT_EQ(rig->wait().status, 0) << rig->err();
+    }
+    std::vector<std::string> join{"take", "join", file("one.mkv"), file("two.mkv")};
+    for (const auto& entry : std::filesystem::directory_iterator(file("kept")))
+        join.push_back(entry.path());
+    ASSERT_EQ(join.size(), 2u + 2 + 2) << "a file a rig";
+    join.insert(join.end(), {"-o", file("all.mkv"), "--json"});
+    const nlohmann::json joined = run(join);
+    const TakeReader one(file("one.mkv")), two(file("two.mkv")), all(file("all.mkv"));
+    EXPECT_EQ(joined["twice"], one.frames(0).size() + one.frames(1).size() + two.frames(0).size() +
+                                   two.frames(1).size())
+        << "what the hosts have the rigs have too";
+    EXPECT_TRUE(check_take(all).is_whole()) << "between the hosts' takes was nobody but the rigs";
+    // And the same bytes.
+    const TakeReader kept(join[4]);
+    const std::size_t rig = kept.facts().rigs[0].name == "left" ? 0 : 1;
+    std::size_t compared = 0;
+    for (const TakeReader::Frame& frame : kept.frames(0))
+        for (const TakeReader::Frame& hosts : two.frames(rig))
+            if (hosts.pulse == frame.pulse) {
+                EXPECT_EQ(two.load(rig, hosts).colour, kept.load(0, frame).colour);
+                EXPECT_EQ(two.load(rig, hosts).depth, kept.load(0, frame).depth);
+                EXPECT_EQ(two.load(rig, hosts).record.header, kept.load(0, frame).record.header);
+                ++compared;
+            }
+    EXPECT_GE(compared, 3u);
 }
 
 TEST_F(TakeProcesses, ATakeThatCannotBeBegunIsToldBeforeAnythingIsFlown) {

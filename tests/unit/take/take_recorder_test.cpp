@@ -1,4 +1,4 @@
-#include "host_app/takes/take_recorder.h"
+#include "common/take/take_recorder.h"
 
 #include <future>
 

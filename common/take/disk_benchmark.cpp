@@ -1,4 +1,4 @@
-#include "host_app/takes/disk_benchmark.h"
+#include "common/take/disk_benchmark.h"
 
 #include <cerrno>
 #include <cstdlib>

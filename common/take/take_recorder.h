@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "common/receive/arrived_frame.h"
+#include "common/take/disk_benchmark.h"
 #include "common/take/frame_storage.h"
 #include "common/take/take_writer.h"
-#include "host_app/takes/disk_benchmark.h"
+#include "common/wire/arrived_frame.h"
 
 namespace vantage {
 
@@ -59,6 +59,7 @@ class TakeRecorder {
         std::chrono::nanoseconds pre_roll{0};      ///< that a take begins before it is asked for
         std::size_t queue_bytes = 256'000'000;     ///< that may wait to be written
         std::chrono::milliseconds rig_wait{2000};  ///< for rigs that have not sent yet
+        bool may_be_empty = false;                 ///< a take that no frame came for is no failure
         std::function<double(const std::filesystem::path&)> disk_mb_s = measure_disk_mb_s;
     };
     explicit TakeRecorder(Settings settings);

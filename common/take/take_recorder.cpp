@@ -1,4 +1,4 @@
-#include "host_app/takes/take_recorder.h"
+#include "common/take/take_recorder.h"
 
 #include <algorithm>
 #include <future>
@@ -82,7 +82,8 @@ void TakeRecorder::offer(const ArrivedFrame& frame) {
         const std::lock_guard lock(mutex_);
         Item item{frame, {}};
         const std::size_t bytes = item.bytes();
-        if (!is_taking_) {
+        // What comes after the end of one take belongs to the next.
+        if (!is_taking_ || is_ending_) {
             if (settings_.pre_roll.count() == 0) return;
             pre_roll_.push_back(std::move(item));
             pre_roll_bytes_ += bytes;
@@ -92,7 +93,6 @@ void TakeRecorder::offer(const ArrivedFrame& frame) {
             }
             return;
         }
-        if (is_ending_) return;
         push(std::move(item));
     }
     woken_.notify_all();
@@ -369,10 +369,11 @@ void TakeRecorder::refuse(Take& take, const ArrivedFrame& frame, const std::stri
 
 void TakeRecorder::close(Take& take) {
     if (!take.writer) {
-        if (take.held.empty()) fail("{} is not written: no frame came", take.path.string());
-        open(take);
+        if (take.held.empty() && !settings_.may_be_empty)
+            fail("{} is not written: no frame came", take.path.string());
+        if (!take.held.empty()) open(take);
     }
-    take.writer->finish();
+    if (take.writer) take.writer->finish();
     take.is_dead = true;
     const std::lock_guard lock(mutex_);
     state_.phase = TakePhase::none;

@@ -1,0 +1,158 @@
+#include "rig_firmware/keep/take_keeper.h"
+
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/output_path.h"
+#include "common/base/version.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds look_every{100};
+/// A disk that failed is left alone for so long.
+constexpr std::chrono::seconds patience_with_disk{10};
+/// Of a disk that a file failed on: below this the oldest makes room.
+constexpr double least_room_mb = 500;
+/// What may come between the end of a file and the begin of the next.
+constexpr std::chrono::seconds between_files{30};
+
+TakeRecorder::Settings recorder_settings(const std::string& rig, double rate_hz) {
+    TakeRecorder::Settings settings;
+    settings.rigs = {rig};
+    settings.pulse_rate_hz = rate_hz;
+    settings.program = fmt::format("vantage-rig {}", version());
+    settings.show = nlohmann::ordered_json::object();
+    settings.pre_roll = between_files;
+    settings.may_be_empty = true;
+    return settings;
+}
+
+/// "north-20261122T201500Z.mkv": in the order of time by name.
+std::string name_for_now(const std::string& rig) {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[40];
+    std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &parts);
+    return fmt::format("{}-{}.mkv", rig, text);
+}
+
+struct KeptFile {
+    std::filesystem::path path;
+    std::filesystem::file_time_type written;
+    std::uint64_t bytes = 0;
+};
+
+/// The rig's files, the oldest first.
+std::vector<KeptFile> kept_files(const std::filesystem::path& folder, const std::string& rig) {
+    std::vector<KeptFile> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(rig + "-") || entry.path().extension() != ".mkv") continue;
+        const auto written = entry.last_write_time(error);
+        const std::uint64_t bytes = error ? 0 : entry.file_size(error);
+        if (!error) files.push_back({entry.path(), written, bytes});
+    }
+    std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {
+        return std::tie(a.written, a.path) < std::tie(b.written, b.path);
+    });
+    return files;
+}
+
+}  // namespace
+
+TakeKeeper::TakeKeeper(const RigConfig::Keep& config, std::string rig, double rate_hz)
+    : config_(config), rig_(std::move(rig)), recorder_(recorder_settings(rig_, rate_hz)) {
+    std::error_code error;
+    std::filesystem::create_directories(config_.folder, error);
+    if (error)
+        fail("the folder {} of [keep] cannot be made: {}", config_.folder.string(),
+             error.message());
+    require_writable_output(config_.folder / name_for_now(rig_), {});
+    drop_oldest(false);
+    begin();
+    thread_ = std::thread([this] { run(); });
+}
+
+TakeKeeper::~TakeKeeper() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+    recorder_.finish();
+}
+
+void TakeKeeper::offer(const std::shared_ptr<const PackedFrame>& frame) {
+    if (frame->is_raw_pair) return;
+    recorder_.offer(ArrivedFrame{0, frame, {}, MonotonicClock::now(), TaiClock::now()});
+}
+
+void TakeKeeper::begin() { recorder_.begin(free_take_name(config_.folder / name_for_now(rig_))); }
+
+void TakeKeeper::run() {
+    const std::chrono::duration<double, std::ratio<60>> length(config_.minutes);
+    MonotonicTime begun = MonotonicClock::now();
+    for (;;) {
+        {
+            std::unique_lock lock(mutex_);
+            if (woken_.wait_for(lock, look_every, [&] { return is_stopping_; })) return;
+        }
+        const MonotonicTime now = MonotonicClock::now();
+        const TakePhase phase = recorder_.state().phase;
+        const bool has_failed = phase == TakePhase::failed;
+        // Nothing is published, so there is nothing to end.
+        if (phase == TakePhase::opening) begun = now;
+        if (has_failed ? now - begun < patience_with_disk : now - begun < length) continue;
+        try {
+            recorder_.finish();
+            drop_oldest(has_failed && free_disk_mb(config_.folder) < least_room_mb);
+            begin();
+        } catch (const Error& error) {
+            log_error("what this rig keeps: {}", error.what());
+        }
+        begun = now;
+    }
+}
+
+void TakeKeeper::drop_oldest(bool at_least_one) {
+    std::vector<KeptFile> files = kept_files(config_.folder, rig_);
+    std::uint64_t bytes = 0;
+    for (const KeptFile& file : files) bytes += file.bytes;
+    const auto oldest = std::filesystem::file_time_type::clock::now() -
+                        std::chrono::duration_cast<std::chrono::seconds>(
+                            std::chrono::duration<double, std::ratio<3600>>(config_.hours));
+    while (!files.empty() &&
+           (at_least_one || static_cast<double>(bytes) > 1e9 * config_.gigabytes ||
+            files.front().written < oldest)) {
+        std::error_code error;
+        std::filesystem::remove(files.front().path, error);
+        if (error) fail("{} cannot be removed: {}", files.front().path.string(), error.message());
+        at_least_one = false;
+        bytes -= files.front().bytes;
+        files.erase(files.begin());
+    }
+    const std::lock_guard lock(mutex_);
+    files_ = files.size();
+    bytes_ = bytes;
+}
+
+std::string TakeKeeper::line() const {
+    const TakeState state = recorder_.state();
+    const std::lock_guard lock(mutex_);
+    std::string text = fmt::format("keeps {:.1f} GB in {} files of {}, {:.1f} MB a second",
+                                   static_cast<double>(bytes_ + state.bytes) / 1e9, files_ + 1,
+                                   config_.folder.string(), state.mb_s);
+    for (const TakeState::Rig& rig : state.rigs)
+        if (rig.dropped > 0) text += fmt::format(", {} frames left out", rig.dropped);
+    if (!state.failure.empty()) text += "; " + state.failure;
+    return text;
+}
+
+}  // namespace vantage
