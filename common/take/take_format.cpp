@@ -40,8 +40,7 @@ std::vector<std::byte> from_base64(const std::string& text) {
 std::string sealed(const nlohmann::ordered_json& json) {
     std::string text = json.dump();
     text.pop_back();
-    const std::uint32_t crc = crc32(std::as_bytes(std::span(text)));
-    return text + std::string(crc_key) + hex(crc) + "\"}";
+    return seal_record(std::move(text));
 }
 
 nlohmann::json unsealed(std::string_view text, std::string_view what) {
@@ -92,6 +91,11 @@ std::int64_t TakeFacts::time_ms_of(const FrameRecord& record) const {
                                              : record.exposure);
 }
 
+std::string seal_record(std::string text) {
+    const std::uint32_t crc = crc32(std::as_bytes(std::span(text)));
+    return text + std::string(crc_key) + hex(crc) + "\"}";
+}
+
 nlohmann::ordered_json to_json(const TakeFacts& facts) {
     nlohmann::ordered_json json{
         {"vantage_take", take_version},         {"program", facts.program},
@@ -121,6 +125,9 @@ TakeFacts take_facts_from(std::string_view text) {
             fail("its origin of {} ns is no time", to_ns(facts.origin));
         facts.timecode = json.at("timecode").get<std::string>();
         facts.tai_offset_s = json.at("tai_offset_s").get<int>();
+        constexpr int most_offset_s = 1000;
+        if (std::abs(facts.tai_offset_s) > most_offset_s)
+            fail("its tai_offset_s = {} is beyond {}", facts.tai_offset_s, most_offset_s);
         for (const auto& rig : json.at("rigs")) {
             facts.rigs.emplace_back();
             facts.rigs.back().name = rig.get<std::string>();
@@ -200,6 +207,7 @@ CameraRecord camera_record_from(std::string_view text) {
     record.tick = number<std::uint64_t>(json, "tick");
     record.pulse = number<std::uint64_t>(json, "pulse");
     record.time = tai_from_ns(number<std::int64_t>(json, "time_tai_ns"));
+    if (to_ns(record.time) < 0) fail("a camera's record says that it was before 1970");
     const auto pose = json.find("world_from_camera");
     if (pose == json.end() || !pose->is_array() || pose->size() != 12)
         fail("a camera's record has no pose of twelve numbers");

@@ -98,5 +98,7 @@ std::string to_text(const CameraRecord& record);
 CameraRecord camera_record_from(std::string_view text);
 
 std::uint32_t crc32(std::span<const std::byte> bytes);
+/// Ends the text of a record, a JSON object without its last brace, as the two above do.
+std::string seal_record(std::string text);
 
 }  // namespace vantage

@@ -26,6 +26,10 @@ std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uin
                 text, take.facts().timecode);
         return first + static_cast<std::uint64_t>(std::llround(seconds * pulses.rate_hz()));
     }
+    constexpr std::uint64_t most_pulses = 100'000'000;
+    if (last - first > most_pulses)
+        fail("{} spans {} pulses, too many to look for {} in: say seconds after its beginning",
+             take.path().string(), last - first, text);
     const int tai_offset_s = take.facts().tai_offset_s;
     const TimecodeClock clock(take.facts().pulse_rate_hz);
     for (std::uint64_t pulse = first; pulse <= last + 1; ++pulse)

@@ -251,6 +251,14 @@ void write_takes(const Seeds& seeds) {
         camera.time = tai_from_ns(1'000'000);
         writer.add(camera);
         writer.finish();
+        const auto unsealed = [](const std::string& text) {
+            return text.substr(0, text.rfind(",\"crc32\""));
+        };
+        StoredFrame stored = storer.store(packed);
+        seeds.write("take", "depth-" + std::to_string(quality), stored.depth);
+        seeds.write("take", "record-" + std::to_string(quality), unsealed(to_text(stored.record)));
+        seeds.write("take", "camera-" + std::to_string(quality), unsealed(to_text(camera)));
+        seeds.write("take", "facts-" + std::to_string(quality), to_json(facts).dump());
     }
 }
 
