@@ -88,7 +88,7 @@ TEST_F(OperatorScreen, ShowsTheTakeAndWhereInThePastItIs) {
     const ColourImage after = draw(taking);
     // The line of time lies right under the bar: green between the marks only.
     const auto colour_at = [&](const ColourImage& screen, double share) {
-        const int x = cvRound(share * width_px);
+        const int x = cvRound(share * screen.cols);
         for (int y = 35; y < 38; ++y)
             if (screen(y, x)[1] > 150 && screen(y, x)[0] < 120) return true;
         return false;
