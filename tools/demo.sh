@@ -43,9 +43,9 @@ trap 'exit 130' INT TERM
 
 # The processor draws everything where there is no GPU: then the stage runs at a rate that it holds.
 if "$bin/vantage-rig" probe --json 2>/dev/null | grep -q '"is_software": *false'; then
-  rate_hz=25 fps=50 size=1920x1080 rig_size=960x720 disparities_of_stage=96 latency_budget_ms=200 preset=balanced
+  rate_hz=25 fps=50 size=1920x1080 rig_size=960x720 disparities_of_stage=96 latency_budget_ms=200 preset=balanced loop_ahead=false
 else
-  rate_hz=5 fps=15 size=480x270 rig_size=320x240 disparities_of_stage=32 latency_budget_ms=600 preset=fast
+  rate_hz=5 fps=15 size=480x270 rig_size=320x240 disparities_of_stage=32 latency_budget_ms=600 preset=fast loop_ahead=true
   # Four rigs share the processor: one drawing thread each does the same work with less waiting.
   export LP_NUM_THREADS=1
 fi
@@ -178,6 +178,7 @@ seed = $i
 
 [virtual_rig]
 azimuth_deg = $azimuth
+loop_ahead = $loop_ahead
 
 [match]
 preset = "$preset"
@@ -230,6 +231,9 @@ for config in "$demo"/rig*.toml "$demo"/pair.toml; do
   rigs+=($!)
 done
 echo "demo: ${#rigs[@]} rig(s) started at $rate_hz pulses a second; their logs are in out/demo/" >&2
+if [ -z "$left$calibration" ] && $loop_ahead; then
+  echo "demo: the rigs draw the stage's loop of 24 s before they begin, a few seconds' work" >&2
+fi
 
 if $rigs_only; then
   echo "ready: $demo/stage.toml"

@@ -45,6 +45,7 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("doffs_px", rig.doffs_px, {-4096, 4096});
     table.read("set", rig.set, {0, 1000000});
     table.read("loop_mb", rig.loop_mb, {0, 1e6});
+    table.read("loop_ahead", rig.loop_ahead);
 }
 
 void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {

@@ -46,9 +46,10 @@ struct RigConfig {
     struct VirtualRig {
         double azimuth_deg = 0, elevation_deg = 10, distance_m = 4.5, baseline_m = 0.12,
                field_of_view_deg = 50;
-        double doffs_px = 0;  ///< cx_right - cx_left; files only
-        int set = 0;          ///< of the virtual stage: 0 the show, others generated
-        double loop_mb = 64;  ///< memory for pairs of the stage's loop; virtual only
+        double doffs_px = 0;      ///< cx_right - cx_left; files only
+        int set = 0;              ///< of the virtual stage: 0 the show, others generated
+        double loop_mb = 64;      ///< memory for pairs of the stage's loop; virtual only
+        bool loop_ahead = false;  ///< the whole loop is drawn before the first pulse; virtual only
     } virtual_rig;
 
     struct Trigger {

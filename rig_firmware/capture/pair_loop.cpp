@@ -15,8 +15,8 @@ PairLoop::PairLoop(cv::Size size, std::chrono::nanoseconds loop, std::chrono::na
                    std::size_t most_bytes)
     : size_(size), loop_(loop) {
     if (size.empty() || loop % period != std::chrono::nanoseconds(0)) return;
-    room_ =
-        std::min(static_cast<std::size_t>(loop / period), most_bytes / (2 * bytes_a_side(size)));
+    length_ = static_cast<std::size_t>(loop / period);
+    room_ = std::min(length_, most_bytes / (2 * bytes_a_side(size)));
     bytes_.resize(room_ * 2 * bytes_a_side(size));
 }
 

@@ -29,7 +29,8 @@ class PairLoop {
     /// Its pictures are opaque.
     void keep(std::chrono::nanoseconds time, const ColourImage& left, const ColourImage& right);
 
-    std::size_t room() const { return room_; }  ///< pairs
+    std::size_t length() const { return length_; }  ///< pairs of the loop; 0: no time comes twice
+    std::size_t room() const { return room_; }      ///< pairs
     std::size_t kept() const { return places_.size(); }
 
   private:
@@ -38,7 +39,7 @@ class PairLoop {
 
     cv::Size size_;
     std::chrono::nanoseconds loop_;
-    std::size_t room_ = 0;
+    std::size_t length_ = 0, room_ = 0;
     mutable std::vector<std::uint8_t> bytes_;  ///< RGB, left and right, pair after pair
     std::unordered_map<std::int64_t, std::size_t> places_;
 };

@@ -1,4 +1,5 @@
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/config/rig_config.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/shader_library.h"
@@ -37,6 +38,7 @@ class VirtualSource final : public StereoSource {
                 config.virtual_rig.doffs_px);
         // Drivers finish their programs at the first drawing: seconds, where the processor draws.
         (void)rig_.render(stage_, {}, 0);
+        if (config.virtual_rig.loop_ahead) film_loop(config.virtual_rig.loop_mb);
     }
 
     cv::Size size() const override {
@@ -64,12 +66,32 @@ class VirtualSource final : public StereoSource {
 
     std::vector<std::string> report() const override {
         return {fmt::format(
-            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels, room to "
-            "keep {} pairs of its loop",
-            set_, size().width, size().height, rate_hz_, noise_.sigma, loop_.room())};
+            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels, keeps {} "
+            "of {} pairs of its loop",
+            set_, size().width, size().height, rate_hz_, noise_.sigma, loop_.kept(), loop_.room())};
     }
 
   private:
+    void film_loop(double loop_mb) {
+        if (loop_.length() == 0)
+            fail(
+                "'loop_ahead' in [virtual_rig] needs a loop that repeats, and at {} Hz that of "
+                "{:g} "
+                "s does not: leave it false, or take another rate_hz",
+                rate_hz_, std::chrono::duration<double>(stage_loop).count());
+        if (loop_.room() < loop_.length())
+            fail(
+                "'loop_ahead' in [virtual_rig] asks for {} pairs of {}x{}, and {} fit into "
+                "loop_mb = {:g}{}: raise it, or leave 'loop_ahead' false",
+                loop_.length(), size().width, size().height, loop_.room(), loop_mb,
+                loop_.room() == 0 ? " (with exact disparity none are kept)" : "");
+        log_info("drawing the {} pairs of the stage's loop ahead", loop_.length());
+        const std::chrono::nanoseconds period =
+            std::chrono::nanoseconds(stage_loop) / static_cast<std::int64_t>(loop_.length());
+        for (std::size_t pair = 0; pair < loop_.length(); ++pair)
+            (void)film(static_cast<std::int64_t>(pair) * period);
+    }
+
     /// Without noise: as it was kept a loop of the stage ago, or else drawn.
     VirtualStereoFrame film(std::chrono::nanoseconds time) {
         VirtualStereoFrame picture;

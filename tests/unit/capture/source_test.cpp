@@ -3,7 +3,9 @@
 #include "common/base/pulse_grid.h"
 #include "common/config/calibration_file.h"
 #include "common/config/rig_config.h"
+#include "common/gl/egl_context.h"
 #include "common/image/image_file.h"
+#include "common/virtual_stage/virtual_rig.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "tests/support/data_folder.h"
@@ -69,6 +71,41 @@ TEST(VirtualSource, FilmsTheSetThatIsAskedFor) {
     };
     EXPECT_GT(difference(*of_the_show, *of_set_3), 30);
     EXPECT_LT(difference(*again, *of_set_3), 3);
+}
+
+TEST(VirtualSource, ShowsOfALoopDrawnAheadWhatItWouldHaveDrawn) {
+    RigConfig config = small_virtual_rig();
+    config.source.rate_hz = 5;
+    EXPECT_NE(make_source(config)->report().at(0).find("keeps 0 of 120 pairs"), std::string::npos);
+    config.virtual_rig.loop_ahead = true;
+    std::optional<StereoFrame> frame;
+    {
+        const auto ahead = make_source(config);
+        EXPECT_NE(ahead->report().at(0).find("keeps 120 of 120 pairs"), std::string::npos);
+        frame = next_frame(*ahead);
+    }
+    ASSERT_TRUE(frame);
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders);
+    const VirtualStereoFrame drawn = render_virtual_rig(
+        stage, rig_calibration(config, {config.source.width_px, config.source.height_px}),
+        frame->exposure.time_since_epoch(), frame->trigger_index,
+        {config.source.noise_sigma, config.source.seed});
+    EXPECT_EQ(cv::norm(frame->left, drawn.left, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(frame->right, drawn.right, cv::NORM_INF), 0);
+}
+
+TEST(VirtualSource, DrawsAheadOnlyWhatItCanKeep) {
+    RigConfig config = small_virtual_rig();
+    config.virtual_rig.loop_ahead = true;
+    config.virtual_rig.loop_mb = 1;
+    EXPECT_EQ(thrown_sentence([&] { make_source(config); }),
+              "'loop_ahead' in [virtual_rig] asks for 480 pairs of 61x47, and 58 fit into loop_mb "
+              "= 1: raise it, or leave 'loop_ahead' false");
+    config.source.rate_hz = 7;
+    EXPECT_NE(thrown_sentence([&] { make_source(config); }).find("needs a loop that repeats"),
+              std::string::npos);
 }
 
 TEST(VirtualSource, RefusesCamerasThatItCannotFilmWith) {
