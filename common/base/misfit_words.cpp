@@ -59,8 +59,7 @@ std::string unknown_option(const Place& place, const std::vector<std::string>& w
         if (words[i].size() < 2 || words[i][0] != '-') continue;
         const bool is_long = words[i][1] == '-';
         if (!is_long && std::isalpha(static_cast<unsigned char>(words[i][1])) == 0) continue;
-        std::string name =
-            is_long ? words[i].substr(0, words[i].find('=')) : words[i].substr(0, 2);
+        std::string name = is_long ? words[i].substr(0, words[i].find('=')) : words[i].substr(0, 2);
         if (!place.command->get_option_no_throw(name)) return name;
     }
     return "";

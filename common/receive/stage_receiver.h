@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/config/stage_config.h"
-#include "common/wire/arrived_frame.h"
 #include "common/receive/frame_set.h"
 #include "common/receive/rig_status.h"
+#include "common/wire/arrived_frame.h"
 
 namespace vantage {
 

@@ -10,6 +10,7 @@
 #include "common/base/percentiles.h"
 #include "common/receive/signal_state.h"
 #include "common/receive/stage_receiver.h"
+#include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/flight/corridor_books.h"
 #include "host_app/flight/move_coverage.h"
@@ -18,7 +19,6 @@
 #include "host_app/programme/programme.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
-#include "common/take/take_recorder.h"
 
 namespace vantage {
 
@@ -41,7 +41,7 @@ struct LiveReport {
     std::uint64_t shown_pulse = 0;                ///< of the last picture
     std::optional<PastSets::Span> past;           ///< that can be gone back to
     double pulse_rate_hz = 0;
-    OrbitView view;                               ///< of the last picture
+    OrbitView view;  ///< of the last picture
     CorridorBooks corridor;
     bool free_flight = false;              ///< hands may leave the corridor
     std::vector<UncoveredPart> uncovered;  ///< of the planned move

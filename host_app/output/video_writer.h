@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common/image/image.h"
 #include "common/av/av_handles.h"
+#include "common/image/image.h"
 
 namespace vantage {
 

@@ -1,7 +1,7 @@
 #include "tests/unit/output/probed_film.h"
 
-#include "common/base/error.h"
 #include "common/av/av_handles.h"
+#include "common/base/error.h"
 
 namespace vantage {
 namespace {
