@@ -52,17 +52,20 @@ void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
     rig.set_model({model, level.rank, now_s_, instant_});
 }
 
+void StagedPreparer::bind_set(Program& program, const RigHistory& rig) const {
+    program.set("model", 0);
+    program.set("set_state", 1);
+    program.set("since", static_cast<float>(instant_ - rig.model()->made));
+    rig.model()->surface->depth().bind(0);
+    rig.set_state().state().bind(1);
+}
+
 std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
-    const RigHistory::Model& model = *rig.model();
     const std::shared_ptr<RigPlate> plate = plate_pool_.take();
     const Framebuffer& target = plate->picture(rig.depth().size()).target();
     Program& show = show_.use();
-    show.set("model", 0);
-    show.set("set_state", 1);
+    bind_set(show, rig);
     show.set("colour", 2);
-    show.set("since", static_cast<float>(instant_ - model.made));
-    model.surface->depth().bind(0);
-    rig.set_state().state().bind(1);
     rig.colour().bind(2);
     show_.draw(target);
     triangles_.build(
@@ -88,19 +91,14 @@ void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
     if (!rig.model() ||
         (is_best && (rig.model()->rank > 0 || now_s_ - rig.model()->made_s >= model_period_s)))
         make_model(rig, level);
-    const RigHistory::Model& model = *rig.model();
     find_performers(rig, level);
     const Texture& performers = performers_.better(rig, uploaded_, level.refinement);
     const std::shared_ptr<RigSurface> surface = surfaces_.take();
     surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
     Program& over = over_.use();
-    over.set("model", 0);
-    over.set("set_state", 1);
+    bind_set(over, rig);
     over.set("performers", 2);
     over.set("matte", 3);
-    over.set("since", static_cast<float>(instant_ - model.made));
-    model.surface->depth().bind(0);
-    rig.set_state().state().bind(1);
     performers.bind(2);
     rig.matte().texture().bind(3);
     over_.draw(surface->depth_target());

@@ -30,6 +30,9 @@ class StagedPreparer final : public InstantPreparer {
   private:
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
+    /// Gives a program of set_now.glsl the rig's set, on units 0 and 1. Precondition: it has a
+    /// model.
+    void bind_set(Program& program, const RigHistory& rig) const;
     std::shared_ptr<const RigPlate> plate_of(RigHistory& rig);
     void find_performers(RigHistory& rig, const PrepareLevel& level);
     void publish(RigHistory& rig, const PrepareLevel& level);

@@ -17,16 +17,10 @@
 #include "host_app/instants/depth_views.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/size_option.h"
 
 namespace vantage {
 namespace {
-
-cv::Size size_of(const std::string& text) {
-    int width = 0, height = 0;
-    if (std::sscanf(text.c_str(), "%dx%d", &width, &height) != 2 || width < 16 || height < 16)
-        throw CLI::ValidationError("a size is WIDTHxHEIGHT, each at least 16, not " + text);
-    return {width, height};
-}
 
 struct BenchRig {
     StageCamera film;  ///< the rectified left one

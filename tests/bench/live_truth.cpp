@@ -6,19 +6,11 @@
 
 #include "common/gl/egl_context.h"
 #include "tests/bench/played_truth.h"
+#include "tests/bench/size_option.h"
 #include "tests/bench/stepped_truth.h"
 
 namespace vantage {
-namespace {
-
-cv::Size size_of(const std::string& text) {
-    int width = 0, height = 0;
-    if (std::sscanf(text.c_str(), "%dx%d", &width, &height) != 2 || width < 16 || height < 16)
-        throw CLI::ValidationError("a size is WIDTHxHEIGHT, each at least 16, not " + text);
-    return {width, height};
-}
-
-}  // namespace
+namespace {}  // namespace
 }  // namespace vantage
 
 int main(int argc, char** argv) {

@@ -1,0 +1,9 @@
+// The depth of a rig's set at this instant: its model's, but where the set has changed since that was made.
+uniform sampler2D model;      // metres, 0 = unknown, negative = guessed
+uniform sampler2D set_state;  // from set_learn.frag
+uniform float since;          // instants since the model was made
+
+float set_depth_m(ivec2 at) {
+    vec2 state = texelFetch(set_state, at, 0).rg;
+    return state.r > 0.0 && state.g <= since ? state.r : texelFetch(model, at, 0).r;
+}
