@@ -25,6 +25,13 @@ std::string why_of(const TakeReader::Frame& before, const TakeReader::Frame& aft
     return text;
 }
 
+/// Before frame `i`. A rig counts while a frame is still on its way to be packed, so the one before
+/// the gap may know of it already.
+std::string why_of(const std::vector<TakeReader::Frame>& frames, std::size_t i) {
+    const std::string why = why_of(frames[i - 1], frames[i]);
+    return why.empty() && i >= 2 ? why_of(frames[i - 2], frames[i - 1]) : why;
+}
+
 void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std::uint64_t last,
                std::vector<TakeGap>& gaps) {
     const std::string& name = take.facts().rigs[rig].name;
@@ -38,8 +45,7 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
         gaps.push_back({name, first, frames.front().pulse - 1, "the rig came later"});
     for (std::size_t i = 1; i < frames.size(); ++i)
         if (frames[i].pulse > frames[i - 1].pulse + 1)
-            gaps.push_back({name, frames[i - 1].pulse + 1, frames[i].pulse - 1,
-                            why_of(frames[i - 1], frames[i])});
+            gaps.push_back({name, frames[i - 1].pulse + 1, frames[i].pulse - 1, why_of(frames, i)});
     if (last - frames.back().pulse > ragged)
         gaps.push_back({name, frames.back().pulse + 1, last, "the rig went earlier"});
 }

@@ -118,7 +118,7 @@ class TakeRecorder {
     std::deque<Item> queue_, pre_roll_;
     std::size_t queued_bytes_ = 0, pre_roll_bytes_ = 0, most_queued_bytes_ = 0;
     std::optional<std::filesystem::path> begin_;  ///< asked for, not begun yet
-    bool is_taking_ = false, is_ending_ = false, is_stopping_ = false, is_busy_ = false;
+    bool is_taking_ = false, is_ending_ = false, is_stopping_ = false;
     TakeState state_;
     std::thread thread_;
 };
