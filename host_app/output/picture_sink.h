@@ -25,6 +25,7 @@ struct ProgrammePicture {
 class PictureSink {
   public:
     virtual ~PictureSink() = default;
+    /// For people; empty: it is no output of the programme, and not among them in the books.
     virtual std::string name() const = 0;
     /// Never waits: what cannot be taken now is left out and counted. Throws Error if the sink has
     /// failed.

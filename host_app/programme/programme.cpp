@@ -331,7 +331,8 @@ void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
 void Programme::note_sinks() {
     const std::lock_guard lock(mutex_);
     books_.sinks.clear();
-    for (const Sink& sink : sinks_) books_.sinks.push_back(sink.state);
+    for (const Sink& sink : sinks_)
+        if (!sink.state.name.empty()) books_.sinks.push_back(sink.state);
 }
 
 ProgrammeState Programme::state() const {

@@ -48,7 +48,7 @@ std::filesystem::path name_for_now() {
 class CameraSink final : public PictureSink {
   public:
     explicit CameraSink(TakeRecorder& recorder) : recorder_(recorder) {}
-    std::string name() const override { return "camera of the take"; }
+    std::string name() const override { return ""; }
     void take(const ProgrammePicture& picture) override {
         CameraRecord record;
         record.tick = picture.tick;
