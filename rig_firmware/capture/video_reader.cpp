@@ -1,39 +1,15 @@
 #include "rig_firmware/capture/video_reader.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/imgutils.h>
-#include <libswscale/swscale.h>
-}
-
+#include "common/av/av_handles.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"
 
 namespace vantage {
 namespace {
 
-struct FreeFormat {
+struct CloseInput {
     void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
 };
-struct FreeCodec {
-    void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-};
-struct FreeFrame {
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-struct FreePacket {
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-struct FreeScaler {
-    void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-};
-
-std::string reason(int code) {
-    char text[AV_ERROR_MAX_STRING_SIZE] = {};
-    av_strerror(code, text, sizeof text);
-    return text;
-}
 
 }  // namespace
 
@@ -42,10 +18,10 @@ struct VideoReader::Impl {
         : path_(path), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
         AVFormatContext* format = nullptr;
         if (const int code = avformat_open_input(&format, path.c_str(), nullptr, nullptr); code < 0)
-            fail("{} is neither a picture nor a video that can be read: {}", path, reason(code));
+            fail("{} is neither a picture nor a video that can be read: {}", path, av_reason(code));
         format_.reset(format);
         if (const int code = avformat_find_stream_info(format, nullptr); code < 0)
-            fail("{} cannot be read as a video: {}", path, reason(code));
+            fail("{} cannot be read as a video: {}", path, av_reason(code));
         const AVCodec* decoder = nullptr;
         stream_ = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
         if (stream_ < 0 || !decoder) fail("{} holds no video that can be decoded", path);
@@ -53,7 +29,7 @@ struct VideoReader::Impl {
         avcodec_parameters_to_context(codec_.get(), format->streams[stream_]->codecpar);
         codec_->thread_count = 0;  // as many as there are processors
         if (const int code = avcodec_open2(codec_.get(), decoder, nullptr); code < 0)
-            fail("the video of {} cannot be decoded: {}", path, reason(code));
+            fail("the video of {} cannot be decoded: {}", path, av_reason(code));
     }
 
     std::optional<ColourImage> next() {
@@ -61,7 +37,7 @@ struct VideoReader::Impl {
             const int code = avcodec_receive_frame(codec_.get(), frame_.get());
             if (code == 0) return to_colour();
             if (code == AVERROR_EOF) return std::nullopt;
-            if (code != AVERROR(EAGAIN)) fail("{} is damaged: {}", path_, reason(code));
+            if (code != AVERROR(EAGAIN)) fail("{} is damaged: {}", path_, av_reason(code));
             feed();
         }
     }
@@ -74,11 +50,11 @@ struct VideoReader::Impl {
                 avcodec_send_packet(codec_.get(), nullptr);
                 return;
             }
-            if (code < 0) fail("{} is damaged: {}", path_, reason(code));
+            if (code < 0) fail("{} is damaged: {}", path_, av_reason(code));
             const bool is_video = packet_->stream_index == stream_;
             const int sent = is_video ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
             av_packet_unref(packet_.get());
-            if (sent < 0) fail("{} is damaged: {}", path_, reason(sent));
+            if (sent < 0) fail("{} is damaged: {}", path_, av_reason(sent));
             if (is_video) return;
         }
     }
@@ -102,11 +78,11 @@ struct VideoReader::Impl {
     }
 
     std::string path_;
-    std::unique_ptr<AVFormatContext, FreeFormat> format_;
-    std::unique_ptr<AVCodecContext, FreeCodec> codec_;
-    std::unique_ptr<SwsContext, FreeScaler> scaler_;
-    std::unique_ptr<AVFrame, FreeFrame> frame_;
-    std::unique_ptr<AVPacket, FreePacket> packet_;
+    std::unique_ptr<AVFormatContext, CloseInput> format_;
+    AvCodecContextPtr codec_;
+    SwsContextPtr scaler_;
+    AvFramePtr frame_;
+    AvPacketPtr packet_;
     int stream_ = -1;
 };
 
