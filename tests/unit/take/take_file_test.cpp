@@ -289,15 +289,22 @@ TEST_F(TakeFileTest, OpensAfterAnyKill) {
     cv::RNG random(static_cast<std::uint64_t>(getpid()));
     for (int i = 0; i < 25; ++i) {
         const std::filesystem::path path = folder_.path() / fmt::format("killed-{}.mkv", i);
+        // A take begins with its head: before that nothing was recorded.
+        int begun[2];
+        ASSERT_EQ(pipe(begun), 0);
         const pid_t child = fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
             TakeWriter writer(path, small_facts({"north"}, first_pulse));
+            if (write(begun[1], "!", 1) != 1) _exit(1);
             FrameStorer storer(writer.facts().rigs[0]);
             for (std::uint64_t pulse = first_pulse;; ++pulse)
                 writer.add(0, storer.store(sent_frame("north", pulse)));
         }
-        while (!std::filesystem::exists(path)) usleep(100);
+        close(begun[1]);
+        char told = 0;
+        EXPECT_EQ(read(begun[0], &told, 1), 1);
+        close(begun[0]);
         usleep(static_cast<useconds_t>(random.uniform(5'000, 60'000)));
         kill(child, SIGKILL);
         int status = 0;
