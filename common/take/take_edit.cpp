@@ -4,7 +4,6 @@
 #include <set>
 
 #include "common/base/error.h"
-#include "common/base/output_path.h"
 #include "common/base/pulse_grid.h"
 #include "common/base/timecode.h"
 
@@ -119,13 +118,7 @@ void write(const std::vector<const TakeReader*>& takes, const std::vector<Source
 TakeCopy copy_takes(const std::vector<const TakeReader*>& takes, std::uint64_t from,
                     std::uint64_t to, const std::filesystem::path& path,
                     const std::function<void(double)>& progress) {
-    require_writable_output(path, {});
-    if (path.extension() != ".mkv")
-        fail("{} cannot be written: a take is a Matroska file, whose name ends in .mkv",
-             path.string());
-    if (std::filesystem::exists(path))
-        fail("{} is there already, and a take never replaces a file: take another name",
-             path.string());
+    require_new_take(path, "written");
     TakeFacts facts = takes.front()->facts();
     facts.rigs = rigs_of(takes);
     const std::vector<Source> sources = sources_of(takes, facts.rigs, from, to);

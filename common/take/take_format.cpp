@@ -190,15 +190,20 @@ FrameRecord frame_record_from(std::string_view text) {
     return record;
 }
 
-std::string to_text(const CameraRecord& record) {
-    nlohmann::ordered_json json{
-        {"tick", record.tick}, {"pulse", record.pulse}, {"time_tai_ns", to_ns(record.time)}};
+nlohmann::ordered_json pose_json(const Pose& pose) {
+    nlohmann::ordered_json numbers;
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            json["world_from_camera"].push_back(record.world_from_camera.matrix()(row, column));
-    json["field_of_view_rad"] = record.field_of_view_rad;
-    json["focus_m"] = record.focus_m;
-    return sealed(json);
+        for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
+    return numbers;
+}
+
+std::string to_text(const CameraRecord& record) {
+    return sealed({{"tick", record.tick},
+                   {"pulse", record.pulse},
+                   {"time_tai_ns", to_ns(record.time)},
+                   {"world_from_camera", pose_json(record.world_from_camera)},
+                   {"field_of_view_rad", record.field_of_view_rad},
+                   {"focus_m", record.focus_m}});
 }
 
 CameraRecord camera_record_from(std::string_view text) {

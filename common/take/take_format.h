@@ -94,6 +94,8 @@ struct CameraRecord {
     Pose world_from_camera = Pose::Identity();
     double field_of_view_rad = 0, focus_m = 0;
 };
+/// Twelve numbers, row after row.
+nlohmann::ordered_json pose_json(const Pose& pose);
 std::string to_text(const CameraRecord& record);
 CameraRecord camera_record_from(std::string_view text);
 

@@ -6,7 +6,6 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/output_path.h"
 #include "common/base/pulse_grid.h"
 #include "common/base/timecode.h"
 
@@ -22,19 +21,16 @@ constexpr std::chrono::milliseconds patience{100};
 
 nlohmann::ordered_json calibration_json(const RigFrame& frame) {
     const RectifiedStereo& geometry = frame.geometry;
-    nlohmann::ordered_json json{{"id", frame.calibration_id},
-                                {"width_px", geometry.width_px},
-                                {"height_px", geometry.height_px},
-                                {"f_px", geometry.f_px},
-                                {"cx_left_px", geometry.cx_left_px},
-                                {"cx_right_px", geometry.cx_right_px},
-                                {"cy_px", geometry.cy_px},
-                                {"baseline_m", geometry.baseline_m},
-                                {"place_is_assumed", frame.place_is_assumed}};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            json["world_from_camera"].push_back(frame.world_from_camera.matrix()(row, column));
-    return json;
+    return {{"id", frame.calibration_id},
+            {"width_px", geometry.width_px},
+            {"height_px", geometry.height_px},
+            {"f_px", geometry.f_px},
+            {"cx_left_px", geometry.cx_left_px},
+            {"cx_right_px", geometry.cx_right_px},
+            {"cy_px", geometry.cy_px},
+            {"baseline_m", geometry.baseline_m},
+            {"place_is_assumed", frame.place_is_assumed},
+            {"world_from_camera", pose_json(frame.world_from_camera)}};
 }
 
 }  // namespace
@@ -57,9 +53,7 @@ struct TakeRecorder::Take {
 };
 
 std::size_t TakeRecorder::Item::bytes() const {
-    if (!frame) return sizeof(Item);
-    const PackedFrame& packed = *frame->packed;
-    return packed.header.size() + packed.colour.size() + packed.disparity.size();
+    return frame ? frame->packed->bytes() : sizeof(Item);
 }
 
 TakeRecorder::TakeRecorder(Settings settings) : settings_(std::move(settings)) {
@@ -134,13 +128,7 @@ void TakeRecorder::offer(const CameraRecord& camera) {
 }
 
 void TakeRecorder::begin(const std::filesystem::path& path) {
-    require_writable_output(path, {});
-    if (path.extension() != ".mkv")
-        fail("{} cannot be recorded: a take is a Matroska file, whose name ends in .mkv",
-             path.string());
-    if (std::filesystem::exists(path))
-        fail("{} is there already, and a take never replaces a file: take another name",
-             path.string());
+    require_new_take(path, "recorded");
     {
         const std::lock_guard lock(mutex_);
         if (is_taking_) return;

@@ -9,6 +9,7 @@ extern "C" {
 }
 
 #include "common/base/error.h"
+#include "common/base/output_path.h"
 #include "common/take/take_file.h"
 
 namespace vantage {
@@ -210,6 +211,16 @@ void TakeWriter::fail_writing(int code) {
 std::uint64_t TakeWriter::bytes() const { return file_->bytes(); }
 
 double TakeWriter::duration_s() const { return static_cast<double>(last_ms_ - first_ms_) / 1000; }
+
+void require_new_take(const std::filesystem::path& path, const char* done) {
+    require_writable_output(path, {});
+    if (path.extension() != ".mkv")
+        fail("{} cannot be {}: a take is a Matroska file, whose name ends in .mkv", path.string(),
+             done);
+    if (std::filesystem::exists(path))
+        fail("{} is there already, and a take never replaces a file: take another name",
+             path.string());
+}
 
 std::filesystem::path free_take_name(const std::filesystem::path& path) {
     std::filesystem::path free = path;

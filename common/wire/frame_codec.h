@@ -18,6 +18,8 @@ struct PackedFrame {
     std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour
     std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity. Of a
                                        ///< raw pair: the right picture
+
+    std::size_t bytes() const { return header.size() + colour.size() + disparity.size(); }
 };
 
 /// Packs a view's colour ahead of the rest, on another thread than its FrameEncoder's. Not

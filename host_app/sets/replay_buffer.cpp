@@ -23,8 +23,7 @@ ReplayBuffer::Kept ReplayBuffer::kept_of(const FrameSet& set) {
         if (!slot.frame) continue;
         if (slot.frame->packed) {
             own.packed = slot.frame->packed;
-            kept.bytes += own.packed->header.size() + own.packed->colour.size() +
-                          own.packed->disparity.size();
+            kept.bytes += own.packed->bytes();
         } else {
             own.frame = slot.frame;
             kept.bytes += own.frame->colour.total() * own.frame->colour.elemSize() +
