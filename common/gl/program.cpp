@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/gl/limits.h"
+#include "common/gl/sliced_drawing.h"
 
 namespace vantage {
 namespace {
@@ -132,6 +133,7 @@ void Program::dispatch_over(int width, int height, int depth) const {
     const auto groups = [](int invocations, int size) {
         return static_cast<GLuint>((invocations + size - 1) / size);
     };
+    if (const SlicedDrawing* slices = SlicedDrawing::current()) slices->give_way();
     glDispatchCompute(groups(width, workgroup_[0]), groups(height, workgroup_[1]),
                       groups(depth, workgroup_[2]));
 }

@@ -17,11 +17,13 @@ thread_local const SlicedDrawing* current_slicing = nullptr;
 constexpr int first_rows = 32, fewest_rows = 8;
 /// A driver that does not answer for so long is lost, not slow.
 constexpr std::chrono::seconds patience{10};
+/// A band waits so long for others at most, so that a renderer that is never done leaves some time.
+constexpr std::chrono::milliseconds longest_way{60};
 
 }  // namespace
 
-SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice)
-    : slice_(slice), before_(current_slicing) {
+SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way)
+    : slice_(slice), way_(way), before_(current_slicing) {
     current_slicing = this;
 }
 
@@ -29,11 +31,16 @@ SlicedDrawing::~SlicedDrawing() { current_slicing = before_; }
 
 const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 
+void SlicedDrawing::give_way() const {
+    if (way_) way_->give_way(longest_way);
+}
+
 void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>& draw) const {
     if (rows == 0) rows = first_rows;
     glEnable(GL_SCISSOR_TEST);
     for (int y = 0; y < target.height;) {
         const int height = std::min(rows, target.height - y);
+        give_way();
         const MonotonicTime start = MonotonicClock::now();
         glScissor(0, y, target.width, height);
         draw();

@@ -190,7 +190,7 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
 
 void InstantThread::prepare_instants() {
     const CurrentContext current(*context_);
-    const SlicedDrawing slices(slice);
+    const SlicedDrawing slices(slice, &way_);
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for

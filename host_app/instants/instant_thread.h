@@ -14,6 +14,7 @@
 #include "common/base/percentiles.h"
 #include "common/base/time.h"
 #include "common/gl/egl_context.h"
+#include "common/gl/right_of_way.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/instant_preparer.h"
 #include "host_app/instants/rig_demand.h"
@@ -82,6 +83,8 @@ class InstantThread {
         return past().pulse_at(pulse);
     }
     ReceiverStatus status() const { return sets_.status(); }
+    /// Who renders against a clock claims it, and preparing waits.
+    RightOfWay& right_of_way() { return way_; }
 
     struct Books {
         std::uint64_t prepared = 0;        ///< live sets, or a take's
@@ -117,6 +120,7 @@ class InstantThread {
 
     Settings settings_;
     const EglContext* context_;
+    RightOfWay way_;
     ReplayBuffer replay_;
     NewestSet sets_;
     ColourHarmoniser harmoniser_;  ///< of the thread

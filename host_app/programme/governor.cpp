@@ -20,6 +20,9 @@ constexpr double least_patience_s = 0.5, first_patience_s = 2, longest_patience_
 /// A level that had to be left within so long after it was risen to was a mistake.
 constexpr double mistake_s = 5;
 constexpr double mean_share = 0.2;
+/// Of a tick and of the time between two pulses. Rendering has the right of way over preparing:
+/// what it takes, instants are late by. Preparing counts the time that it gave way for.
+constexpr double rendering_share = 0.4, preparing_share = 0.9;
 
 double seconds(MonotonicTime from, MonotonicTime to) {
     return std::chrono::duration<double>(to - from).count();
@@ -106,8 +109,8 @@ QualityWish QualityWish::parse(const std::string& text) {
 Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
-      render_(render_levels().size(), 0.8),
-      prepare_(prepare_levels().size(), 0.9) {
+      render_(render_levels().size(), rendering_share),
+      prepare_(prepare_levels().size(), preparing_share) {
     // What a GPU can do is found out from below: pictures that come in time first, better ones
     // then.
     if (!wish.level) {

@@ -17,10 +17,11 @@ double ms_since(MonotonicTime start) {
 }  // namespace
 
 PictureMaker::PictureMaker(SynthesiserEntry synthesiser, PictureFormat format,
-                           const EglContext& context, Manner manner)
+                           const EglContext& context, RightOfWay& way, Manner manner)
     : synthesiser_(std::move(synthesiser)),
       format_(format),
       context_(&context),
+      way_(&way),
       manner_(manner),
       thread_([this] { run(); }) {}
 
@@ -76,7 +77,7 @@ void PictureMaker::run() {
 void PictureMaker::make_pictures() {
     const CurrentContext current(*context_);
     std::optional<SlicedDrawing> slices;
-    if (manner_ == Manner::in_slices) slices.emplace(slice);
+    if (manner_ == Manner::in_slices) slices.emplace(slice, way_);
     const ShaderLibrary shaders;
     ViewPainter painter(synthesiser_, format_, shaders);
     std::unique_lock lock(mutex_);
@@ -88,9 +89,12 @@ void PictureMaker::make_pictures() {
         lock.unlock();
         auto made = std::make_shared<MadePicture>();
         const MonotonicTime start = MonotonicClock::now();
+        std::optional<RightOfWay::Claim> claim;
+        if (manner_ == Manner::at_once) claim.emplace(*way_);
         made->picture = painter.paint(*job.instant->instant, job.camera, job.level,
                                       job.source_map ? &made->sources : nullptr);
         made->readback_ms = painter.last_readback_ms();
+        claim.reset();
         made->render_ms = ms_since(start) - made->readback_ms;
         made->job = job;
         lock.lock();

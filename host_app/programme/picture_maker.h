@@ -9,6 +9,7 @@
 
 #include "common/base/time.h"
 #include "common/gl/egl_context.h"
+#include "common/gl/right_of_way.h"
 #include "common/image/image.h"
 #include "host_app/flight/camera_state.h"
 #include "host_app/instants/instant_thread.h"
@@ -39,12 +40,13 @@ struct MadePicture {
 class PictureMaker {
   public:
     enum class Manner {
-        at_once,
-        in_slices,  ///< lets other contexts have their turn: for pictures that may take long
+        at_once,    ///< with the right of way
+        in_slices,  ///< gives way to others: for pictures that may take long
     };
-    /// `context` is current on no thread. Compiles at once; is_idle() tells when it is done.
+    /// `context` is current on no thread; it and `way` must outlive the maker. Compiles at once;
+    /// is_idle() tells when it is done.
     PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, const EglContext& context,
-                 Manner manner = Manner::at_once);
+                 RightOfWay& way, Manner manner = Manner::at_once);
     ~PictureMaker();
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
@@ -66,6 +68,7 @@ class PictureMaker {
     SynthesiserEntry synthesiser_;
     PictureFormat format_;
     const EglContext* context_;
+    RightOfWay* way_;
     Manner manner_;
     mutable std::mutex mutex_;
     std::condition_variable woken_;

@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds look_period{2};
 /// A camera and an instant that were left alone for so long are worth the best picture.
 constexpr std::chrono::milliseconds rest{250};
 /// Pictures that the lead before a tick is judged by, and what is added to the longest of them.
-constexpr std::size_t judged_pictures = 12;
+constexpr std::size_t judged_pictures = 100;
 constexpr double lead_ratio = 1.15, lead_margin_ms = 3;
 
 double ms_between(MonotonicTime start, MonotonicTime end) {
@@ -60,7 +60,8 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
     camera_ = view_.camera();
     wish_for_instant(MonotonicClock::now());
     instants_.prepare_for(entry_.name, entry_.make_preparer);
-    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[context_]);
+    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[context_],
+                                            instants_.right_of_way());
     state_.view = view_;
     state_.synthesiser = entry_.name;
 }
@@ -169,8 +170,8 @@ bool Programme::look(double time_s, MonotonicTime now) {
             return entry.name == entry_.name;
         });
         entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
-        next_maker_ =
-            std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[1 - context_]);
+        next_maker_ = std::make_unique<PictureMaker>(
+            entry_, settings_.format, contexts_[1 - context_], instants_.right_of_way());
         retired_still_ = std::move(still_maker_);
         begun_still_.reset();
     }
@@ -230,6 +231,7 @@ void Programme::better_what_is_held(MonotonicTime now) {
     if (retired_still_) return;
     if (!still_maker_) {
         still_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, still_context_,
+                                                      instants_.right_of_way(),
                                                       PictureMaker::Manner::in_slices);
         return;
     }
