@@ -1,49 +1,99 @@
-// The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces. Each
-// invocation writes the six indices of one quad; a triangle that is left out is written as a point.
+// The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces; an invocation a block
+// of quads. A block in which inverse depth is linear in the picture, as on a plane, is two triangles. They are written
+// one after the other, as many as there are.
 #ifndef STEP
-#define STEP 1  // px of the depth map that a quad spans
+#define STEP 1    // px of the depth map that a quad spans
+#endif
+#ifndef ACROSS
+#define ACROSS 1  // quads of a block, across and down
+#endif
+#ifndef TILES
+#define TILES 0   // 1: only where a tile says so
 #endif
 #include "mesh_joints.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, binding = 0) writeonly buffer Triangles { uint indices[]; };
+layout(std430, binding = 1) buffer Command { uint count; };  // the first word of an indirect draw
 
-void main() {
-    ivec2 size = textureSize(depth_map, 0);
-    ivec2 quad = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 quads = (size - 1) / STEP;
-    if (quad.x >= quads.x || quad.y >= quads.y) return;
-    ivec2 at = STEP * quad;
+#if TILES
+uniform sampler2D tiles;  // 0 = nothing
+uniform vec2 tile_share;  // of the picture
+#endif
+uniform float bend;       // of inverse depth: a block that bends less is flat
+
+void write(uint first, uvec3 corners) {
+    indices[first] = corners.x;
+    indices[first + 1u] = corners.y;
+    indices[first + 2u] = corners.z;
+}
+
+void write_quad(ivec2 at, ivec2 size) {
     Quad q = quad_at(at, STEP, size);
-
     uint first = uint(at.y * size.x + at.x);
     uint down = uint(STEP * size.x), across = uint(STEP);
     uvec4 corner = uvec4(first, first + across, first + down, first + down + across);
-    uvec3 one = uvec3(first), two = uvec3(first);
     if (q.ab && q.ac && q.bd && q.cd) {
+        uint place = atomicAdd(count, 6u);
         // The diagonal along which the surface bends less.
-        if (abs(q.a - q.d) < abs(q.b - q.c)) {
-            one = corner.xyw;
-            two = corner.xwz;
-        } else {
-            one = corner.xyz;
-            two = corner.ywz;
-        }
-    } else if (q.ab && q.ac) {
-        one = corner.xyz;
-    } else if (q.bd && q.cd) {
-        one = corner.ywz;
-    } else if (q.ab && q.bd) {
-        one = corner.xyw;
-    } else if (q.ac && q.cd) {
-        one = corner.xwz;
+        bool falls = abs(q.a - q.d) < abs(q.b - q.c);
+        write(place, falls ? corner.xyw : corner.xyz);
+        write(place + 3u, falls ? corner.xwz : corner.ywz);
+        return;
     }
-    uint base = 6u * uint(quad.y * quads.x + quad.x);
-    indices[base] = one.x;
-    indices[base + 1u] = one.y;
-    indices[base + 2u] = one.z;
-    indices[base + 3u] = two.x;
-    indices[base + 4u] = two.y;
-    indices[base + 5u] = two.z;
+    uvec3 one;
+    if (q.ab && q.ac)
+        one = corner.xyz;
+    else if (q.bd && q.cd)
+        one = corner.ywz;
+    else if (q.ab && q.bd)
+        one = corner.xyw;
+    else if (q.ac && q.cd)
+        one = corner.xwz;
+    else
+        return;
+    write(atomicAdd(count, 3u), one);
+}
+
+#if ACROSS > 1
+// Whether a block is flat, by samples at every second pixel, and then its triangles. It takes a pixel more on all sides,
+// so that no gap shows beside a block that is not flat.
+bool write_if_flat(ivec2 at, ivec2 size) {
+    const int samples = (ACROSS * STEP + 2) / 2;
+    ivec2 low = max(at - 1, 0), high = min(at + ACROSS * STEP + 1, size - 1);
+    float a = inverse_depth(low, size), b = inverse_depth(ivec2(high.x, low.y), size);
+    float c = inverse_depth(ivec2(low.x, high.y), size), d = inverse_depth(high, size);
+    if (min(min(a, b), min(c, d)) <= 0.0) return false;
+    for (int j = 0; j <= samples; ++j)
+        for (int i = 0; i <= samples; ++i) {
+            ivec2 sample_at = ivec2(mix(vec2(low), vec2(high), vec2(i, j) / float(samples)) + 0.5);
+            vec2 share = vec2(sample_at - low) / vec2(high - low);
+            float expected = mix(mix(a, b, share.x), mix(c, d, share.x), share.y);
+            if (abs(inverse_depth(sample_at, size) - expected) > bend) return false;
+        }
+    uint first = uint(low.y * size.x + low.x), below = uint(high.y * size.x + low.x), right = uint(high.x - low.x);
+    uint place = atomicAdd(count, 6u);
+    write(place, uvec3(first, first + right, below));
+    write(place + 3u, uvec3(first + right, below + right, below));
+    return true;
+}
+#endif
+
+void main() {
+    ivec2 size = textureSize(depth_map, 0);
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy) * ACROSS * STEP, end = (size - 1) / STEP * STEP;
+    if (at.x >= end.x || at.y >= end.y) return;
+#if TILES
+    vec2 middle = (vec2(at) + 0.5 * float(ACROSS * STEP)) / vec2(size);
+    if (texelFetch(tiles, ivec2(middle / tile_share), 0).r == 0.0) return;
+#endif
+#if ACROSS > 1
+    if (write_if_flat(at, size)) return;
+#endif
+    for (int j = 0; j < ACROSS; ++j)
+        for (int i = 0; i < ACROSS; ++i) {
+            ivec2 quad = at + STEP * ivec2(i, j);
+            if (quad.x < end.x && quad.y < end.y) write_quad(quad, size);
+        }
 }

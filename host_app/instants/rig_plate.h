@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "common/gl/buffer.h"
+#include "host_app/instants/depth_grid.h"
 #include "host_app/instants/depth_picture.h"
 
 namespace vantage {
@@ -17,26 +17,19 @@ class RigPlate {
     /// To draw into.
     DepthPicture& picture(cv::Size size) {
         picture_.resize(size);
-        has_triangles_ = false;
         return picture_;
     }
 
     /// Of the coarse grid; the one who publishes it writes them.
-    const Buffer& triangles() const { return *triangles_; }
-    bool has_triangles() const { return has_triangles_; }
-    const Buffer& triangles_to_build(int indices) {
-        const std::size_t bytes = static_cast<std::size_t>(indices) * sizeof(std::uint32_t);
-        if (!triangles_ || triangle_bytes_ != bytes) triangles_.emplace(bytes, GL_DYNAMIC_DRAW);
-        triangle_bytes_ = bytes;
-        has_triangles_ = true;
+    const IndirectTriangles& triangles() const { return *triangles_; }
+    const IndirectTriangles& triangles_to_build(int most_indices) {
+        if (!triangles_ || triangles_->capacity != most_indices) triangles_.emplace(most_indices);
         return *triangles_;
     }
 
   private:
     DepthPicture picture_;
-    bool has_triangles_ = false;
-    std::size_t triangle_bytes_ = 0;
-    std::optional<Buffer> triangles_;
+    std::optional<IndirectTriangles> triangles_;
 };
 
 }  // namespace vantage

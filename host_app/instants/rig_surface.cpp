@@ -2,19 +2,10 @@
 
 #include <algorithm>
 
+#include "host_app/instants/depth_spread.h"
 #include "host_app/instants/projection.h"
 
 namespace vantage {
-
-int triangle_indices(cv::Size depth_size, QuadGrid grid) {
-    const int step = static_cast<int>(grid);
-    return 6 * ((depth_size.width - 1) / step) * ((depth_size.height - 1) / step);
-}
-
-SurfaceRims::SurfaceRims(int most_indices)
-    : indices(static_cast<std::size_t>(most_indices) * sizeof(std::uint32_t), GL_DYNAMIC_DRAW),
-      command(5 * sizeof(std::uint32_t), GL_DYNAMIC_DRAW),
-      capacity(most_indices) {}
 
 void upload_colour(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                    Texture& into) {
@@ -37,13 +28,8 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     colour_.resize(colour_size);
     drawn_.resize(depth_size);
     if (grid_size_ == depth_size) return;
-    const auto make = [&](QuadGrid grid, std::optional<Buffer>& triangles) {
-        const auto indices =
-            static_cast<std::size_t>(std::max(vantage::triangle_indices(depth_size, grid), 1));
-        triangles.emplace(indices * sizeof(std::uint32_t), GL_DYNAMIC_DRAW);
-    };
-    make(QuadGrid::fine, triangles_);
-    make(QuadGrid::coarse, coarse_triangles_);
+    triangles_.emplace(vantage::triangle_indices(depth_size, QuadGrid::fine));
+    coarse_triangles_.emplace(vantage::triangle_indices(depth_size, QuadGrid::coarse));
     rims_.reset();
     grid_size_ = depth_size;
 }
@@ -56,7 +42,7 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
     colour_.generate_mipmaps();
 }
 
-const SurfaceRims& RigSurface::rims_to_build() {
+const IndirectTriangles& RigSurface::rims_to_build() {
     // A quarter of a quad takes as many indices as a quad of the grid: enough for a picture a
     // quarter of whose pixels lie at edges.
     if (!rims_) rims_.emplace(std::max(triangle_indices(), 24));
@@ -71,7 +57,8 @@ Eigen::Matrix3d RigSurface::K_depth() const {
 }
 
 DepthGrid RigSurface::grid(QuadGrid grid) const {
-    return {depth(), triangles(grid), K_depth(), camera_.world_from_camera, grid};
+    return {depth(), triangles(grid),      K_depth(), camera_.world_from_camera,
+            grid,    depth_spread(camera_)};
 }
 
 }  // namespace vantage

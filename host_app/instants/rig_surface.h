@@ -28,8 +28,8 @@ class RigSurface {
     /// What the rig has learnt of its background; null: too little to be shown.
     const RigPlate* plate() const { return plate_.get(); }
 
-    /// Index buffer of the depth map's triangles: two a quad of the grid.
-    const Buffer& triangles(QuadGrid grid = QuadGrid::fine) const {
+    /// Of the depth map.
+    const IndirectTriangles& triangles(QuadGrid grid = QuadGrid::fine) const {
         return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
     }
     int triangle_indices(QuadGrid grid = QuadGrid::fine) const {
@@ -38,7 +38,7 @@ class RigSurface {
     /// Whether triangles of the fine grid were built.
     bool has_fine_grid() const { return has_fine_grid_; }
     /// Null where none were built.
-    const SurfaceRims* rims() const { return has_rims_ ? &*rims_ : nullptr; }
+    const IndirectTriangles* rims() const { return has_rims_ ? &*rims_ : nullptr; }
     Eigen::Matrix3d K_depth() const;
     DepthGrid grid(QuadGrid grid) const;
 
@@ -58,7 +58,7 @@ class RigSurface {
     const Framebuffer& depth_target() const { return drawn_.target(); }
     const Framebuffer& colour_target() const { return colour_.target(); }
     void finish_colour() { colour_.generate_mipmaps(); }
-    const SurfaceRims& rims_to_build();
+    const IndirectTriangles& rims_to_build();
     void set_has_fine_grid(bool has) { has_fine_grid_ = has; }
     void set_plate(std::shared_ptr<const RigPlate> plate) { plate_ = std::move(plate); }
 
@@ -68,8 +68,7 @@ class RigSurface {
     DrawnTexture drawn_{TextureFormat::r32f};
     DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
     bool has_rims_ = false, has_fine_grid_ = true;
-    std::optional<Buffer> triangles_, coarse_triangles_;
-    std::optional<SurfaceRims> rims_;
+    std::optional<IndirectTriangles> triangles_, coarse_triangles_, rims_;
     cv::Size grid_size_;
     std::shared_ptr<const RigPlate> plate_;
 };

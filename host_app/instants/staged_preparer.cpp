@@ -1,5 +1,6 @@
 #include "host_app/instants/staged_preparer.h"
 
+#include "host_app/instants/depth_spread.h"
 #include "host_app/instants/rig_presence.h"
 #include "host_app/instants/view_ranking.h"
 
@@ -68,10 +69,13 @@ std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
     show.set("colour", 2);
     rig.colour().bind(2);
     show_.draw(target);
-    triangles_.build(
+    // Elsewhere the rig sees the set now.
+    triangles_.build_where(
         {plate->picture().depth_m(),
          plate->triangles_to_build(triangle_indices(rig.depth().size(), QuadGrid::coarse)),
-         rig.K_depth(), rig.camera().world_from_camera, QuadGrid::coarse});
+         rig.K_depth(), rig.camera().world_from_camera, QuadGrid::coarse,
+         depth_spread(rig.camera())},
+        rig.matte_tiles().texture(), rig.fresh_colour().size());
     return plate;
 }
 

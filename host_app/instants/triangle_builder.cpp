@@ -1,8 +1,9 @@
 #include "host_app/instants/triangle_builder.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <string>
+
+#include "common/gl/tile_pass.h"
 
 namespace vantage {
 namespace {
@@ -11,25 +12,47 @@ namespace {
 constexpr double steepest_slope = 8.0;
 /// A step below this share of the depth never is (depth codes are quantised).
 constexpr double smallest_step = 0.0075;
+/// Of the uncertainty of inverse depth: a block of the coarse grid that bends less is flat.
+constexpr float most_bend = 0.6f;
+
+int quads_across(QuadGrid grid) { return grid == QuadGrid::fine ? 1 : 4; }
+
+Program blocks(const ShaderLibrary& library, QuadGrid grid, bool is_in_tiles = false) {
+    return Program::compute(library, "mesh_triangles.comp",
+                            {{"STEP", std::to_string(static_cast<int>(grid))},
+                             {"ACROSS", std::to_string(quads_across(grid))},
+                             {"TILES", is_in_tiles ? "1" : "0"}});
+}
 
 }  // namespace
 
 TriangleBuilder::TriangleBuilder(const ShaderLibrary& library)
-    : build_(Program::compute(library, "mesh_triangles.comp")),
-      build_coarse_(
-          Program::compute(library, "mesh_triangles.comp",
-                           {{"STEP", std::to_string(static_cast<int>(QuadGrid::coarse))}})),
+    : build_(blocks(library, QuadGrid::fine)),
+      build_coarse_(blocks(library, QuadGrid::coarse)),
+      build_parts_(blocks(library, QuadGrid::coarse, true)),
       build_rims_(Program::compute(library, "mesh_rims.comp")) {}
 
 void TriangleBuilder::build(const DepthGrid& grid) {
-    if (triangle_indices(grid.depth_m.size(), grid.grid) == 0) return;
-    const int step = static_cast<int>(grid.grid);
-    Program& build = grid.grid == QuadGrid::fine ? build_ : build_coarse_;
-    set_edge_filter(build, grid);
-    grid.triangles.bind_storage(0);
-    build.dispatch_over((grid.depth_m.width_px() - 1) / step,
-                        (grid.depth_m.height_px() - 1) / step);
-    glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
+    build(grid, grid.grid == QuadGrid::fine ? build_ : build_coarse_);
+}
+
+void TriangleBuilder::build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture) {
+    build_parts_.use();
+    build_parts_.set("tiles", 1);
+    build_parts_.set("tile_share", TilePass::share_of(picture));
+    tiles.bind(1);
+    build(grid, build_parts_);
+}
+
+void TriangleBuilder::build(const DepthGrid& grid, Program& program) {
+    if (grid.triangles.capacity == 0) return;
+    const int block = static_cast<int>(grid.grid) * quads_across(grid.grid);
+    set_edge_filter(program, grid);
+    program.set("bend", most_bend * grid.spread);
+    grid.triangles.begin();
+    const auto blocks = [&](int px) { return (px - 1 + block - 1) / block; };
+    program.dispatch_over(blocks(grid.depth_m.width_px()), blocks(grid.depth_m.height_px()));
+    glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void TriangleBuilder::set_edge_filter(Program& program, const DepthGrid& grid) {
@@ -43,15 +66,11 @@ void TriangleBuilder::set_edge_filter(Program& program, const DepthGrid& grid) {
 
 void TriangleBuilder::build_rims(RigSurface& surface) {
     if (surface.triangle_indices() == 0) return;
-    const SurfaceRims& rims = surface.rims_to_build();
-    const std::array<std::uint32_t, 5> empty = {0, 1, 0, 0, 0};
-    glBindBuffer(GL_SHADER_STORAGE_BUFFER, rims.command.name());
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(empty), empty.data());
+    const IndirectTriangles& rims = surface.rims_to_build();
     const DepthGrid grid = surface.grid(QuadGrid::fine);
     set_edge_filter(build_rims_, grid);
     build_rims_.set("capacity", rims.capacity);
-    rims.indices.bind_storage(0);
-    rims.command.bind_storage(1);
+    rims.begin();
     build_rims_.dispatch_over(grid.depth_m.width_px() - 1, grid.depth_m.height_px() - 1);
     glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }

@@ -12,16 +12,20 @@ class TriangleBuilder {
   public:
     explicit TriangleBuilder(const ShaderLibrary& library);
 
+    /// In the coarse grid, what is flat over a block of quads becomes two triangles.
     void build(const DepthGrid& grid);
+    /// A coarse grid's, only where `tiles` of a picture of this size (TilePass) say so.
+    void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture);
 
     /// What the fine grid leaves out at the edges of surfaces: half a pixel all round, and all of
     /// what is one pixel wide. Drawn with the fine grid.
     void build_rims(RigSurface& surface);
 
   private:
+    void build(const DepthGrid& grid, Program& program);
     void set_edge_filter(Program& program, const DepthGrid& grid);
 
-    Program build_, build_coarse_, build_rims_;
+    Program build_, build_coarse_, build_parts_, build_rims_;
 };
 
 }  // namespace vantage

@@ -46,8 +46,7 @@ void MeshRasteriser::draw_depth(const DepthGrid& grid, const VirtualView& target
     glDepthMask(GL_TRUE);
     glClearDepthf(1.0f);
     glClear(GL_DEPTH_BUFFER_BIT);
-    const int indices = triangle_indices(grid.depth_m.size(), grid.grid);
-    if (indices == 0) return;
+    if (grid.triangles.capacity == 0) return;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
@@ -66,14 +65,11 @@ void MeshRasteriser::draw_depth(const DepthGrid& grid, const VirtualView& target
         vertices_.bind();
     };
     prepare(draw_);
-    grid.triangles.bind(GL_ELEMENT_ARRAY_BUFFER);
-    glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
+    grid.triangles.draw();
     if (grid.rims) {
         prepare(draw_rims_);
         draw_rims_.set("reach_px", static_cast<float>(grid.rim_px));
-        grid.rims->indices.bind(GL_ELEMENT_ARRAY_BUFFER);
-        grid.rims->command.bind(GL_DRAW_INDIRECT_BUFFER);
-        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr);
+        grid.rims->draw();
     }
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
