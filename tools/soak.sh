@@ -28,25 +28,14 @@ done
 wait $demo || { tail -5 out/soak.log >&2; echo "0 passed, 1 failed"; exit 1; }
 trap - EXIT
 
-passed=0 failed=0
-check() { # what it must be, status
-  if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
-  printf '%-4s %s\n' "$([ "$2" -eq 0 ] && echo ok || echo FAIL)" "$1"
-}
-
-# Memory: the last third must not lie above the second; the first is for filling pools and caches.
-while read -r name pid second third; do
-  status=0
-  [ "$third" -le $((second + second / 50 + 1024)) ] || status=1
-  check "$name $pid: resident $((second / 1024)) MiB at most in the second third, $((third / 1024)) MiB in the last" $status
-done < <(awk -v length_s="$seconds" '
-  { third = int(3 * $1 / length_s); key = $2 " " $3; if ($4 > most[key, third]) most[key, third] = $4; seen[key] = 1 }
-  END { for (key in seen) if (most[key, 1] && most[key, 2]) print key, most[key, 1], most[key, 2] }' "$samples" | sort)
-
+memory=$(tools/check_memory.sh "$samples" "$seconds" || true)
 account=$(tools/check_account.sh "$report" || true)
-sed '$d' <<<"$account"
-read -r p _ f _ <<<"$(tail -n 1 <<<"$account")"
-passed=$((passed + p)) failed=$((failed + f))
+passed=0 failed=0
+for result in "$memory" "$account"; do
+  sed '$d' <<<"$result"
+  read -r p _ f _ <<<"$(tail -n 1 <<<"$result")"
+  passed=$((passed + p)) failed=$((failed + f))
+done
 jq -r '"\(.pictures) pictures in \(.duration_s | round) s; \(.sets.closed) sets: \(.sets.complete) complete, \(.sets.fused) fused, \(.sets.superseded) superseded, \(.sets.dropped) dropped"' "$report"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/unique_fd.h"
+#include "common/gl/context_loss.h"
 
 namespace vantage {
 namespace {
@@ -28,8 +29,25 @@ bool lists_extension(const char* extensions, const char* wanted) {
 
 constexpr const char* surfaceless_extension = "EGL_KHR_surfaceless_context";
 
-constexpr std::array<EGLint, 5> context_wanted = {EGL_CONTEXT_MAJOR_VERSION, 3,
-                                                  EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
+/// One that tells of resets where the driver lets it; EGL_NO_CONTEXT if there can be none.
+EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext shared) {
+    constexpr std::array<EGLint, 7> robust = {EGL_CONTEXT_MAJOR_VERSION,
+                                              3,
+                                              EGL_CONTEXT_MINOR_VERSION,
+                                              1,
+                                              EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                                              EGL_LOSE_CONTEXT_ON_RESET_EXT,
+                                              EGL_NONE};
+    constexpr std::array<EGLint, 5> plain = {EGL_CONTEXT_MAJOR_VERSION, 3,
+                                             EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
+    EGLContext context = EGL_NO_CONTEXT;
+    if (makes_robust_contexts(display))
+        context = eglCreateContext(display, config, shared, robust.data());
+    // It shares only with its like: a window's is none.
+    if (context == EGL_NO_CONTEXT)
+        context = eglCreateContext(display, config, shared, plain.data());
+    return context;
+}
 
 struct GbmDeviceDeleter {
     void operator()(gbm_device* device) const { gbm_device_destroy(device); }
@@ -46,8 +64,15 @@ struct GbmDevice {
 
 }  // namespace
 
-std::string egl_error_name() {
-    switch (const EGLint code = eglGetError()) {
+bool makes_robust_contexts(EGLDisplay display) {
+    return display != EGL_NO_DISPLAY && lists_extension(eglQueryString(display, EGL_EXTENSIONS),
+                                                        "EGL_EXT_create_context_robustness");
+}
+
+std::string egl_error_name() { return egl_error_name(eglGetError()); }
+
+std::string egl_error_name(EGLint code) {
+    switch (code) {
         case EGL_SUCCESS:
             return "no error given";
         case EGL_NOT_INITIALIZED:
@@ -101,7 +126,7 @@ EglContext::EglContext(EGLDisplay display, EGLContext shared)
         fail("no second OpenGL context: configuration {} is gone ({})", config_id,
              egl_error_name());
     eglBindAPI(EGL_OPENGL_ES_API);
-    context_ = eglCreateContext(display, config, shared, context_wanted.data());
+    context_ = create_context(display, config, shared);
     if (context_ == EGL_NO_CONTEXT)
         fail("no second OpenGL ES 3.1 context that shares with the first ({})", egl_error_name());
 }
@@ -111,6 +136,10 @@ EglContext EglContext::sharing_with_current() {
     if (current == EGL_NO_CONTEXT)
         fail("no second OpenGL context: none is current on this thread to share with");
     return {eglGetCurrentDisplay(), current};
+}
+
+EglContext EglContext::sharing_with(const EglContext& other) {
+    return {other.display_, other.context_};
 }
 
 EglContext::~EglContext() {
@@ -146,7 +175,7 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
     EGLint count = 0;
     if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &count) || count < 1)
         return report("no configuration with OpenGL ES 3 (" + egl_error_name() + ")");
-    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wanted.data());
+    EGLContext context = create_context(display, config, EGL_NO_CONTEXT);
     if (context == EGL_NO_CONTEXT)
         return report("no OpenGL ES 3.1 context (" + egl_error_name() + ")");
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
@@ -193,20 +222,30 @@ void EglContext::try_gbm() {
     if (!any) attempts_.push_back({"gbm", "no render node /dev/dri/renderD*"});
 }
 
-CurrentContext::CurrentContext(const EglContext& context)
-    : display_(context.display_),
-      previous_display_(eglGetCurrentDisplay()),
+CurrentContext::CurrentContext()
+    : display_(eglGetCurrentDisplay()),
+      previous_display_(display_),
       previous_draw_(eglGetCurrentSurface(EGL_DRAW)),
       previous_read_(eglGetCurrentSurface(EGL_READ)),
-      previous_(eglGetCurrentContext()) {
-    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_))
-        fail("an OpenGL context cannot be made current on this thread ({})", egl_error_name());
+      previous_(eglGetCurrentContext()) {}
+
+CurrentContext::CurrentContext(None) : CurrentContext() {
+    if (previous_ != EGL_NO_CONTEXT)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+CurrentContext::CurrentContext(const EglContext& context) : CurrentContext() {
+    display_ = context.display_;
+    if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_)) return;
+    const EGLint code = eglGetError();
+    if (code == EGL_CONTEXT_LOST) throw ContextLost("the GPU was reset: its contexts are lost");
+    fail("an OpenGL context cannot be made current on this thread ({})", egl_error_name(code));
 }
 
 CurrentContext::~CurrentContext() {
-    if (previous_ == EGL_NO_CONTEXT)
+    if (previous_ == EGL_NO_CONTEXT && display_ != EGL_NO_DISPLAY)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    else
+    else if (previous_ != EGL_NO_CONTEXT)
         eglMakeCurrent(previous_display_, previous_draw_, previous_read_, previous_);
 }
 

@@ -10,14 +10,18 @@
 
 namespace vantage {
 
-/// The name of the last EGL error of this thread, and takes it back.
+/// The name of the last EGL error of this thread, and takes it back; or of this one.
 std::string egl_error_name();
+std::string egl_error_name(EGLint code);
 
 /// One way that was tried to reach a GPU without a display, and how it went.
 struct EglAttempt {
     std::string platform;  ///< "surfaceless", "device 0", "gbm /dev/dri/renderD128"
     std::string outcome;   ///< "ok", or the reason why not
 };
+
+/// Whether contexts of this display tell that the GPU was reset (see context_loss.h).
+bool makes_robust_contexts(EGLDisplay display);
 
 /// An OpenGL ES 3.1 context without a window. A thread uses it while it is current there; it may be
 /// destroyed on another thread once it is current on none.
@@ -33,6 +37,8 @@ class EglContext {
     /// Error if no context is current or the driver refuses. A window's library (GLFW) must outlive
     /// it.
     static EglContext sharing_with_current();
+    /// The same with another of these, whether it is current anywhere or not.
+    static EglContext sharing_with(const EglContext& other);
     ~EglContext();
     EglContext(const EglContext&) = delete;
     EglContext& operator=(const EglContext&) = delete;
@@ -60,13 +66,20 @@ class EglContext {
 /// Makes a context current on this thread for its own life, and what was current before after it.
 class CurrentContext {
   public:
-    /// Throws Error if it cannot be made current: it is so on another thread.
+    struct None {};
+    /// None is current: what GL is asked does nothing. For the objects of lost contexts, whose
+    /// names mean others by now.
+    explicit CurrentContext(None);
+    /// Throws Error if it cannot be made current: it is so on another thread; ContextLost if the
+    /// GPU was reset.
     explicit CurrentContext(const EglContext& context);
     ~CurrentContext();
     CurrentContext(const CurrentContext&) = delete;
     CurrentContext& operator=(const CurrentContext&) = delete;
 
   private:
+    CurrentContext();
+
     EGLDisplay display_;  ///< of the context
     EGLDisplay previous_display_;
     EGLSurface previous_draw_, previous_read_;

@@ -2,7 +2,10 @@
 
 #include <cstring>
 
+#include <GLES2/gl2ext.h>
+
 #include "common/base/error.h"
+#include "common/gl/context_loss.h"
 
 namespace vantage {
 namespace {
@@ -58,8 +61,11 @@ void GlInfo::require_vantage_minimum() const {
 }
 
 void check_gl(const char* doing) {
+    require_context(doing);
     const GLenum code = glGetError();
     if (code == GL_NO_ERROR) return;
+    if (code == GL_CONTEXT_LOST_KHR)
+        throw ContextLost(fmt::format("the GPU was reset before {}", doing));
     while (glGetError() != GL_NO_ERROR) {
     }
     const char* name = code == GL_OUT_OF_MEMORY       ? "out of GPU memory"

@@ -34,7 +34,7 @@ struct GlInfo {
 bool has_gl_extension(const char* name);
 
 /// Throws Error with `doing` if GL has an error flag set (a fault of driver or memory at this
-/// point).
+/// point), ContextLost if the GPU was reset.
 void check_gl(const char* doing);
 
 }  // namespace vantage

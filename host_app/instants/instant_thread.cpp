@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/log.h"
+#include "common/gl/context_loss.h"
 #include "common/gl/limits.h"
 #include "common/gl/sliced_drawing.h"
 #include "host_app/instants/depth_views.h"
@@ -48,9 +49,9 @@ StageFeed kept(StageFeed feed, ReplayBuffer& replay, std::size_t bytes) {
 
 }  // namespace
 
-InstantThread::InstantThread(Settings settings, StageFeed feed, const EglContext& context)
+InstantThread::InstantThread(Settings settings, StageFeed feed, ContextGroup& contexts)
     : settings_(std::move(settings)),
-      context_(&context),
+      contexts_(&contexts),
       replay_(settings_.replay_bytes),
       sets_(kept(std::move(feed), replay_, settings_.replay_bytes)),
       thread_([this] { run(); }) {}
@@ -103,10 +104,15 @@ ReceiverStatus InstantThread::close() {
 }
 
 void InstantThread::run() {
+    std::uint64_t lost = 0;  ///< generation of contexts; 0: none
     for (;;) {
         try {
+            contexts_->renew(lost);
             prepare_instants();
             return;
+        } catch (const ContextLost& error) {
+            log_warning("what was prepared is made anew on new contexts: {}", error.what());
+            if (!generations_.empty()) lost = generations_.back().member.generation;
         } catch (const std::exception& error) {
             log_error("an instant could not be prepared, and its preparer is made anew: {}",
                       error.what());
@@ -179,6 +185,7 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
                             const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start) {
     ready.instant = preparer->prepare(wish.target, wish.level);
     ready.preparer = preparer;
+    ready.generation = generations_.back().member.generation;
     glFinish();
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
@@ -188,8 +195,25 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
     newest_ = std::make_shared<const ReadyInstant>(last_);
 }
 
+void InstantThread::let_go_of_preparers() {
+    const auto let_go = [](Generation& one) {
+        std::erase_if(one.preparers, [](const auto& each) { return each.use_count() == 1; });
+    };
+    let_go(generations_.back());
+    if (generations_.size() == 1) return;
+    const CurrentContext none{CurrentContext::None{}};
+    std::for_each(generations_.begin(), generations_.end() - 1, let_go);
+    std::erase_if(generations_, [&](const Generation& one) {
+        return one.preparers.empty() && &one != &generations_.back();
+    });
+}
+
 void InstantThread::prepare_instants() {
-    const CurrentContext current(*context_);
+    if (generations_.empty() || generations_.back().member.generation != contexts_->generation())
+        generations_.push_back({contexts_->join(), {}});
+    const ContextGroup::Member member = generations_.back().member;
+    const CurrentContext current(*member.context);
+    require_context("instants were prepared");
     const SlicedDrawing slices(slice, &way_);
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
@@ -206,9 +230,12 @@ void InstantThread::prepare_instants() {
             wish = wish_;
             maker = maker_;
         }
+        if (contexts_->generation() != member.generation)
+            throw ContextLost("another thread found the GPU reset");
+        if (generations_.size() > 1) let_go_of_preparers();
         if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
-            std::erase_if(preparers_, [](const auto& one) { return one.use_count() == 1; });
-            preparer = preparers_.emplace_back(maker.make(shaders));
+            let_go_of_preparers();
+            preparer = generations_.back().preparers.emplace_back(maker.make(shaders));
             last_.synthesiser = maker.synthesiser;
             last_pulse_.reset();
             prepared.reset();
@@ -275,14 +302,16 @@ void InstantThread::prepare_instants() {
             preparer->improve(wish.target);
         }
     }
-    // What is left of them goes with its preparer, on this context.
+    // What is left of them goes with its preparer, on this context, or on none if that was lost.
     {
         const std::lock_guard lock(mutex_);
         newest_.reset();
     }
     last_ = {};
     preparer.reset();
-    preparers_.clear();
+    generations_.back().preparers.clear();
+    const CurrentContext none{CurrentContext::None{}};
+    generations_.clear();
 }
 
 }  // namespace vantage

@@ -13,7 +13,7 @@
 
 #include "common/base/percentiles.h"
 #include "common/base/time.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context_group.h"
 #include "common/gl/right_of_way.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/instant_preparer.h"
@@ -31,6 +31,7 @@ struct ReadyInstant {
     std::shared_ptr<const Instant> instant;
     std::shared_ptr<const FrameSet> set;
     std::optional<TaiTime> exposure;  ///< the earliest of its frames
+    std::uint64_t generation = 0;     ///< of the contexts that can render it
     std::uint64_t number = 0;         ///< grows with every instant, also with one that is bettered
     std::string synthesiser;          ///< that it was prepared for
     bool is_live = true;
@@ -66,8 +67,8 @@ class InstantThread {
         /// Of a take, from which all is shown and learnt; null: the replay buffer's.
         std::shared_ptr<const PastSets> take = nullptr;
     };
-    /// `context` is current on no thread. `feed` is read from now on.
-    InstantThread(Settings settings, StageFeed feed, const EglContext& context);
+    /// `contexts` must outlive it. `feed` is read from now on.
+    InstantThread(Settings settings, StageFeed feed, ContextGroup& contexts);
     ~InstantThread();
     InstantThread(const InstantThread&) = delete;
     InstantThread& operator=(const InstantThread&) = delete;
@@ -83,6 +84,8 @@ class InstantThread {
         return past().pulse_at(pulse);
     }
     ReceiverStatus status() const { return sets_.status(); }
+    /// Those that can render what is prepared.
+    ContextGroup& contexts() { return *contexts_; }
     /// Who renders against a clock claims it, and preparing waits.
     RightOfWay& right_of_way() { return way_; }
 
@@ -108,8 +111,15 @@ class InstantThread {
     const PastSets& past() const {
         return settings_.take ? *settings_.take : static_cast<const PastSets&>(replay_);
     }
+    /// Preparers with the context that their objects live on.
+    struct Generation {
+        ContextGroup::Member member;
+        std::vector<std::shared_ptr<InstantPreparer>> preparers;  ///< the last is in use
+    };
     void run();
     void prepare_instants();
+    /// Destroys what nobody holds instants of any more.
+    void let_go_of_preparers();
     std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse);
     std::vector<DepthView> views_of(const FrameSet& set, bool is_counted);
     /// Asks the rigs that the view needs to send, and the others to stop.
@@ -119,19 +129,18 @@ class InstantThread {
                  const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start);
 
     Settings settings_;
-    const EglContext* context_;
+    ContextGroup* contexts_;
     RightOfWay way_;
     ReplayBuffer replay_;
     NewestSet sets_;
     ColourHarmoniser harmoniser_;  ///< of the thread
     RigDemand demand_;             ///< of the thread
     std::optional<std::uint64_t> last_pulse_, last_harmonised_;
-    std::optional<double> fetched_;  ///< the pulse that was looked up in the past last
-    std::vector<std::shared_ptr<InstantPreparer>>
-        preparers_;                       ///< of the thread; the last is in use
-    bool is_retaking_ = false;            ///< of the thread: a new preparer takes what is shown
-    ReadyInstant last_;                   ///< of the thread: what was prepared last
-    std::optional<FrameSet> unprepared_;  ///< of the thread: the live set that is being prepared
+    std::optional<double> fetched_;        ///< the pulse that was looked up in the past last
+    std::vector<Generation> generations_;  ///< of the thread; all but the last are lost
+    bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown
+    ReadyInstant last_;                    ///< of the thread: what was prepared last
+    std::optional<FrameSet> unprepared_;   ///< of the thread: the live set that is being prepared
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;

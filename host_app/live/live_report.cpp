@@ -310,6 +310,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["level_shares"] = {{"render", programme.render_shares},
                             {"prepare", programme.prepare_shares}};
     json["faults"] = report.faults;
+    json["contexts_lost"] = report.contexts_lost;
     for (const SinkState& sink : programme.sinks)
         json["outputs"].push_back(
             {{"name", sink.name}, {"pictures", sink.pictures}, {"failure", sink.failure}});
@@ -400,6 +401,9 @@ std::string results_text(const LiveReport& report) {
     if (report.faults > 0)
         text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
                             report.faults);
+    if (report.contexts_lost > 0)
+        text += fmt::format("resets of the GPU, after which all of it was set up anew: {}\n",
+                            report.contexts_lost);
     for (const std::string& failure : failures_of(programme.sinks)) text += failure + '\n';
     if (report.stereoscopy)
         text +=

@@ -46,7 +46,8 @@ struct LiveReport {
     bool free_flight = false;              ///< hands may leave the corridor
     std::vector<UncoveredPart> uncovered;  ///< of the planned move
     ProgrammeBooks programme;
-    int faults = 0;  ///< renderers and preparers that were made anew
+    int faults = 0;         ///< renderers and preparers that were made anew
+    int contexts_lost = 0;  ///< resets of the GPU that were got over
 
     std::uint64_t sets_closed = 0, sets_complete = 0;
     std::uint64_t instants_prepared = 0, sets_superseded = 0, sets_dropped = 0;

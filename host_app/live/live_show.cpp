@@ -51,6 +51,14 @@ Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
     return most;
 }
 
+std::string checked_renderer(ContextGroup& contexts) {
+    const ContextGroup::Member member = contexts.join();
+    const CurrentContext current(*member.context);
+    const GlInfo info = GlInfo::query();
+    info.require_vantage_minimum();
+    return info.renderer;
+}
+
 const LiveSettings& checked(const LiveSettings& settings) {
     const SynthesiserEntry entry = find_synthesiser(settings.synthesiser);
     if (settings.source_map) NoveltyOverlay::require(entry.tells_origins, entry.name);
@@ -66,14 +74,13 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                    JogDeck* deck)
     : settings_(checked(settings)),
       plan_(plan),
-      renderer_(GlInfo::query().renderer),
-      instants_context_(EglContext::sharing_with_current()),
+      renderer_(checked_renderer(contexts_)),
       instants_({.pulse_rate_hz = settings.pulse_rate_hz,
                  .replay_bytes = settings.replay_bytes,
                  .harmonise = settings.harmonise,
                  .colours = settings.colours,
                  .take = settings.take},
-                std::move(feed), instants_context_),
+                std::move(feed), contexts_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
           {plan, settings.pulse_rate_hz, settings.replay_bytes > 0 || settings.take,
@@ -89,7 +96,6 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                   .transport = settings.transport,
                   .ends_with_past = settings.ends_with_take},
                  instants_, controls_) {
-    GlInfo::query().require_vantage_minimum();
     if (!settings.film.empty()) {
         auto film = std::make_unique<FilmSink>(settings.film,
                                                VideoSettings{.width_px = settings.format.width_px,
@@ -221,6 +227,7 @@ LiveReport LiveShow::report() const {
     report.prepare_ms = instants.prepare_ms;
     report.rig_steps = instants.rig_steps;
     report.faults = instants.faults + report.programme.faults;
+    report.contexts_lost = contexts_.losses();
     report.sets_closed = status.sets;
     report.sets_complete = status.complete_sets;
     report.sets_dropped = status.sets_dropped;

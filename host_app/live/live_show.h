@@ -8,7 +8,7 @@
 
 #include "common/base/stop_signal.h"
 #include "common/colour/colour_correction.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context_group.h"
 #include "host_app/control/flight_controls.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/stage_corridor.h"
@@ -36,8 +36,7 @@ struct LiveSettings {
 };
 
 /// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
-/// books of all of them. Makes an OpenGL context that is current on the constructing thread until
-/// another is made so; all work is done on threads of its own.
+/// books of all of them. All work is done on threads and OpenGL contexts of its own.
 class LiveShow {
   public:
     /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
@@ -85,9 +84,8 @@ class LiveShow {
 
     LiveSettings settings_;
     FlightPlan plan_;
-    EglContext context_;
+    ContextGroup contexts_;
     std::string renderer_;
-    EglContext instants_context_;
     InstantThread instants_;
     StageCorridor stage_corridor_;
     FlightControls controls_;

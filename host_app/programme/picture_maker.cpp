@@ -1,6 +1,7 @@
 #include "host_app/programme/picture_maker.h"
 
 #include "common/base/log.h"
+#include "common/gl/context_loss.h"
 #include "common/gl/sliced_drawing.h"
 
 namespace vantage {
@@ -17,10 +18,10 @@ double ms_since(MonotonicTime start) {
 }  // namespace
 
 PictureMaker::PictureMaker(SynthesiserEntry synthesiser, PictureFormat format,
-                           const EglContext& context, RightOfWay& way, Manner manner)
+                           ContextGroup& contexts, RightOfWay& way, Manner manner)
     : synthesiser_(std::move(synthesiser)),
       format_(format),
-      context_(&context),
+      contexts_(&contexts),
       way_(&way),
       manner_(manner),
       thread_([this] { run(); }) {}
@@ -58,10 +59,17 @@ int PictureMaker::faults() const {
 }
 
 void PictureMaker::run() {
+    std::uint64_t lost = 0;  ///< generation of contexts; 0: none
     for (;;) {
+        ContextGroup::Member member;
         try {
-            make_pictures();
+            contexts_->renew(lost);
+            member = contexts_->join();
+            make_pictures(member);
             return;
+        } catch (const ContextLost& error) {
+            log_warning("the renderer is made anew on new contexts: {}", error.what());
+            lost = member.generation;
         } catch (const std::exception& error) {
             log_error("the picture could not be rendered, and its renderer is made anew: {}",
                       error.what());
@@ -74,8 +82,9 @@ void PictureMaker::run() {
     }
 }
 
-void PictureMaker::make_pictures() {
-    const CurrentContext current(*context_);
+void PictureMaker::make_pictures(const ContextGroup::Member& member) {
+    const CurrentContext current(*member.context);
+    require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
     if (manner_ == Manner::in_slices) slices.emplace(slice, way_);
     const ShaderLibrary shaders;
@@ -85,6 +94,12 @@ void PictureMaker::make_pictures() {
     for (;;) {
         woken_.wait(lock, [&] { return is_stopping_ || job_; });
         if (is_stopping_) return;
+        if (contexts_->generation() != member.generation)
+            throw ContextLost("another thread found the GPU reset");
+        if (job_->instant->generation != member.generation) {
+            job_.reset();
+            continue;
+        }
         const PictureJob job = *job_;
         lock.unlock();
         auto made = std::make_shared<MadePicture>();

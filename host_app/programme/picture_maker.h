@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "common/base/time.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context_group.h"
 #include "common/gl/right_of_way.h"
 #include "common/image/image.h"
 #include "host_app/flight/camera_state.h"
@@ -35,17 +35,17 @@ struct MadePicture {
 };
 
 /// Renders on a thread and a context of its own, one picture at a time, so that the programme's
-/// clock waits for neither GPU nor compiler. A fault is logged, and everything of the context is
-/// made anew.
+/// clock waits for neither GPU nor compiler. A fault is logged, and everything is made anew; so it
+/// is when the GPU was reset, and instants of before give no picture.
 class PictureMaker {
   public:
     enum class Manner {
         at_once,    ///< with the right of way
         in_slices,  ///< gives way to others: for pictures that may take long
     };
-    /// `context` is current on no thread; it and `way` must outlive the maker. Compiles at once;
-    /// is_idle() tells when it is done.
-    PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, const EglContext& context,
+    /// `contexts` and `way` must outlive the maker. Compiles at once; is_idle() tells when it is
+    /// done.
+    PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, ContextGroup& contexts,
                  RightOfWay& way, Manner manner = Manner::at_once);
     ~PictureMaker();
     PictureMaker(const PictureMaker&) = delete;
@@ -63,11 +63,11 @@ class PictureMaker {
 
   private:
     void run();
-    void make_pictures();
+    void make_pictures(const ContextGroup::Member& member);
 
     SynthesiserEntry synthesiser_;
     PictureFormat format_;
-    const EglContext* context_;
+    ContextGroup* contexts_;
     RightOfWay* way_;
     Manner manner_;
     mutable std::mutex mutex_;

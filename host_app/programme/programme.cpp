@@ -49,8 +49,6 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
     : settings_(std::move(settings)),
       instants_(instants),
       pilot_(pilot),
-      contexts_{EglContext::sharing_with_current(), EglContext::sharing_with_current()},
-      still_context_(EglContext::sharing_with_current()),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       transport_(settings_.transport),
       entry_(find_synthesiser(settings_.synthesiser)),
@@ -60,7 +58,7 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
     camera_ = view_.camera();
     wish_for_instant(MonotonicClock::now());
     instants_.prepare_for(entry_.name, entry_.make_preparer);
-    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, contexts_[context_],
+    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
                                             instants_.right_of_way());
     state_.view = view_;
     state_.synthesiser = entry_.name;
@@ -170,8 +168,8 @@ bool Programme::look(double time_s, MonotonicTime now) {
             return entry.name == entry_.name;
         });
         entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
-        next_maker_ = std::make_unique<PictureMaker>(
-            entry_, settings_.format, contexts_[1 - context_], instants_.right_of_way());
+        next_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
+                                                     instants_.right_of_way());
         retired_still_ = std::move(still_maker_);
         begun_still_.reset();
     }
@@ -230,9 +228,9 @@ void Programme::better_what_is_held(MonotonicTime now) {
         return;
     if (retired_still_) return;
     if (!still_maker_) {
-        still_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, still_context_,
-                                                      instants_.right_of_way(),
-                                                      PictureMaker::Manner::in_slices);
+        still_maker_ = std::make_unique<PictureMaker>(
+            entry_, settings_.format, instants_.contexts(), instants_.right_of_way(),
+            PictureMaker::Manner::in_slices);
         return;
     }
     const PictureJob job{instant_, camera_, render_levels().front(), source_map_};
@@ -250,7 +248,6 @@ void Programme::follow_synthesiser() {
     if (!instant_ || instant_->synthesiser != entry_.name) return;
     retired_maker_ = std::move(maker_);
     maker_ = std::move(next_maker_);
-    context_ = 1 - context_;
     const std::lock_guard lock(mutex_);
     state_.synthesiser = entry_.name;
 }

@@ -70,8 +70,8 @@ class Programme {
         Transport transport = {};
         bool ends_with_past = false;  ///< once the end of what is played is shown
     };
-    /// Makes contexts that share with the current one. Runs from start() on. `pilot` and `instants`
-    /// must outlive it.
+    /// Draws on contexts of the instants' group. Runs from start() on. `pilot` and `instants` must
+    /// outlive it.
     Programme(Settings settings, InstantThread& instants, Pilot& pilot);
     ~Programme();
     Programme(const Programme&) = delete;
@@ -111,7 +111,6 @@ class Programme {
     Settings settings_;
     InstantThread& instants_;
     Pilot& pilot_;
-    EglContext contexts_[2], still_context_;  ///< of the maker and, while it changes, the next one
     std::vector<Sink> sinks_;
     std::function<bool(std::uint64_t, double)> is_over_;
 
@@ -119,8 +118,7 @@ class Programme {
     Governor governor_;
     Transport transport_;
     std::optional<double> last_look_s_;
-    SynthesiserEntry entry_;   ///< that is wanted
-    std::size_t context_ = 0;  ///< of maker_
+    SynthesiserEntry entry_;  ///< that is wanted
     std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;
     OrbitView view_;
     CameraState camera_;

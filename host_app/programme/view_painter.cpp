@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/time.h"
+#include "common/gl/context_loss.h"
 #include "common/gl/limits.h"
 #include "host_app/programme/unseen_mark.h"
 
@@ -43,10 +44,11 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     // The way back is under way before this thread waits for the picture.
     const Fence rendered = Fence::insert();
     readback_.begin(texture);
-    while (!rendered.reached_within(std::chrono::seconds(1))) {
-    }
+    while (!rendered.reached_within(std::chrono::seconds(1)))
+        require_context("a picture was waited for");
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take();
+    require_context("a picture was read back");
     mark_unseen(picture);
     if (size != full) {
         ColourImage enlarged;

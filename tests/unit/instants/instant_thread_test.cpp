@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context_group.h"
+#include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
 namespace vantage {
@@ -81,13 +82,12 @@ class InstantThreadTest : public testing::Test {
         });
     }
 
-    EglContext context_;
-    std::unique_ptr<EglContext> shared_{new EglContext(EglContext::sharing_with_current())};
+    ContextGroup contexts_;
     ScriptedFeed feed_{{"north", "south"}};
     std::shared_ptr<Orders> orders_ = std::make_shared<Orders>();
     std::unique_ptr<InstantThread> thread_ = std::make_unique<InstantThread>(
         InstantThread::Settings{.pulse_rate_hz = 10, .replay_bytes = 100'000'000}, feed_.feed(),
-        *shared_);
+        contexts_);
 };
 
 TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
@@ -162,6 +162,24 @@ TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
     EXPECT_GE(orders_->made, 3);
+}
+
+TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto before = thread_->newest();
+    reset_gpu();
+    // What was lost shows at the next set, and this one counts as one that could not be prepared.
+    push(2);
+    ASSERT_TRUE(wait_for([&] { return thread_->newest()->generation > before->generation; }));
+    EXPECT_EQ(contexts_.losses(), 1);
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "of what was shown, at once";
+    push(3);
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(contexts_.losses(), 1);
+    EXPECT_EQ(thread_->books().faults, 1);
+    EXPECT_EQ(thread_->close().sets, 3u);
+    EXPECT_EQ(thread_->books().prepared + thread_->books().superseded.sets, 3u);
 }
 
 TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {

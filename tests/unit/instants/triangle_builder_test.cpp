@@ -1,147 +1,150 @@
 #include "host_app/instants/triangle_builder.h"
 
-#include <cstring>
-#include <functional>
-#include <set>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/egl_context.h"
-#include "common/gl/tile_pass.h"
 
 namespace vantage {
 namespace {
 
-constexpr int width_px = 65, height_px = 49;
-constexpr float spread = 0.005f;
+using Triangle = std::array<std::uint32_t, 3>;
+constexpr int width_px = 9, height_px = 7;
+
+int column(std::uint32_t pixel) { return static_cast<int>(pixel) % width_px; }
+int row(std::uint32_t pixel) { return static_cast<int>(pixel) / width_px; }
 
 class TriangleBuilderTest : public testing::Test {
   protected:
-    using Triangle = std::array<cv::Point, 3>;
-
-    void fill(const std::function<float(int, int)>& depth_m) {
-        cv::Mat1f map(height_px, width_px);
-        for (int y = 0; y < height_px; ++y)
-            for (int x = 0; x < width_px; ++x) map(y, x) = depth_m(x, y);
-        map_.upload(map);
+    void look_at(const DepthImage& depth_m) {
+        DepthView view;
+        view.depth_m = depth_m;
+        view.colour = ColourImage(depth_m.size());
+        // A step of inverse depth by 8 / 900 that does not go on is an edge; by three times that
+        // any.
+        view.K << 900, 0, 4, 0, 900, 3, 0, 0, 1;
+        std::unique_ptr<ColourCorrector> corrector;
+        std::unique_ptr<DepthUploader> uploader;
+        surface_.upload(view, corrector, uploader);
     }
-
-    DepthGrid grid(QuadGrid quads) const {
-        Eigen::Matrix3d K;
-        K << 60, 0, 32, 0, 60, 24, 0, 0, 1;
-        return {map_, triangles_, K, Pose::Identity(), quads, spread};
+    std::vector<Triangle> built(QuadGrid grid) {
+        builder_.build(surface_.grid(grid));
+        return read(surface_.triangles(grid));
     }
-
-    /// What was built: corners in pixels of the depth map.
-    std::vector<Triangle> built() const {
-        const auto words = [](const Buffer& buffer, std::size_t count) {
-            std::vector<std::uint32_t> found(count);
-            if (count == 0) return found;
-            glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
-            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-            const auto bytes = static_cast<GLsizeiptr>(count * sizeof(std::uint32_t));
-            std::memcpy(found.data(),
-                        glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, bytes, GL_MAP_READ_BIT),
-                        static_cast<std::size_t>(bytes));
-            glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
-            return found;
-        };
-        const std::uint32_t count = words(triangles_.command, 1).front();
-        EXPECT_EQ(count % 3, 0u);
-        EXPECT_LE(static_cast<int>(count), triangles_.capacity);
-        std::vector<Triangle> triangles;
-        const std::vector<std::uint32_t> indices = words(triangles_.indices, count);
-        const auto pixel = [](std::uint32_t index) {
-            return cv::Point(static_cast<int>(index) % width_px,
-                             static_cast<int>(index) / width_px);
-        };
-        for (std::size_t i = 0; i < indices.size(); i += 3)
-            triangles.push_back({pixel(indices[i]), pixel(indices[i + 1]), pixel(indices[i + 2])});
-        return triangles;
+    std::vector<Triangle> built_rims() {
+        builder_.build_rims(surface_);
+        return read(*surface_.rims());
     }
-
-    static double doubled_area(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+    static std::vector<Triangle> read(const IndirectTriangles& triangles) {
+        std::array<std::uint32_t, 5> command{};
+        triangles.command.read(0, std::as_writable_bytes(std::span(command)));
+        std::vector<std::uint32_t> indices(command[0]);
+        triangles.indices.read(0, std::as_writable_bytes(std::span(indices)));
+        std::vector<Triangle> all;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+            all.push_back({indices[i], indices[i + 1], indices[i + 2]});
+        return all;
+    }
+    static int doubled_area(const Triangle& t) {
+        return (column(t[1]) - column(t[0])) * (row(t[2]) - row(t[0])) -
+               (column(t[2]) - column(t[0])) * (row(t[1]) - row(t[0]));
+    }
+    /// Twice the area that is covered, if all triangles turn the same way.
+    static int covered(const std::vector<Triangle>& all) {
+        int sum = 0;
+        for (const Triangle& t : all) {
+            EXPECT_GT(doubled_area(t), 0);
+            sum += doubled_area(t);
+        }
+        return sum;
+    }
+    /// Whether a triangle reaches from one depth to another.
+    static bool mixes(const DepthImage& depth_m, const Triangle& t) {
+        const float z = depth_m(row(t[0]), column(t[0]));
+        return depth_m(row(t[1]), column(t[1])) != z || depth_m(row(t[2]), column(t[2])) != z;
+    }
 
     EglContext context_;
     ShaderLibrary shaders_;
     TriangleBuilder builder_{shaders_};
-    Texture map_{TextureFormat::r32f, width_px, height_px};
-    IndirectTriangles triangles_{triangle_indices({width_px, height_px}, QuadGrid::fine)};
+    RigSurface surface_;
 };
 
-TEST_F(TriangleBuilderTest, CoversASurfaceWithQuadsOfTwoTriangles) {
-    fill([](int, int) { return 2.0f; });
-    builder_.build(grid(QuadGrid::fine));
-    double area = 0;
-    for (const Triangle& triangle : built()) {
-        EXPECT_EQ(std::abs(doubled_area(triangle)), 1);
-        area += doubled_area(triangle) / 2;
-    }
-    EXPECT_EQ(std::abs(area), (width_px - 1) * (height_px - 1)) << "all turn the same way round";
-}
-
-TEST_F(TriangleBuilderTest, SpansWhatIsFlatByTwoTrianglesABlock) {
-    // A slanted plane: inverse depth is linear in the picture.
-    fill([](int x, int y) {
-        return 1 / (0.4f + 0.002f * static_cast<float>(x) + 0.001f * static_cast<float>(y));
-    });
-    builder_.build(grid(QuadGrid::coarse));
-    constexpr int blocks = 8 * 6;
-    EXPECT_EQ(built().size(), 2u * blocks);
-    double area = 0;
-    for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
-    EXPECT_GE(area, (width_px - 1) * (height_px - 1));
-}
-
-TEST_F(TriangleBuilderTest, SpansNoBendByABlock) {
-    // A ridge down the picture: half of all blocks touch it or their neighbours do.
-    fill([](int x, int) {
-        return 1 / (0.4f - 0.004f * static_cast<float>(std::abs(x - width_px / 2)));
-    });
-    builder_.build(grid(QuadGrid::coarse));
-    for (const Triangle& triangle : built()) {
-        const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-        EXPECT_FALSE(left < width_px / 2 - 1 && right > width_px / 2 + 1)
-            << left << " to " << right;
-    }
-}
-
-TEST_F(TriangleBuilderTest, SpansNothingBetweenTwoSurfaces) {
-    constexpr int edge = 30;
-    fill([](int x, int) { return x < edge ? 2.0f : 4.0f; });
-    for (const QuadGrid quads : {QuadGrid::fine, QuadGrid::coarse}) {
-        builder_.build(grid(quads));
-        std::set<bool> sides;
-        for (const Triangle& triangle : built()) {
-            const bool is_left = triangle[0].x < edge;
-            for (const cv::Point& corner : triangle) EXPECT_EQ(corner.x < edge, is_left);
-            sides.insert(is_left);
+TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) {
+    DepthImage slanted(height_px, width_px);
+    for (int y = 0; y < height_px; ++y)
+        for (int x = 0; x < width_px; ++x)
+            slanted(y, x) =
+                1 / (1 + 0.011f * static_cast<float>(x) + 0.003f * static_cast<float>(y));
+    for (const DepthImage& depth_m : {DepthImage(height_px, width_px, 3.0f), slanted})
+        for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse}) {
+            look_at(depth_m);
+            EXPECT_EQ(covered(built(grid)), 2 * 8 * 6) << static_cast<int>(grid);
         }
-        EXPECT_EQ(sides.size(), 2u);
+}
+
+TEST_F(TriangleBuilderTest, LeavesOutWhatIsSteeperThanAnySurface) {
+    DepthImage steep(height_px, width_px);
+    for (int y = 0; y < height_px; ++y)
+        for (int x = 0; x < width_px; ++x) steep(y, x) = 1 / (1 + 0.04f * static_cast<float>(x));
+    look_at(steep);
+    EXPECT_EQ(covered(built(QuadGrid::fine)), 0);
+}
+
+TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
+    // The near corner takes 4 x 3 pixels: 5 quads are cut, and of a sixth one corner.
+    DepthImage corner(height_px, width_px, 4.0f);
+    corner(cv::Rect(0, 0, 4, 3)) = 2.0f;
+    look_at(corner);
+    const std::vector<Triangle> around = built(QuadGrid::fine);
+    EXPECT_EQ(covered(around), 2 * (8 * 6 - 6) + 1);
+    for (const Triangle& t : around) EXPECT_FALSE(mixes(corner, t));
+    // A pixel without depth takes a half of each of its four quads away; guessed depth is depth.
+    DepthImage hole(height_px, width_px, -4.0f);
+    hole(3, 5) = 0.0f;
+    look_at(hole);
+    const std::vector<Triangle> beside = built(QuadGrid::fine);
+    EXPECT_EQ(covered(beside), 2 * (8 * 6 - 4) + 4);
+    for (const Triangle& t : beside) EXPECT_FALSE(mixes(hole, t));
+}
+
+/// A rim's vertices are nine a pixel, its middle the fifth; its triangles are a quarter of a quad.
+TEST_F(TriangleBuilderTest, RimsASurfaceOnTheSideThatIsCut) {
+    DepthImage left(height_px, width_px, 4.0f);
+    left.colRange(0, 4) = 2.0f;
+    look_at(left);
+    const std::vector<Triangle> rims = built_rims();
+    // Two quarters to the right of the last column in each of its six quads.
+    EXPECT_EQ(rims.size(), 6u * 2 * 2);
+    for (const Triangle& t : rims)
+        for (const std::uint32_t vertex : t) {
+            EXPECT_EQ(column(vertex / 9), 3);
+            EXPECT_GE(vertex % 3, 1u);
+        }
+}
+
+TEST_F(TriangleBuilderTest, RimsAPostOfOnePixelOnBothSides) {
+    DepthImage post(height_px, width_px, 4.0f);
+    post.col(4) = 2.0f;
+    look_at(post);
+    const std::vector<Triangle> rims = built_rims();
+    EXPECT_EQ(rims.size(), 6u * 2 * 2 * 2);
+    const auto x = [](std::uint32_t vertex) { return static_cast<int>(vertex % 3); };
+    const auto y = [](std::uint32_t vertex) { return static_cast<int>(vertex % 9 / 3); };
+    for (const Triangle& t : rims) {
+        EXPECT_EQ(column(t[0] / 9), 4);
+        const int area =
+            (x(t[1]) - x(t[0])) * (y(t[2]) - y(t[0])) - (x(t[2]) - x(t[0])) * (y(t[1]) - y(t[0]));
+        EXPECT_EQ(area, 1) << "half a quarter, turning as the grid does";
     }
 }
 
-TEST_F(TriangleBuilderTest, SpansNothingWhereNothingIsKnown) {
-    fill([](int x, int y) { return x == 20 && y == 20 ? 0.0f : 3.0f; });
-    builder_.build(grid(QuadGrid::coarse));
-    for (const Triangle& triangle : built())
-        for (const cv::Point& corner : triangle) EXPECT_NE(corner, cv::Point(20, 20));
-}
-
-TEST_F(TriangleBuilderTest, BuildsOnlyWhereATileSaysSo) {
-    fill([](int, int) { return 2.0f; });
-    const cv::Size picture(width_px, height_px), count = TilePass::tiles_of(picture);
-    cv::Mat1b tiles = cv::Mat1b::zeros(count);
-    tiles(1, 2) = 255;
-    Texture on(TextureFormat::r8, count.width, count.height);
-    on.upload(tiles);
-    builder_.build_where(grid(QuadGrid::coarse), on, picture);
-    EXPECT_EQ(built().size(), 2u * 4);
-    const cv::Rect tile(2 * TilePass::side_px - 1, TilePass::side_px - 1, TilePass::side_px + 3,
-                        TilePass::side_px + 3);
-    for (const Triangle& triangle : built())
-        for (const cv::Point& corner : triangle) EXPECT_TRUE(tile.contains(corner)) << corner;
+TEST_F(TriangleBuilderTest, RimsNothingOfAnUnbrokenSurface) {
+    look_at(DepthImage(height_px, width_px, 3.0f));
+    EXPECT_TRUE(built_rims().empty());
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context_group.h"
+#include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
 namespace vantage {
@@ -147,9 +148,7 @@ class ProgrammeTest : public testing::Test {
 
     /// Ready to be started, with a sink that notes what it is given.
     Programme& make() {
-        instants_context_ =
-            std::unique_ptr<EglContext>(new EglContext(EglContext::sharing_with_current()));
-        instants_.emplace(instants_settings_, feed_.feed(), *instants_context_);
+        instants_.emplace(instants_settings_, feed_.feed(), contexts_);
         programme_.emplace(settings_, *instants_, pilot_);
         programme_->add(std::make_unique<NotingSink>(seen_));
         return *programme_;
@@ -202,7 +201,7 @@ class ProgrammeTest : public testing::Test {
         EXPECT_EQ(seen_->empty_pictures, 0);
     }
 
-    EglContext context_;
+    ContextGroup contexts_;
     ScriptedFeed feed_{{"north", "south"}};
     ScriptedPilot pilot_;
     std::shared_ptr<Seen> seen_ = std::make_shared<Seen>();
@@ -213,7 +212,6 @@ class ProgrammeTest : public testing::Test {
                                   .pulse_rate_hz = rate_hz,
                                   .synthesiser = "mesh",
                                   .quality = {}};
-    std::unique_ptr<EglContext> instants_context_;
     std::optional<InstantThread> instants_;
     std::optional<Programme> programme_;
 };
@@ -303,6 +301,35 @@ TEST_F(ProgrammeTest, CountsWhatItRepeats) {
     EXPECT_EQ(books.ticks, seen_->count()) << "sinks get every tick, also one that is repeated";
     EXPECT_LE(books.pictures + books.repeated, books.ticks);
     EXPECT_GE(books.pictures + books.repeated, 35u) << "every tick had another camera";
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
+    make();
+    push(1, 200);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.001);
+    ASSERT_TRUE(wait_for_ticks(20));
+    for (int resets = 1; resets <= 2; ++resets) {
+        reset_gpu();
+        ASSERT_TRUE(wait_for([&] {
+            const auto newest = instants_->newest();
+            return newest->generation == static_cast<std::uint64_t>(1 + resets);
+        }));
+        const std::uint64_t before = programme_->books().pictures;
+        ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > before + 5; }));
+    }
+    const auto red = static_cast<unsigned char>(20);
+    push(2, red);
+    ASSERT_TRUE(wait_for_pulse(2));
+    ASSERT_TRUE(wait_for_ticks(2));
+    programme_->stop();
+    EXPECT_EQ(contexts_.losses(), 2);
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_GT(books.repeated, 0u) << "what was due meanwhile";
+    EXPECT_EQ(books.ticks, seen_->count());
+    EXPECT_NEAR(seen_->last_middle[0], red, 2);
     expect_every_tick_once();
 }
 

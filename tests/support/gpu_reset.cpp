@@ -1,0 +1,96 @@
+#include "tests/support/gpu_reset.h"
+
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <mutex>
+
+#include <EGL/egl.h>
+#include <GLES3/gl31.h>
+#include <dlfcn.h>
+
+// After the version that it extends.
+#include <GLES2/gl2ext.h>
+
+// Stands before the drivers' libraries: in a test that asks for reset_gpu(), or preloaded.
+
+namespace vantage {
+namespace {
+
+std::atomic<std::uint64_t> contexts_made = 0, contexts_lost = 0;
+
+/// In the order in which they were made, from 1 on.
+struct Contexts {
+    std::mutex mutex;
+    std::map<EGLContext, std::uint64_t> numbers;
+};
+
+Contexts& contexts() {
+    static Contexts all;
+    return all;
+}
+
+bool is_lost() {
+    if (contexts_lost == 0) return false;
+    const std::lock_guard lock(contexts().mutex);
+    const auto found = contexts().numbers.find(eglGetCurrentContext());
+    return found != contexts().numbers.end() && found->second <= contexts_lost;
+}
+
+GLenum reset_status() { return is_lost() ? GL_UNKNOWN_CONTEXT_RESET_KHR : GL_NO_ERROR; }
+
+template <class Function>
+Function* real(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+void reset_gpu() { contexts_lost = contexts_made.load(); }
+
+}  // namespace vantage
+
+extern "C" {
+
+__eglMustCastToProperFunctionPointerType eglGetProcAddress(const char* name) {
+    if (std::strcmp(name, "glGetGraphicsResetStatusKHR") == 0)
+        return reinterpret_cast<__eglMustCastToProperFunctionPointerType>(vantage::reset_status);
+    static const auto get = vantage::real<decltype(eglGetProcAddress)>("eglGetProcAddress");
+    return get(name);
+}
+
+EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext shared,
+                            const EGLint* wanted) {
+    static const auto create = vantage::real<decltype(eglCreateContext)>("eglCreateContext");
+    EGLContext made = create(display, config, shared, wanted);
+    const std::lock_guard lock(vantage::contexts().mutex);
+    if (made != EGL_NO_CONTEXT) vantage::contexts().numbers[made] = ++vantage::contexts_made;
+    return made;
+}
+
+EGLBoolean eglDestroyContext(EGLDisplay display, EGLContext context) {
+    static const auto destroy = vantage::real<decltype(eglDestroyContext)>("eglDestroyContext");
+    {
+        const std::lock_guard lock(vantage::contexts().mutex);
+        vantage::contexts().numbers.erase(context);
+    }
+    return destroy(display, context);
+}
+
+void glDrawArrays(GLenum mode, GLint first, GLsizei count) {
+    static const auto draw = vantage::real<decltype(glDrawArrays)>("glDrawArrays");
+    if (!vantage::is_lost()) draw(mode, first, count);
+}
+
+void glDrawElements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
+    static const auto draw = vantage::real<decltype(glDrawElements)>("glDrawElements");
+    if (!vantage::is_lost()) draw(mode, count, type, indices);
+}
+
+void glDispatchCompute(GLuint x, GLuint y, GLuint z) {
+    static const auto dispatch = vantage::real<decltype(glDispatchCompute)>("glDispatchCompute");
+    if (!vantage::is_lost()) dispatch(x, y, z);
+}
+
+}  // extern "C"

@@ -1,0 +1,105 @@
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/egl_context.h"
+#include "common/gl/tile_pass.h"
+#include "host_app/instants/triangle_builder.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width_px = 65, height_px = 49;
+constexpr float spread = 0.005f;
+
+class FlatBlocksTest : public testing::Test {
+  protected:
+    using Triangle = std::array<cv::Point, 3>;
+
+    void fill(const std::function<float(int, int)>& depth_m) {
+        cv::Mat1f map(height_px, width_px);
+        for (int y = 0; y < height_px; ++y)
+            for (int x = 0; x < width_px; ++x) map(y, x) = depth_m(x, y);
+        map_.upload(map);
+    }
+
+    DepthGrid grid(QuadGrid quads) const {
+        Eigen::Matrix3d K;
+        K << 60, 0, 32, 0, 60, 24, 0, 0, 1;
+        return {map_, triangles_, K, Pose::Identity(), quads, spread};
+    }
+
+    /// What was built: corners in pixels of the depth map.
+    std::vector<Triangle> built() const {
+        std::array<std::uint32_t, 5> command{};
+        triangles_.command.read(0, std::as_writable_bytes(std::span(command)));
+        EXPECT_EQ(command[0] % 3, 0u);
+        EXPECT_LE(static_cast<int>(command[0]), triangles_.capacity);
+        std::vector<std::uint32_t> indices(command[0]);
+        triangles_.indices.read(0, std::as_writable_bytes(std::span(indices)));
+        std::vector<Triangle> triangles;
+        const auto pixel = [](std::uint32_t index) {
+            return cv::Point(static_cast<int>(index) % width_px,
+                             static_cast<int>(index) / width_px);
+        };
+        for (std::size_t i = 0; i < indices.size(); i += 3)
+            triangles.push_back({pixel(indices[i]), pixel(indices[i + 1]), pixel(indices[i + 2])});
+        return triangles;
+    }
+
+    static double doubled_area(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    TriangleBuilder builder_{shaders_};
+    Texture map_{TextureFormat::r32f, width_px, height_px};
+    IndirectTriangles triangles_{triangle_indices({width_px, height_px}, QuadGrid::fine)};
+};
+
+TEST_F(FlatBlocksTest, AreTwoTriangles) {
+    // A slanted plane: inverse depth is linear in the picture.
+    fill([](int x, int y) {
+        return 1 / (0.4f + 0.002f * static_cast<float>(x) + 0.001f * static_cast<float>(y));
+    });
+    builder_.build(grid(QuadGrid::coarse));
+    constexpr int blocks = 8 * 6;
+    EXPECT_EQ(built().size(), 2u * blocks);
+    double area = 0;
+    for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
+    EXPECT_GE(area, (width_px - 1) * (height_px - 1));
+}
+
+TEST_F(FlatBlocksTest, SpanNoBend) {
+    // A ridge down the picture: half of all blocks touch it or their neighbours do.
+    fill([](int x, int) {
+        return 1 / (0.4f - 0.004f * static_cast<float>(std::abs(x - width_px / 2)));
+    });
+    builder_.build(grid(QuadGrid::coarse));
+    for (const Triangle& triangle : built()) {
+        const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+        EXPECT_FALSE(left < width_px / 2 - 1 && right > width_px / 2 + 1)
+            << left << " to " << right;
+    }
+}
+
+TEST_F(FlatBlocksTest, AreBuiltOnlyWhereATileSaysSo) {
+    fill([](int, int) { return 2.0f; });
+    const cv::Size picture(width_px, height_px), count = TilePass::tiles_of(picture);
+    cv::Mat1b tiles = cv::Mat1b::zeros(count);
+    tiles(1, 2) = 255;
+    Texture on(TextureFormat::r8, count.width, count.height);
+    on.upload(tiles);
+    builder_.build_where(grid(QuadGrid::coarse), on, picture);
+    EXPECT_EQ(built().size(), 2u * 4);
+    const cv::Rect tile(2 * TilePass::side_px - 1, TilePass::side_px - 1, TilePass::side_px + 3,
+                        TilePass::side_px + 3);
+    for (const Triangle& triangle : built())
+        for (const cv::Point& corner : triangle) EXPECT_TRUE(tile.contains(corner)) << corner;
+}
+
+}  // namespace
+}  // namespace vantage

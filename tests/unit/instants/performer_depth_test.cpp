@@ -1,0 +1,108 @@
+#include "host_app/instants/performer_depth.h"
+
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/gl/egl_context.h"
+#include "host_app/instants/set_learner.h"
+#include "tests/unit/synthesis/wall_and_square.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width_px = 97, height_px = 73;
+constexpr float square_m = 2;
+
+/// Rigs before a wall that they have learnt, when a square comes to stand before it.
+class PerformerDepthTest : public testing::Test {
+  protected:
+    static DepthView film(double x_m, bool has_square) {
+        DepthView view =
+            wall_and_square(x_m, width_px, height_px, {.square_x_m = has_square ? 0.0 : 100.0});
+        view.baseline_m = 0.2;
+        return view;
+    }
+    /// The depth that is found for the first of the rigs, at `x_m` each, which sees `with`.
+    DepthImage found(const DepthView& with, std::vector<double> others_x_m) {
+        rigs_.clear();
+        others_x_m.insert(others_x_m.begin(), 0.0);
+        for (const double x_m : others_x_m) {
+            RigHistory& rig = *rigs_.emplace_back(std::make_unique<RigHistory>());
+            for (int i = 0; i < 5; ++i) see(rig, film(x_m, false));
+            see(rig, x_m == 0 ? with : film(x_m, true));
+        }
+        std::vector<RigHistory*> all;
+        for (const auto& rig : rigs_) all.push_back(rig.get());
+        performers_.find(*rigs_[0], all);
+        return rigs_[0]->performer_depth().texture().download();
+    }
+    void see(RigHistory& rig, const DepthView& view) {
+        rig.upload(view, 0.2);
+        learner_.learn(rig);
+    }
+    /// The square's pixels, and all that are farther from it than its matte's soft edge.
+    static cv::Mat1b square() {
+        const cv::Mat1b inside = film(0, true).depth_m < 3;
+        return inside;
+    }
+    static cv::Mat1b away() {
+        cv::Mat1b wide;
+        cv::dilate(square(), wide, cv::Mat1b::ones(7, 7));
+        return ~wide;
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    SetLearner learner_{shaders_};
+    PerformerDepth performers_{shaders_};
+    std::vector<std::unique_ptr<RigHistory>> rigs_;
+};
+
+TEST_F(PerformerDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
+    const DepthImage depth_m = found(film(0, true), {0.4});
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square()),
+              1e-4);
+    EXPECT_EQ(cv::norm(depth_m, cv::NORM_INF, away()), 0);
+}
+
+/// A place that another rig sees to be empty: at 3 m the square's left part would show beside its
+/// silhouette in the other picture, 0.4 m * 78 px * (1 / 2 m - 1 / 3 m) = 5 px from where it is.
+TEST_F(PerformerDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
+    DepthView wrong = film(0, true);
+    cv::Mat1b edge = square();
+    const cv::Rect box = cv::boundingRect(edge);
+    const cv::Rect strip(box.x, box.y + 4, 3, box.height - 8);
+    wrong.depth_m(strip) = 3.0f;
+    // Alone a rig has to believe it; beside another it takes what looks like it.
+    EXPECT_GT(cv::mean(found(wrong, {})(strip))[0], 2.9);
+    const DepthImage carved = found(wrong, {-0.4});
+    EXPECT_LT(cv::norm(carved(strip), DepthImage(strip.size(), square_m), cv::NORM_INF), 1e-3)
+        << carved(strip);
+    // The one on the other side sees the place before the square.
+    EXPECT_GT(cv::mean(found(wrong, {0.4})(strip))[0], 2.9);
+}
+
+TEST_F(PerformerDepthTest, IsThatOfLikeColourAroundWhereNothingWasMeasured) {
+    DepthView torn = film(0, true);
+    const cv::Rect hole(44, 30, 5, 9);
+    torn.depth_m(hole) = 0.0f;
+    const DepthImage whole = found(torn, {0.4});
+    EXPECT_LT(cv::norm(whole(hole), DepthImage(hole.size(), square_m), cv::NORM_INF), 1e-4);
+}
+
+TEST_F(PerformerDepthTest, IsSmoothedWithinASurface) {
+    DepthView rough = film(0, true);
+    cv::RNG random(3);
+    for (float& z : rough.depth_m)
+        if (z < 3) z = square_m * static_cast<float>(1 + random.uniform(-0.008, 0.008));
+    const auto roughness = [&](const DepthImage& depth_m) {
+        return cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_L2, square());
+    };
+    EXPECT_LT(roughness(found(rough, {0.4})), 0.8 * roughness(rough.depth_m));
+}
+
+}  // namespace
+}  // namespace vantage

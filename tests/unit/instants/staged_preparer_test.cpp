@@ -1,0 +1,104 @@
+#include "host_app/instants/staged_preparer.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "common/gl/egl_context.h"
+#include "tests/unit/synthesis/wall_and_square.h"
+
+namespace vantage {
+namespace {
+
+constexpr int width_px = 97, height_px = 73;
+constexpr float wall_m = 4, square_m = 2;
+
+/// One rig before a wall, which a square stands before at times.
+class StagedPreparerTest : public testing::Test {
+  protected:
+    static DepthView film(bool has_square) {
+        DepthView view =
+            wall_and_square(0, width_px, height_px, {.square_x_m = has_square ? 0.0 : 100.0});
+        view.name = "only";
+        view.baseline_m = 0.2;
+        return view;
+    }
+    std::shared_ptr<const Instant> prepared(const DepthView& view) {
+        preparer_.take({&view, 1}, 0.2);
+        return preparer_.prepare({width_px, height_px, view.K, view.world_from_camera},
+                                 prepare_levels().front());
+    }
+    static cv::Mat1b square(int margin_px) {
+        cv::Mat1b inside = film(true).depth_m < 3;
+        const cv::Mat around =
+            cv::Mat1b::ones(2 * std::abs(margin_px) + 1, 2 * std::abs(margin_px) + 1);
+        if (margin_px > 0)
+            cv::dilate(inside, inside, around);
+        else
+            cv::erode(inside, inside, around);
+        return inside;
+    }
+    static double unlike(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
+        cv::Mat off, part;
+        cv::absdiff(a, b, off);
+        off.copyTo(part, where);
+        return cv::norm(part & cv::Scalar(255, 255, 255, 0), cv::NORM_INF);
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    StagedPreparer preparer_{shaders_};
+};
+
+TEST_F(StagedPreparerTest, PutsPerformersBeforeTheSet) {
+    for (int i = 0; i < 5; ++i) (void)prepared(film(false));
+    const DepthView with = film(true);
+    const std::shared_ptr<const Instant> instant = prepared(with);
+    ASSERT_EQ(instant->rigs.size(), 1u);
+    const RigSurface& surface = *instant->rigs[0].surface;
+    const DepthImage depth_m = surface.depth().download();
+    // A matte's edge is soft by a pixel.
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square(-1)),
+              0.01);
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), wall_m), cv::NORM_INF, ~square(1)),
+              0.02);
+    EXPECT_LE(
+        unlike(surface.colour().download(), with.colour, cv::Mat1b(with.colour.size(), uchar{255})),
+        1);
+}
+
+TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformersAsAPlate) {
+    const DepthView empty = film(false);
+    EXPECT_EQ(prepared(empty)->rigs.at(0).surface->plate(), nullptr) << "nothing to remember yet";
+    for (int i = 0; i < 5; ++i) (void)prepared(empty);
+    const std::shared_ptr<const Instant> instant = prepared(film(true));
+    const RigPlate* plate = instant->rigs.at(0).surface->plate();
+    ASSERT_NE(plate, nullptr);
+    const DepthImage depth_m = plate->picture().depth_m().download();
+    const ColourImage colour = plate->picture().colour().download();
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), wall_m), cv::NORM_INF), 0.02);
+    EXPECT_LE(unlike(colour, empty.colour, cv::Mat1b(colour.size(), uchar{255})), 3);
+    cv::Mat1b alpha;
+    cv::extractChannel(colour, alpha, 3);
+    EXPECT_EQ(cv::countNonZero(alpha != 255), 0) << "all of it was seen";
+}
+
+/// Depth that was closed but never measured is nothing to remember.
+TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
+    DepthView torn = film(false);
+    const cv::Rect hole(30, 20, 8, 8);
+    torn.depth_m(hole) = 0.0f;
+    for (int i = 0; i < 5; ++i) (void)prepared(torn);
+    const std::shared_ptr<const Instant> instant = prepared(torn);
+    cv::Mat1b alpha;
+    cv::extractChannel(instant->rigs.at(0).surface->plate()->picture().colour().download(), alpha,
+                       3);
+    EXPECT_EQ(cv::countNonZero(alpha(hole)), 0);
+    EXPECT_EQ(cv::countNonZero(alpha != 255), hole.area());
+    const DepthImage guessed = DepthImage(instant->rigs[0].surface->depth().download())(hole);
+    EXPECT_LT(cv::norm(guessed, DepthImage(hole.size(), -wall_m), cv::NORM_INF), 0.01);
+}
+
+}  // namespace
+}  // namespace vantage
