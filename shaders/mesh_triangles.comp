@@ -1,6 +1,6 @@
 // The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces; an invocation a block
-// of quads. A block in which inverse depth is linear in the picture, as on a plane, is two triangles. They are written
-// one after the other, as many as there are.
+// of quads. Quads of several pixels become quads of one where they are cut, and a block in which inverse depth is linear
+// in the picture, as on a plane, two triangles. They are written one after the other, as many as there are.
 #ifndef STEP
 #define STEP 1    // px of the depth map that a quad spans
 #endif
@@ -29,12 +29,13 @@ void write(uint first, uvec3 corners) {
     indices[first + 2u] = corners.z;
 }
 
-void write_quad(ivec2 at, ivec2 size) {
-    Quad q = quad_at(at, STEP, size);
+bool is_whole(Quad q) { return q.ab && q.cd && q.ac && q.bd; }
+
+void write_quad(Quad q, ivec2 at, int width, ivec2 size) {
     uint first = uint(at.y * size.x + at.x);
-    uint down = uint(STEP * size.x), across = uint(STEP);
+    uint down = uint(width * size.x), across = uint(width);
     uvec4 corner = uvec4(first, first + across, first + down, first + down + across);
-    if (q.ab && q.ac && q.bd && q.cd) {
+    if (is_whole(q)) {
         uint place = atomicAdd(count, 6u);
         // The diagonal along which the surface bends less.
         bool falls = abs(q.a - q.d) < abs(q.b - q.c);
@@ -54,6 +55,19 @@ void write_quad(ivec2 at, ivec2 size) {
     else
         return;
     write(atomicAdd(count, 3u), one);
+}
+
+// Where a quad is cut, the quads of its pixels tell more exactly where.
+void write_quads(ivec2 at, ivec2 size) {
+    Quad q = quad_at(at, STEP, size);
+    if (STEP == 1 || is_whole(q)) {
+        write_quad(q, at, STEP, size);
+        return;
+    }
+    for (int i = 0; i < STEP * STEP; ++i) {
+        ivec2 part = at + ivec2(i % STEP, i / STEP);
+        write_quad(quad_at(part, 1, size), part, 1, size);
+    }
 }
 
 #if ACROSS > 1
@@ -94,6 +108,6 @@ void main() {
     for (int j = 0; j < ACROSS; ++j)
         for (int i = 0; i < ACROSS; ++i) {
             ivec2 quad = at + STEP * ivec2(i, j);
-            if (quad.x < end.x && quad.y < end.y) write_quad(quad, size);
+            if (quad.x < end.x && quad.y < end.y) write_quads(quad, size);
         }
 }

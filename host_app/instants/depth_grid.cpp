@@ -6,9 +6,8 @@
 
 namespace vantage {
 
-int triangle_indices(cv::Size depth_size, QuadGrid grid) {
-    const int step = static_cast<int>(grid);
-    return 6 * ((depth_size.width - 1) / step) * ((depth_size.height - 1) / step);
+int triangle_indices(cv::Size depth_size) {
+    return 6 * (depth_size.width - 1) * (depth_size.height - 1);
 }
 
 IndirectTriangles::IndirectTriangles(int most_indices)

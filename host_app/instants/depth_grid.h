@@ -6,11 +6,12 @@
 
 namespace vantage {
 
-/// How many pixels of a depth map a quad of its grid spans.
+/// How many pixels of a depth map a quad of its grid spans; where a coarse one is cut, its parts
+/// span one each.
 enum class QuadGrid { fine = 1, coarse = 2 };
 
-/// Indices of two triangles a quad of the grid over a depth map of this size.
-int triangle_indices(cv::Size depth_size, QuadGrid grid);
+/// Indices of two triangles a pixel of a depth map of this size.
+int triangle_indices(cv::Size depth_size);
 
 /// Triangles of a depth map, as an indirect draw: how many they are is known to the GPU alone.
 struct IndirectTriangles {

@@ -28,8 +28,8 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     colour_.resize(colour_size);
     drawn_.resize(depth_size);
     if (grid_size_ == depth_size) return;
-    triangles_.emplace(vantage::triangle_indices(depth_size, QuadGrid::fine));
-    coarse_triangles_.emplace(vantage::triangle_indices(depth_size, QuadGrid::coarse));
+    triangles_.emplace(triangle_indices(depth_size));
+    coarse_triangles_.emplace(triangle_indices(depth_size));
     rims_.reset();
     grid_size_ = depth_size;
 }
@@ -45,7 +45,7 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
 const IndirectTriangles& RigSurface::rims_to_build() {
     // A quarter of a quad takes as many indices as a quad of the grid: enough for a picture a
     // quarter of whose pixels lie at edges.
-    if (!rims_) rims_.emplace(std::max(triangle_indices(), 24));
+    if (!rims_) rims_.emplace(std::max(triangle_indices(depth().size()), 24));
     has_rims_ = true;
     return *rims_;
 }

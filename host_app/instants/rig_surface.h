@@ -32,9 +32,6 @@ class RigSurface {
     const IndirectTriangles& triangles(QuadGrid grid = QuadGrid::fine) const {
         return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
     }
-    int triangle_indices(QuadGrid grid = QuadGrid::fine) const {
-        return vantage::triangle_indices(depth().size(), grid);
-    }
     /// Whether triangles of the fine grid were built.
     bool has_fine_grid() const { return has_fine_grid_; }
     /// Null where none were built.

@@ -72,9 +72,8 @@ std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
     // Elsewhere the rig sees the set now.
     triangles_.build_where(
         {plate->picture().depth_m(),
-         plate->triangles_to_build(triangle_indices(rig.depth().size(), QuadGrid::coarse)),
-         rig.K_depth(), rig.camera().world_from_camera, QuadGrid::coarse,
-         depth_spread(rig.camera())},
+         plate->triangles_to_build(triangle_indices(rig.depth().size())), rig.K_depth(),
+         rig.camera().world_from_camera, QuadGrid::coarse, depth_spread(rig.camera())},
         rig.matte_tiles().texture(), rig.fresh_colour().size());
     return plate;
 }

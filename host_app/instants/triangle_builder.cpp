@@ -65,7 +65,7 @@ void TriangleBuilder::set_edge_filter(Program& program, const DepthGrid& grid) {
 }
 
 void TriangleBuilder::build_rims(RigSurface& surface) {
-    if (surface.triangle_indices() == 0) return;
+    if (triangle_indices(surface.depth().size()) == 0) return;
     const IndirectTriangles& rims = surface.rims_to_build();
     const DepthGrid grid = surface.grid(QuadGrid::fine);
     set_edge_filter(build_rims_, grid);

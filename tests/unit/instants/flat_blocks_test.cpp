@@ -57,7 +57,7 @@ class FlatBlocksTest : public testing::Test {
     ShaderLibrary shaders_;
     TriangleBuilder builder_{shaders_};
     Texture map_{TextureFormat::r32f, width_px, height_px};
-    IndirectTriangles triangles_{triangle_indices({width_px, height_px}, QuadGrid::fine)};
+    IndirectTriangles triangles_{triangle_indices({width_px, height_px})};
 };
 
 TEST_F(FlatBlocksTest, AreTwoTriangles) {

@@ -120,8 +120,8 @@ TEST_F(RigLayersTest, TellHowMuchFinerARigsPictureIs) {
 /// A strip two pixels wide is a quad of the fine grid and none of the coarse one.
 TEST_F(RigLayersTest, DrawTheFirstSurfacesByEveryPixel) {
     DepthView strip = told_wall(0, 4);
-    strip.depth_m.colRange(15, 17) = 2.0f;
-    for (int i = 0; i < 2; ++i) surfaces_.add(strip);
+    strip.depth_m.col(15) = 2.0f;  // Between the corners of coarse quads.
+    for (int i = 0; i < 2; ++i) surfaces_.add(strip, true);
     const VirtualView target = camera_of(strip);
     const std::vector<DrawnLayer> drawn = surfaces_.layers();
     const auto has_strip = [&](std::size_t i) {
