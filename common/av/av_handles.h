@@ -25,6 +25,9 @@ struct AvPacketDeleter {
 struct SwsContextDeleter {
     void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
+struct AvBufferDeleter {
+    void operator()(AVBufferRef* buffer) const { av_buffer_unref(&buffer); }
+};
 /// Closes the file too, where one is open.
 struct AvOutputDeleter {
     void operator()(AVFormatContext* context) const {
@@ -37,6 +40,7 @@ using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvCodecContextDeleter>
 using AvFramePtr = std::unique_ptr<AVFrame, AvFrameDeleter>;
 using AvPacketPtr = std::unique_ptr<AVPacket, AvPacketDeleter>;
 using SwsContextPtr = std::unique_ptr<SwsContext, SwsContextDeleter>;
+using AvBufferPtr = std::unique_ptr<AVBufferRef, AvBufferDeleter>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
 /// FFmpeg's reason for a negative return value.

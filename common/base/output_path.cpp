@@ -34,4 +34,12 @@ void require_writable_output(const std::filesystem::path& output,
         fail("cannot write {}: {}", output.string(), std::strerror(errno));
 }
 
+std::filesystem::path free_path(const std::filesystem::path& path) {
+    std::filesystem::path free = path;
+    for (int number = 2; std::filesystem::exists(free); ++number)
+        free = path.parent_path() /
+               fmt::format("{}-{}{}", path.stem().string(), number, path.extension().string());
+    return free;
+}
+
 }  // namespace vantage

@@ -11,4 +11,7 @@ namespace vantage {
 void require_writable_output(const std::filesystem::path& output,
                              std::initializer_list<std::filesystem::path> others);
 
+/// The path, or, where there is such a file, the first of NAME-2.EXT, NAME-3.EXT, ... that is free.
+std::filesystem::path free_path(const std::filesystem::path& path);
+
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace vantage {
 namespace {
@@ -50,6 +51,11 @@ std::chrono::nanoseconds PulseGrid::period() const {
 
 double PulseGrid::rate_hz() const {
     return static_cast<double>(pulses_) / static_cast<double>(seconds_);
+}
+
+PulseGrid::Fraction PulseGrid::rate() const {
+    const std::int64_t common = std::gcd(pulses_, seconds_);
+    return {pulses_ / common, seconds_ / common};
 }
 
 }  // namespace vantage

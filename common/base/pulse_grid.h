@@ -25,6 +25,11 @@ class PulseGrid {
     /// Of one pulse, rounded down: for tolerances, never to be summed.
     std::chrono::nanoseconds period() const;
     double rate_hz() const;
+    /// The rate as a fraction in its lowest terms: 30000/1001 for 29.97.
+    struct Fraction {
+        std::int64_t pulses, seconds;
+    };
+    Fraction rate() const;
 
   private:
     std::int64_t pulses_, seconds_;  ///< the rate: so many pulses in so many seconds

@@ -222,12 +222,4 @@ void require_new_take(const std::filesystem::path& path, const char* done) {
              path.string());
 }
 
-std::filesystem::path free_take_name(const std::filesystem::path& path) {
-    std::filesystem::path free = path;
-    for (int number = 2; std::filesystem::exists(free); ++number)
-        free = path.parent_path() /
-               fmt::format("{}-{}{}", path.stem().string(), number, path.extension().string());
-    return free;
-}
-
 }  // namespace vantage

@@ -86,7 +86,4 @@ class TakeWriter {
 /// that is there. `done` says in the error what is not: "recorded".
 void require_new_take(const std::filesystem::path& path, const char* done);
 
-/// The first name of PATH, PATH-2, PATH-3, ... that no file has.
-std::filesystem::path free_take_name(const std::filesystem::path& path);
-
 }  // namespace vantage

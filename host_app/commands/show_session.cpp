@@ -1,18 +1,22 @@
 #include "host_app/commands/show_session.h"
 
-#include <filesystem>
+#include <charconv>
 #include <iostream>
 #include <numbers>
 
 #include <fmt/ranges.h>
 
 #include "common/base/error.h"
+#include "common/base/pulse_grid.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "host_app/desk/operator_window.h"
+#include "host_app/desk/screen_windows.h"
 #include "host_app/live/corridor_watch.h"
+#include "host_app/live/output_switch.h"
 #include "host_app/live/panel_feed.h"
 #include "host_app/live/progress_log.h"
+#include "host_app/output/picture_encoder.h"
 #include "host_app/output/picture_target.h"
 
 namespace vantage {
@@ -29,6 +33,21 @@ cv::Size parse_size(const std::string& text) {
     return {width, height};
 }
 
+/// "25", "29.97", "30000/1001", within 0.1..240; 29.97 and its like are n * 1000 / 1001.
+double parse_rate(const std::string& text) {
+    constexpr double least_hz = 0.1, most_hz = 240;
+    double pictures = 0, seconds = 1;
+    const char* last = text.data() + text.size();
+    std::from_chars_result read = std::from_chars(text.data(), last, pictures);
+    if (read.ec == std::errc() && read.ptr != last && *read.ptr == '/')
+        read = std::from_chars(read.ptr + 1, last, seconds);
+    const double rate_hz = pictures / seconds;
+    if (read.ec != std::errc() || read.ptr != last || !(rate_hz >= least_hz && rate_hz <= most_hz))
+        fail("--rate is {:g} to {:g} pictures a second, such as 50, 29.97 or 30000/1001, not '{}'",
+             least_hz, most_hz, text);
+    return rate_hz;
+}
+
 OrbitView start_view(const StageConfig::View& view) {
     constexpr double rad = std::numbers::pi / 180;
     OrbitView start;
@@ -43,33 +62,28 @@ OrbitView start_view(const StageConfig::View& view) {
 }  // namespace
 
 LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_rate_hz) const {
-    LiveSettings settings{.format = {.width_px = view.width_px,
-                                     .height_px = view.height_px,
-                                     .stereoscopy = stereoscopic.stereoscopy()},
-                          .rate_hz = rate_hz > 0 ? rate_hz : pulse_rate_hz,
-                          .pulse_rate_hz = pulse_rate_hz,
-                          .synthesiser = synthesiser.empty() ? view.synthesiser : synthesiser,
-                          .quality = QualityWish::parse(quality),
-                          .source_map = novelty,
-                          .film = film,
-                          .contact_sheet = contact_sheet,
-                          .free_flight = free_flight,
-                          .harmonise = harmonise};
+    LiveSettings settings{
+        .format = {.width_px = view.width_px,
+                   .height_px = view.height_px,
+                   .stereoscopy = stereoscopic.stereoscopy()},
+        .rate_hz = PulseGrid(rate.empty() ? pulse_rate_hz : parse_rate(rate)).rate_hz(),
+        .pulse_rate_hz = pulse_rate_hz,
+        .synthesiser = synthesiser.empty() ? view.synthesiser : synthesiser,
+        .quality = QualityWish::parse(quality),
+        .source_map = novelty,
+        .outputs = outputs,
+        .encoder = encoder,
+        .overwrites = overwrite,
+        .contact_sheet = contact_sheet,
+        .free_flight = free_flight,
+        .harmonise = harmonise};
     if (!size.empty()) {
         const cv::Size wanted = parse_size(size);
         settings.format.width_px = wanted.width;
         settings.format.height_px = wanted.height;
     }
-    std::error_code ignored;
-    if (!settings.film.empty() && !overwrite && std::filesystem::exists(settings.film, ignored))
-        fail(
-            "{} is there already, and a film is not replaced without being asked: take another "
-            "name, or --overwrite",
-            settings.film.string());
-    if (!settings.film.empty() &&
-        (settings.format.width_px % 2 != 0 || settings.format.height_px % 2 != 0))
-        fail("a film of {}x{} cannot be recorded: its sides have to be even",
-             settings.format.width_px, settings.format.height_px);
+    if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
+    OutputDesk::check(output_settings(settings));
     (void)find_synthesiser(settings.synthesiser);
     return settings;
 }
@@ -101,20 +115,34 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--path", path, "Fly this move (TOML)");
     command.add_option("--snapshot", snapshot,
                        "Write the last picture (.png, .jpg); of a window, the panels too");
+    std::string kinds;
+    for (const OutputEntry& entry : output_entries()) kinds += "\n  " + entry.words;
+    command
+        .add_option(
+            "--output", outputs,
+            "Put the programme out, clean and at its constant rate; any number of these:" + kinds)
+        ->type_name("URL")
+        ->allow_extra_args(false);
     command.add_option("--record", film,
-                       "Write the flight as a film (.mkv, .mp4), with the house's time code");
+                       "Write the programme as a film (.mkv, .mp4), with the house's time code: "
+                       "--output of a file");
+    command.add_option("--encoder", encoder,
+                       fmt::format("Encode with this one of {}; without it the first that works is "
+                                   "taken, and named in the log",
+                                   fmt::join(known_encoders(), ", ")));
     command.add_option("--contact-sheet", contact_sheet,
                        "Write stills of the flight, with a rig's colour and disparity");
     command.add_flag("--free-flight", free_flight,
                      "Let hands fly beyond what the rigs cover; without this the camera is slowed "
                      "towards the end of its corridor and stands there");
-    command.add_option("--rate", rate_hz, "Pictures a second (default: " + default_rate + " rate)")
-        ->check(CLI::Range(0.1, 240.0));
+    command.add_option(
+        "--rate", rate,
+        "Pictures a second, such as 50, 29.97 or 30000/1001 (default: " + default_rate + " rate)");
     command.add_option("--size", size,
                        "Of the picture, WIDTHxHEIGHT (default: " + default_rate + ")");
     command.add_option("--synth", synthesiser,
                        "Synthesiser (default: " + default_rate + "; see render --help)");
-    command.add_flag("--overwrite", overwrite, "Let --record replace a film that is there");
+    command.add_flag("--overwrite", overwrite, "Let films replace files that are there");
     command.add_flag_callback(
         "--no-harmonise", [this] { harmonise = false; },
         "Leave the rigs' colours as the calibration makes them; without this, small gains take out "
@@ -156,13 +184,15 @@ void ShowSession::finish(const CorridorWatch& corridor,
     report.played = played;
     report.uncovered = corridor.uncovered_parts();
     if (deck) report.wheels = deck->devices();
+    // Where pictures went to the standard output, nothing else may.
+    std::ostream& out = show.outputs().takes_stdout() ? std::cerr : std::cout;
     if (options.json)
-        std::cout << to_json(report).dump() << '\n';
+        out << to_json(report).dump() << '\n';
     else
-        std::cout << to_text(report);
+        out << to_text(report);
     if (report.programme.pictures > 0 && !options.snapshot.empty())
         write_colour_image(options.snapshot, last_picture());
-    std::vector<std::string> failures = failures_of(report.programme.sinks);
+    std::vector<std::string> failures = failures_of(report);
     if (report.take && report.take->phase == TakePhase::failed)
         failures.push_back(report.take->failure);
     if (!failures.empty())
@@ -179,7 +209,10 @@ void ShowSession::run_headless(StopSignal& stop) {
     show.start();
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
-    while (!show.is_over() && !stop.wait_for(std::chrono::milliseconds(20))) {
+    ScreenWindows screens(false);
+    const std::chrono::milliseconds look(show.outputs().screens().empty() ? 20 : 4);
+    while (!show.is_over() && !stop.wait_for(look)) {
+        screens.follow(show.outputs().screens());
         progress.tell(show);
         corridor.tell(show);
     }
@@ -200,6 +233,8 @@ void ShowSession::run_in_window(StopSignal& stop) {
     PanelFeed panel;
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
+    OutputSwitch outputs(show.outputs());
+    ScreenWindows screens(true);
     // Hands are looked at at a rate of its own; the screen is drawn with every new picture, and now
     // and then without one: where the processor draws, it has better things to do.
     constexpr std::chrono::milliseconds period{16}, longest_unchanged{200};
@@ -211,13 +246,16 @@ void ShowSession::run_in_window(StopSignal& stop) {
         const MonotonicTime now = MonotonicClock::now();
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
         if (takes && input.toggle_take) takes->toggle();
+        outputs.press(input.toggle_output, now);
+        screens.follow(show.outputs().screens());
         show.controls().hands().put(input, now);
         last = now;
         if (const auto picture = show.state().picture;
             picture != shown || now - drawn > longest_unchanged) {
             shown = picture;
             drawn = now;
-            window.show(panel.state(show, takes ? std::optional(takes->state()) : std::nullopt));
+            window.show(panel.state(show, takes ? std::optional(takes->state()) : std::nullopt,
+                                    outputs.question(now)));
         } else {
             window.leave();
         }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,10 +18,11 @@ namespace vantage {
 
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
-    std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels;
+    std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder, rate;
+    std::vector<std::string> outputs;
     std::string quality = "auto";
     std::uint64_t frames = 0;
-    double rate_hz = 0, seconds = 0;
+    double seconds = 0;
     bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
     bool free_flight = false;
     StereoscopicOptions stereoscopic;

@@ -197,8 +197,9 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         ImGui::SameLine(0, 0);
     }
     const std::string right =
-        state.asks_to_end
-            ? std::string("Esc again to end the programme")
+        state.asks_to_end ? std::string("Esc again to end the programme")
+        : !state.question.empty()
+            ? state.question
             : fmt::format("{}x{}   {:.1f} pictures/s   {:.0f} ms   {}, level {}/{}   F1 help",
                           state.picture ? state.picture->width_px() : 0,
                           state.picture ? state.picture->height_px() : 0, state.picture_rate_hz,
@@ -366,6 +367,31 @@ void draw_novelty(const PanelNovelty& novelty, const UiFonts& fonts) {
     ImGui::EndTable();
 }
 
+void draw_outputs(const std::vector<PanelOutput>& outputs, const UiFonts& fonts) {
+    ImGui::Spacing();
+    heading(fonts, "OUTPUTS");
+    constexpr int first_key = 5, last_key = 12;
+    ImGui::PushTextWrapPos(0);
+    int key = first_key;
+    for (const PanelOutput& output : outputs) {
+        text(key > last_key ? output.name : fmt::format("F{}  {}", key, output.name));
+        ++key;
+        text(output.is_failed ? palette::bad
+             : output.is_on   ? palette::good
+                              : palette::dim,
+             output.state);
+        if (output.is_on) {
+            ImGui::SameLine(0, em());
+            text(palette::dim,
+                 fmt::format("{:.1f} Mbit/s, {} queued", output.mbit_s, output.queued));
+        }
+        if (output.left_out > 0)
+            text(palette::warn, fmt::format("{} pictures left out", output.left_out));
+        if (!output.failure.empty()) text(palette::bad, output.failure);
+    }
+    ImGui::PopTextWrapPos();
+}
+
 void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top) {
     constexpr double deg = 180 / std::numbers::pi;
     const float width = 17.5f * em();
@@ -396,6 +422,7 @@ void draw_camera_panel(const PanelState& state, const UiFonts& fonts, float top)
         ImGui::ProgressBar(static_cast<float>(*state.move_progress), {-1, 0.4f * em()}, "");
     }
     if (state.novelty) draw_novelty(*state.novelty, fonts);
+    if (!state.outputs.empty()) draw_outputs(state.outputs, fonts);
     if (!state.wheel.empty()) {
         ImGui::PushTextWrapPos(0);
         text(palette::dim, state.wheel);
@@ -475,6 +502,7 @@ void draw_help(const UiFonts& fonts) {
         {"P", "play or leave the planned move"},
         {"T", "begin or end a take of what the rigs send"},
         {"F2", "next synthesiser"},
+        {"F5 .. F12", "begin output 1 .. 8; pressed twice, end it"},
         {"N", "show which rig each pixel comes from"},
         {"Tab", "show or hide the panels"},
         {"F1", "show or hide this help"},

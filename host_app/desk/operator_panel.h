@@ -51,6 +51,15 @@ struct PanelTake {
     std::string failure;
 };
 
+/// An output of the programme.
+struct PanelOutput {
+    std::string name, state;
+    bool is_on = false, is_failed = false;
+    double mbit_s = 0;
+    std::uint64_t queued = 0, left_out = 0;
+    std::string failure;
+};
+
 /// Where in the past the programme is: shares of what there is.
 struct PanelTime {
     double speed = 0, at = 0;
@@ -65,8 +74,10 @@ struct PanelState {
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
-    bool recording = false;          ///< a film
-    std::optional<PanelTake> take;   ///< nothing: no take is recorded
+    bool recording = false;         ///< a film
+    std::optional<PanelTake> take;  ///< nothing: no take is recorded
+    std::vector<PanelOutput> outputs;
+    std::string question;            ///< that a second press of a key answers; empty: none
     std::optional<double> behind_s;  ///< while in a stage's past: how far
     std::optional<PanelTime> time;   ///< while in the past, or in a take
     double picture_rate_hz = 0, latency_ms = 0;

@@ -150,6 +150,8 @@ void OperatorWindow::take_key(int key, bool control) {
             end_asked_until_s_ = glfwGetTime() + end_asks_s;
             break;
         default:
+            if (key >= GLFW_KEY_F5 && key <= GLFW_KEY_F12)
+                input_.toggle_output = key - GLFW_KEY_F5 + 1;
             if (key < GLFW_KEY_1 || key > GLFW_KEY_9) break;
             (control ? input_.store_shot : input_.recall_shot) = key - GLFW_KEY_1 + 1;
     }

@@ -28,6 +28,7 @@ void FlightInput::add(const FlightInput& other) {
     cue |= other.cue;
     next_wheel_mode |= other.next_wheel_mode;
     if (other.recall_shot != 0) recall_shot = other.recall_shot;
+    if (other.toggle_output != 0) toggle_output = other.toggle_output;
     if (other.store_shot != 0) store_shot = other.store_shot;
 }
 

@@ -13,6 +13,7 @@ struct FlightInput {
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
     int speed_steps = 0;                  ///< to faster or slower playing of the past
     int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
+    int toggle_output = 0;                ///< 1..8; 0: none
 
     /// Detents of a jog wheel, clockwise positive.
     double wheel_steps = 0;

@@ -11,6 +11,10 @@
 namespace vantage {
 namespace {
 
+std::string times(std::uint64_t n) {
+    return n == 1 ? std::string("once") : fmt::format("{} times", n);
+}
+
 /// One counter of a rig: its key for machines and its heading for people.
 struct Counter {
     const char *key, *heading;
@@ -207,6 +211,49 @@ std::string take_text(const TakeState& take) {
     return text;
 }
 
+const char* key_of(OutputPhase phase) {
+    switch (phase) {
+        case OutputPhase::off:
+            break;
+        case OutputPhase::opening:
+            return "opening";
+        case OutputPhase::waiting:
+            return "waiting";
+        case OutputPhase::on:
+            return "on";
+        case OutputPhase::failed:
+            return "failed";
+    }
+    return "off";
+}
+
+nlohmann::ordered_json output_json(const OutputState& output) {
+    return {{"name", output.name},
+            {"state", key_of(output.phase)},
+            {"failure", output.failure},
+            {"failures", output.failures},
+            {"encoder", output.encoder},
+            {"offered", output.offered},
+            {"pictures", output.pictures},
+            {"dropped", output.dropped},
+            {"unheard", output.unheard},
+            {"queued", output.queued},
+            {"bytes", output.bytes},
+            {"bit_rate_bps", output.bit_rate_bps},
+            {"write_ms", to_json(output.write_ms)}};
+}
+
+std::string output_text(const OutputState& output) {
+    std::string text = fmt::format("output: {}{}{}, {}, {:.1f} MB, {} left out because it was busy",
+                                   output.name, output.encoder.empty() ? "" : " by ",
+                                   output.encoder, counted(output.pictures, "picture"),
+                                   static_cast<double>(output.bytes) / 1e6, output.dropped);
+    if (output.unheard > 0)
+        text += fmt::format(", {} while nobody took it", counted(output.unheard, "picture"));
+    if (output.failures > 0) text += fmt::format(", failed {}", times(output.failures));
+    return text + '\n';
+}
+
 }  // namespace
 
 std::string state_of(const RigStatus& status) {
@@ -221,9 +268,6 @@ std::string full_state_of(const RigStatus& status) {
 }
 
 std::string outages_of(const RigStatus& status) {
-    const auto times = [](std::uint64_t n) {
-        return n == 1 ? std::string("once") : fmt::format("{} times", n);
-    };
     std::string text;
     if (status.outages > 0)
         text = fmt::format("was away {}, {:.1f} s in all", times(status.outages), status.outage_s);
@@ -258,12 +302,15 @@ std::vector<std::string> worries_of(const RigStatus& status) {
     return worries;
 }
 
-std::vector<std::string> failures_of(const std::vector<SinkState>& sinks) {
+std::vector<std::string> failures_of(const LiveReport& report) {
     std::vector<std::string> failures;
-    for (const SinkState& sink : sinks)
-        if (!sink.failure.empty())
-            failures.push_back(fmt::format("{} failed after {}: {}", sink.name,
-                                           counted(sink.pictures, "picture"), sink.failure));
+    const auto add = [&](const auto& of) {
+        if (!of.failure.empty())
+            failures.push_back(fmt::format("{} failed after {}: {}", of.name,
+                                           counted(of.pictures, "picture"), of.failure));
+    };
+    for (const OutputState& output : report.outputs) add(output);
+    for (const SinkState& sink : report.programme.sinks) add(sink);
     return failures;
 }
 
@@ -311,6 +358,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                             {"prepare", programme.prepare_shares}};
     json["faults"] = report.faults;
     json["contexts_lost"] = report.contexts_lost;
+    for (const OutputState& output : report.outputs) json["outputs"].push_back(output_json(output));
     for (const SinkState& sink : programme.sinks)
         json["outputs"].push_back(
             {{"name", sink.name}, {"pictures", sink.pictures}, {"failure", sink.failure}});
@@ -364,10 +412,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                   {"reports", wheel.reports},
                                   {"unread", wheel.unread}});
     if (report.take) json["take"] = take_json(*report.take);
-    if (!report.film.empty())
-        json["film"] = {{"path", report.film},
-                        {"pictures", report.film_pictures},
-                        {"dropped", report.film_dropped}};
+    for (const OutputState& output : report.outputs)
+        if (!output.film.empty() && !json.contains("film"))
+            json["film"] = {
+                {"path", output.film}, {"pictures", output.pictures}, {"dropped", output.dropped}};
     return json;
 }
 
@@ -396,7 +444,6 @@ std::string steps_text(const LiveReport& report) {
 }
 
 std::string results_text(const LiveReport& report) {
-    const ProgrammeBooks& programme = report.programme;
     std::string text;
     if (report.faults > 0)
         text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
@@ -404,7 +451,7 @@ std::string results_text(const LiveReport& report) {
     if (report.contexts_lost > 0)
         text += fmt::format("resets of the GPU, after which all of it was set up anew: {}\n",
                             report.contexts_lost);
-    for (const std::string& failure : failures_of(programme.sinks)) text += failure + '\n';
+    for (const std::string& failure : failures_of(report)) text += failure + '\n';
     if (report.stereoscopy)
         text +=
             fmt::format("side by side: eyes {:.1f} mm apart, converging at {:.2f} m\n",
@@ -421,9 +468,7 @@ std::string results_text(const LiveReport& report) {
                             wheel.model, wheel.place.path, wheel.reports, wheel.unread,
                             wheel.fault.empty() ? "" : "; ", wheel.fault);
     if (report.take) text += take_text(*report.take);
-    if (!report.film.empty())
-        text += fmt::format("film: {}, {} pictures, {} left out because the encoder was busy\n",
-                            report.film, report.film_pictures, report.film_dropped);
+    for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
 }
 

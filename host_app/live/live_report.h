@@ -16,6 +16,7 @@
 #include "host_app/flight/move_coverage.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/instants/colour_harmoniser.h"
+#include "host_app/output/output_desk.h"
 #include "host_app/programme/programme.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
@@ -54,8 +55,8 @@ struct LiveReport {
     std::vector<RigAccount> rigs;  ///< in the stage's order
 
     RigSteps rig_steps;
-    /// Steps of a frame's way at the host; of network and decode the worst rig's. Without samples:
-    /// not done.
+    /// Steps of a frame's way at the host; of network and decode the worst rig's, of encode the
+    /// slowest output's. Without samples: not done.
     Percentiles network_ms, decode_ms, prepare_ms, encode_ms;
 
     std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
@@ -66,8 +67,7 @@ struct LiveReport {
     std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
     std::string played;             ///< the take that was played; empty: the stage was live
 
-    std::string film;  ///< path; empty: none
-    std::uint64_t film_pictures = 0, film_dropped = 0;
+    std::vector<OutputState> outputs;
 };
 
 /// The steps of a frame's way, by name, of which there are samples: at the rigs as the worst of
@@ -77,8 +77,8 @@ struct StepTime {
     Percentiles ms;
 };
 std::vector<StepTime> step_times(const LiveReport& report);
-/// A sentence for every output that failed, with its name.
-std::vector<std::string> failures_of(const std::vector<SinkState>& sinks);
+/// A sentence for every output that has failed and is not on again, with its name.
+std::vector<std::string> failures_of(const LiveReport& report);
 /// New pictures a second.
 double pictures_a_second(const ProgrammeBooks& programme);
 

@@ -70,6 +70,16 @@ const LiveSettings& checked(const LiveSettings& settings) {
 
 }  // namespace
 
+OutputDesk::Settings output_settings(const LiveSettings& settings) {
+    return {.format = {.width_px = settings.format.width_px,
+                       .height_px = settings.format.height_px,
+                       .rate_hz = settings.rate_hz,
+                       .encoder = settings.encoder,
+                       .overwrites = settings.overwrites},
+            .pulse_rate_hz = settings.pulse_rate_hz,
+            .urls = settings.outputs};
+}
+
 LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
                    JogDeck* deck)
     : settings_(checked(settings)),
@@ -87,6 +97,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
            settings.free_flight},
           deck, [this](int number) { return rig_view(number); }, [this] { return framing(); },
           [this] { return corridor_now(); }),
+      outputs_(output_settings(settings)),
       programme_({.format = settings.format,
                   .rate_hz = settings.rate_hz,
                   .pulse_rate_hz = settings.pulse_rate_hz,
@@ -96,15 +107,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                   .transport = settings.transport,
                   .ends_with_past = settings.ends_with_take},
                  instants_, controls_) {
-    if (!settings.film.empty()) {
-        auto film = std::make_unique<FilmSink>(settings.film,
-                                               VideoSettings{.width_px = settings.format.width_px,
-                                                             .height_px = settings.format.height_px,
-                                                             .rate_hz = settings.rate_hz},
-                                               settings.pulse_rate_hz);
-        film_ = film.get();
-        programme_.add(std::move(film));
-    }
+    programme_.add(outputs_.sink());
     if (!settings.contact_sheet.empty())
         programme_.add(std::make_unique<ContactSheetSink>(settings.contact_sheet));
 }
@@ -153,6 +156,7 @@ void LiveShow::start() {
 
 void LiveShow::finish() {
     programme_.stop();
+    outputs_.finish();
     last_status_ = instants_.close();
 }
 
@@ -253,12 +257,10 @@ LiveReport LiveShow::report() const {
                 state.picture->job.camera.focus_m);
         if (state.picture->sources) report.novelty = state.picture->sources->shares;
     }
-    if (film_) {
-        report.film = film_->path().string();
-        report.film_pictures = film_->recorder().frames();
-        report.film_dropped = film_->recorder().dropped();
-        report.encode_ms = film_->recorder().encode_ms();
-    }
+    report.outputs = outputs_.states();
+    for (const OutputState& output : report.outputs)
+        if (output.write_ms.count > 0 && output.write_ms.p95 >= report.encode_ms.p95)
+            report.encode_ms = output.write_ms;
     return report;
 }
 

@@ -12,7 +12,7 @@
 #include "host_app/control/flight_controls.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/stage_corridor.h"
-#include "host_app/output/film_sink.h"
+#include "host_app/output/output_desk.h"
 #include "host_app/programme/programme.h"
 #include "host_app/sets/stage_feed.h"
 
@@ -25,22 +25,28 @@ struct LiveSettings {
     std::size_t replay_bytes = 0;  ///< of frames kept to go back to; 0: none
     std::string synthesiser = default_synthesiser;
     QualityWish quality;
-    bool source_map = false;                    ///< shown at first
-    std::filesystem::path film, contact_sheet;  ///< empty: none
-    bool free_flight = false;                   ///< hands may leave the corridor
-    bool harmonise = true;                      ///< the rigs' colours, by a ColourHarmoniser
+    bool source_map = false;                ///< shown at first
+    std::vector<std::string> outputs = {};  ///< URLs and files (see OutputUrl)
+    std::string encoder = {};               ///< of the outputs; empty: chosen by trying
+    bool overwrites = false;                ///< a film that is there may be replaced
+    std::filesystem::path contact_sheet;    ///< empty: none
+    bool free_flight = false;               ///< hands may leave the corridor
+    bool harmonise = true;                  ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
     std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
     Transport transport = {};                              ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
 };
 
+/// The outputs that these settings ask for.
+OutputDesk::Settings output_settings(const LiveSettings& settings);
+
 /// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
 /// books of all of them. All work is done on threads and OpenGL contexts of its own.
 class LiveShow {
   public:
     /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
-    /// or there can be no stereoscopic picture of this width, or an output cannot be opened.
+    /// or there can be no stereoscopic picture of this width, or an output cannot be.
     /// Without a deck no wheel flies; else it must outlive the show.
     LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDeck* deck);
 
@@ -65,6 +71,7 @@ class LiveShow {
     LiveReport report() const;
 
     const LiveSettings& settings() const { return settings_; }
+    OutputDesk& outputs() { return outputs_; }
     FlightControls& controls() { return controls_; }
     const FlightControls& controls() const { return controls_; }
     /// Null until the stage is known.
@@ -89,8 +96,8 @@ class LiveShow {
     InstantThread instants_;
     StageCorridor stage_corridor_;
     FlightControls controls_;
+    OutputDesk outputs_;
     Programme programme_;
-    const FilmSink* film_ = nullptr;              ///< owned by the programme
     std::optional<MonotonicTime> framing_since_;  ///< of the programme's thread
     std::optional<ReceiverStatus> last_status_;
 };

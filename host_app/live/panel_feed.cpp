@@ -58,6 +58,18 @@ std::optional<PanelTake> panel_take(const TakeState& take) {
     return panel;
 }
 
+PanelOutput panel_output(const OutputState& output) {
+    constexpr double bits_a_megabit = 1e6;
+    return {output.name,
+            words_of(output.phase),
+            output.phase == OutputPhase::on,
+            output.phase == OutputPhase::failed,
+            output.bit_rate_bps / bits_a_megabit,
+            output.queued,
+            output.dropped,
+            output.failure};
+}
+
 }  // namespace
 
 PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
@@ -126,12 +138,16 @@ void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const F
     state_.latency_ms = programme.latency_ms;
     state_.signal = report.signal;
     state_.novelty = novelty_of(programme);
-    state_.recording = !report.film.empty();
-    for (const SinkState& sink : report.programme.sinks)
-        if (!sink.failure.empty()) state_.recording = false;
+    state_.outputs.clear();
+    state_.recording = false;
+    for (const OutputState& output : report.outputs) {
+        state_.outputs.push_back(panel_output(output));
+        if (!output.film.empty() && output.phase == OutputPhase::on) state_.recording = true;
+    }
 }
 
-PanelState PanelFeed::state(LiveShow& show, const std::optional<TakeState>& take) {
+PanelState PanelFeed::state(LiveShow& show, const std::optional<TakeState>& take,
+                            const std::string& question) {
     const MonotonicTime now = MonotonicClock::now();
     const ProgrammeState programme = show.state();
     if (!timecodes_)
@@ -161,6 +177,7 @@ PanelState PanelFeed::state(LiveShow& show, const std::optional<TakeState>& take
         state_.pulse = set->trigger_index;
         state_.timecode = timecodes_->of(*set);
     }
+    state_.question = question;
     state_.take = take ? panel_take(*take) : std::nullopt;
     state_.behind_s = programme.behind_s;
     state_.time = panel_time(programme);

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "common/base/rate_meter.h"
 #include "host_app/desk/operator_panel.h"
 #include "host_app/live/live_show.h"
-#include "host_app/live/rate_meter.h"
 
 namespace vantage {
 
@@ -18,7 +18,9 @@ class PanelFeed {
   public:
     /// The context that shows it must be current at every call. `take`: nothing: none is recorded
     /// here.
-    PanelState state(LiveShow& show, const std::optional<TakeState>& take);
+    /// `question`: that a second press of a key answers; empty: none.
+    PanelState state(LiveShow& show, const std::optional<TakeState>& take,
+                     const std::string& question);
 
   private:
     void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,

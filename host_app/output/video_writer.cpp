@@ -1,12 +1,12 @@
 #include "host_app/output/video_writer.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include <unistd.h>
 
+#include "common/av/av_log.h"
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
 #include "host_app/output/mp4_fragments.h"
 
 extern "C" {
@@ -15,14 +15,6 @@ extern "C" {
 
 namespace vantage {
 namespace {
-
-/// The finest common clock of broadcast rates, 30000/1001 Hz included.
-constexpr AVRational time_base = {1, 90000};
-
-const AVCodec* find_encoder() {
-    if (const AVCodec* x264 = avcodec_find_encoder_by_name("libx264")) return x264;
-    return avcodec_find_encoder(AV_CODEC_ID_MPEG4);
-}
 
 const char* container_of(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
@@ -34,7 +26,8 @@ const char* container_of(const std::filesystem::path& path) {
 /// Whether a file opens and has a picture.
 bool is_readable(const std::filesystem::path& path) {
     AVFormatContext* input = nullptr;
-    if (avformat_open_input(&input, path.c_str(), nullptr, nullptr) < 0) return false;
+    if (avformat_open_input(&input, ("file:" + path.string()).c_str(), nullptr, nullptr) < 0)
+        return false;
     const AvPacketPtr packet(av_packet_alloc());
     const bool has_picture = av_read_frame(input, packet.get()) >= 0;
     avformat_close_input(&input);
@@ -43,20 +36,31 @@ bool is_readable(const std::filesystem::path& path) {
 
 }  // namespace
 
+void require_film_name(const std::filesystem::path& path) { (void)container_of(path); }
+
 VideoWriter::VideoWriter(std::filesystem::path path, const VideoSettings& settings)
     : path_(std::move(path)), partial_(path_.string() + fmt::format(".partial-{}", getpid())) {
     if (settings.width_px < 2 || settings.height_px < 2)
         fail("{} cannot be written: a film of {}x{} pixels is too small", path_.string(),
              settings.width_px, settings.height_px);
-    // The encoder tells of every start and end otherwise.
-    av_log_set_level(AV_LOG_ERROR);
+    keep_av_log();
     AVFormatContext* output = nullptr;
     if (const int code =
             avformat_alloc_output_context2(&output, nullptr, container_of(path_), partial_.c_str());
         code < 0)
         fail_writing(code);
     output_.reset(output);
-    open_encoder(settings);
+    try {
+        encoder_.emplace(settings.encoder, EncoderSettings{.width_px = settings.width_px,
+                                                           .height_px = settings.height_px,
+                                                           .rate_hz = settings.rate_hz,
+                                                           .bit_rate_bps = settings.bit_rate_bps,
+                                                           .quality = settings.quality,
+                                                           .has_head = (output->oformat->flags &
+                                                                        AVFMT_GLOBALHEADER) != 0});
+    } catch (const Error& error) {
+        fail("{} cannot be written: {}", path_.string(), error.what());
+    }
     open_file();
 }
 
@@ -67,61 +71,18 @@ VideoWriter::~VideoWriter() {
     std::filesystem::remove(partial_, ignored);
 }
 
-void VideoWriter::open_encoder(const VideoSettings& settings) {
-    const AVCodec* codec = find_encoder();
-    if (!codec) fail("{} cannot be written: FFmpeg has no video encoder here", path_.string());
-    encoder_.reset(avcodec_alloc_context3(codec));
-    encoder_->width = settings.width_px & ~1;
-    encoder_->height = settings.height_px & ~1;
-    encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
-    encoder_->time_base = time_base;
-    // 29.97 is 30000/1001, as drop-frame time code wants it.
-    encoder_->framerate = av_d2q(PulseGrid(settings.rate_hz).rate_hz(), 120'000);
-    encoder_->gop_size = std::max(1, static_cast<int>(std::lround(2 * settings.rate_hz)));
-    encoder_->colorspace = AVCOL_SPC_BT709;
-    encoder_->color_primaries = AVCOL_PRI_BT709;
-    encoder_->color_trc = AVCOL_TRC_BT709;
-    encoder_->color_range = AVCOL_RANGE_MPEG;
-    if (output_->oformat->flags & AVFMT_GLOBALHEADER)
-        encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-    if (codec->id == AV_CODEC_ID_H264) {
-        av_opt_set(encoder_->priv_data, "preset", "veryfast", 0);
-        av_opt_set_double(encoder_->priv_data, "crf", settings.quality, 0);
-    } else {
-        // MPEG-4 takes clocks of 16 bits only.
-        encoder_->time_base = {1, 60000};
-        encoder_->flags |= AV_CODEC_FLAG_QSCALE;
-        encoder_->global_quality = 3 * FF_QP2LAMBDA;
-    }
-    if (const int code = avcodec_open2(encoder_.get(), codec, nullptr); code < 0)
-        fail("{} cannot be written: the encoder {} does not take {}x{} at {} Hz ({})",
-             path_.string(), codec->name, encoder_->width, encoder_->height, settings.rate_hz,
-             av_reason(code));
-
-    to_yuv_.reset(sws_getContext(encoder_->width, encoder_->height, AV_PIX_FMT_RGBA,
-                                 encoder_->width, encoder_->height, AV_PIX_FMT_YUV420P,
-                                 SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
-    if (!to_yuv_) fail("{} cannot be written: memory is short", path_.string());
-    constexpr int full_range = 1, studio_range = 0, unchanged = 1 << 16;
-    sws_setColorspaceDetails(to_yuv_.get(), sws_getCoefficients(SWS_CS_ITU709), full_range,
-                             sws_getCoefficients(SWS_CS_ITU709), studio_range, 0, unchanged,
-                             unchanged);
-    frame_.reset(av_frame_alloc());
-    packet_.reset(av_packet_alloc());
-    frame_->format = encoder_->pix_fmt;
-    frame_->width = encoder_->width;
-    frame_->height = encoder_->height;
-    if (const int code = av_frame_get_buffer(frame_.get(), 0); code < 0) fail_writing(code);
-}
-
 void VideoWriter::open_file() {
     stream_ = avformat_new_stream(output_.get(), nullptr);
     if (!stream_) fail("{} cannot be written: memory is short", path_.string());
-    stream_->time_base = encoder_->time_base;
-    stream_->avg_frame_rate = encoder_->framerate;
-    avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
-    if (const int code = avio_open(&output_->pb, partial_.c_str(), AVIO_FLAG_WRITE); code < 0)
+    stream_->time_base = encoder_->context().time_base;
+    stream_->avg_frame_rate = encoder_->context().framerate;
+    avcodec_parameters_from_context(stream_->codecpar, &encoder_->context());
+    if (const int code =
+            avio_open(&output_->pb, ("file:" + partial_.string()).c_str(), AVIO_FLAG_WRITE);
+        code < 0)
         fail_writing(code);
+    sync_.emplace(partial_);
+    output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
     // What a failure may cost: a cluster of Matroska, a fragment of MP4.
     av_opt_set_int(output_->priv_data, "cluster_time_limit", 1000, 0);
     av_opt_set_int(output_->priv_data, "frag_duration", 1'000'000, 0);
@@ -136,49 +97,37 @@ void VideoWriter::begin(const std::string& timecode) {
     has_begun_ = true;
 }
 
-void VideoWriter::add(const ColourImage& picture, std::chrono::nanoseconds time,
-                      const std::string& timecode) {
-    assert(!finished_);
+void VideoWriter::add(const ColourImage& picture, std::int64_t tick, const std::string& timecode) {
+    assert(!finished_ && tick > last_tick_);
+    last_tick_ = tick;
     if (!has_begun_) begin(timecode);
-    assert(picture.cols >= frame_->width && picture.rows >= frame_->height);
-    if (const int code = av_frame_make_writable(frame_.get()); code < 0) fail_writing(code);
-    const std::uint8_t* rows[] = {picture.data};
-    const int strides[] = {static_cast<int>(picture.step)};
-    sws_scale(to_yuv_.get(), rows, strides, 0, frame_->height, frame_->data, frame_->linesize);
-    frame_->pts = av_rescale_q(time.count(), {1, 1'000'000'000}, encoder_->time_base);
-    assert(frame_->pts > last_pts_);
-    last_pts_ = frame_->pts;
-    if (const int code = avcodec_send_frame(encoder_.get(), frame_.get()); code < 0)
-        fail_writing(code);
+    encoder_->add(picture, tick);
     drain();
     ++frames_;
 }
 
 void VideoWriter::finish() {
     if (frames_ == 0) fail("{} is not written: the film has no picture", path_.string());
-    if (const int code = avcodec_send_frame(encoder_.get(), nullptr); code < 0) fail_writing(code);
+    encoder_->end();
     drain();
     is_ended_ = true;
     if (const int code = av_write_trailer(output_.get()); code < 0) fail_writing(code);
     if (const int code = avio_closep(&output_->pb); code < 0) fail_writing(code);
+    sync_->now();
     std::error_code error;
     std::filesystem::rename(partial_, path_, error);
     if (error) fail("cannot write {}: {}", path_.string(), error.message());
     finished_ = true;
 }
 
-std::string VideoWriter::codec_name() const { return encoder_->codec->name; }
-
 void VideoWriter::drain() {
-    for (;;) {
-        const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
-        if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return;
-        if (received < 0) fail_writing(received);
-        av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
-        packet_->stream_index = stream_->index;
-        if (const int code = av_interleaved_write_frame(output_.get(), packet_.get()); code < 0)
+    while (AVPacket* packet = encoder_->next()) {
+        av_packet_rescale_ts(packet, encoder_->context().time_base, stream_->time_base);
+        packet->stream_index = stream_->index;
+        if (const int code = av_interleaved_write_frame(output_.get(), packet); code < 0)
             fail_writing(code);
     }
+    bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));
 }
 
 bool VideoWriter::keep_what_is_written() noexcept {

@@ -5,6 +5,7 @@
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/output_path.h"
 #include "common/base/version.h"
 #include "common/colour/colour_file.h"
 #include "host_app/takes/take_show.h"
@@ -104,7 +105,7 @@ void TakeDesk::begin(const std::filesystem::path& path) {
 void TakeDesk::toggle() {
     try {
         if (!recorder_.is_running()) {
-            begin(free_take_name(path_.empty() ? name_for_now() : path_));
+            begin(free_path(path_.empty() ? name_for_now() : path_));
             return;
         }
         recorder_.end();

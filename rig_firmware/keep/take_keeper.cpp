@@ -94,7 +94,7 @@ void TakeKeeper::offer(const std::shared_ptr<const PackedFrame>& frame) {
     recorder_.offer(ArrivedFrame{0, frame, {}, MonotonicClock::now(), TaiClock::now()});
 }
 
-void TakeKeeper::begin() { recorder_.begin(free_take_name(config_.folder / name_for_now(rig_))); }
+void TakeKeeper::begin() { recorder_.begin(free_path(config_.folder / name_for_now(rig_))); }
 
 void TakeKeeper::run() {
     const std::chrono::duration<double, std::ratio<60>> length(config_.minutes);

@@ -39,6 +39,11 @@ class OperatorScreen : public testing::Test {
         state_.rigs = {{"north", RigState::present, 30, 60, 0, &disparity_},
                        {"south", RigState::late, 28.1, 190, 17, &disparity_},
                        {"east", RigState::disconnected, 0, 0, 0, nullptr}};
+        state_.outputs = {{"film flight.mkv", "on", true, false, 6.2, 1, 3, ""},
+                          {"srt://0.0.0.0:9000?mode=listener&passphrase=***",
+                           "waiting for a caller", false, false, 0, 0, 0, ""},
+                          {"v4l2:/dev/video10", "FAILED", false, true, 0, 0, 0,
+                           "/dev/video10 cannot be opened: No such file or directory"}};
         state_.move_progress = 0.4;
     }
 

@@ -64,7 +64,6 @@ class LiveShowTest : public testing::Test {
                            .pulse_rate_hz = 25,
                            .synthesiser = "mesh",
                            .quality = {},
-                           .film = {},
                            .contact_sheet = {}};
     std::unique_ptr<LiveShow> show_;
 };
@@ -128,8 +127,8 @@ TEST_F(LiveShowTest, RefusesAStereoscopicPictureOfAnOddWidth) {
 }
 
 TEST_F(LiveShowTest, RefusesAFilmThatCannotBeWritten) {
-    settings_.film = folder_.path() / "no" / "film.mkv";
-    EXPECT_NE(refusal().find(settings_.film.string()), std::string::npos) << refusal();
+    settings_.outputs = {folder_.path() / "no" / "film.mkv"};
+    EXPECT_NE(refusal().find(settings_.outputs[0]), std::string::npos) << refusal();
 }
 
 TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
@@ -199,7 +198,7 @@ TEST_F(LiveShowTest, DoesNotCountAgainWhatIsLookedAtAgain) {
 }
 
 TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
-    settings_.film = folder_.path() / "flight.mkv";
+    settings_.outputs = {folder_.path() / "flight.mkv"};
     settings_.contact_sheet = folder_.path() / "sheet.png";
     OrbitView end = *plan_.start;
     end.azimuth_rad = 0.1;
@@ -207,15 +206,18 @@ TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
     plan_.frames = 12;
     const LiveReport report = fly();
     EXPECT_GE(report.programme.ticks, 12u);
-    EXPECT_GE(report.film_pictures, 8u);
-    EXPECT_EQ(report.film_pictures + report.film_dropped, report.programme.ticks);
+    ASSERT_EQ(report.outputs.size(), 1u);
+    const OutputState& written = report.outputs[0];
+    EXPECT_GE(written.pictures, 8u);
+    EXPECT_EQ(written.pictures + written.dropped, report.programme.ticks);
+    EXPECT_EQ(written.failure, "");
     for (const SinkState& sink : report.programme.sinks) EXPECT_EQ(sink.failure, "") << sink.name;
-    const ProbedFilm film = probe_film(settings_.film);
-    ASSERT_EQ(film.times_s.size(), report.film_pictures);
+    const ProbedFilm film = probe_film(settings_.outputs[0]);
+    ASSERT_EQ(film.times_s.size(), written.pictures);
     for (std::size_t i = 0; i < film.times_s.size(); ++i) {
         const double ticks = film.times_s[i] * settings_.rate_hz;
         EXPECT_NEAR(ticks, std::round(ticks), 0.03) << "a constant rate";
-        if (report.film_dropped == 0) {
+        if (written.dropped == 0) {
             EXPECT_NEAR(ticks, static_cast<double>(i), 0.03);
         }
         EXPECT_GT(film.middle_lumas[i], 60) << "black at " << film.times_s[i] << " s";
@@ -230,27 +232,27 @@ TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
 }
 
 TEST_F(LiveShowTest, AFilmDoesNotBeginBeforeTheFirstPicture) {
-    settings_.film = folder_.path() / "flight.mkv";
+    settings_.outputs = {folder_.path() / "flight.mkv"};
     show().start();
     std::this_thread::sleep_for(400ms);
     push(1);
     ASSERT_TRUE(wait_for([&] { return show().books().ticks > 5; }));
     show().finish();
-    const ProbedFilm film = probe_film(settings_.film);
+    const ProbedFilm film = probe_film(settings_.outputs[0]);
     ASSERT_FALSE(film.times_s.empty());
     EXPECT_EQ(film.times_s.front(), 0);
     EXPECT_GT(film.middle_lumas.front(), 60);
 }
 
 TEST_F(LiveShowTest, SaysThatNoFilmCouldBeMadeOfNoPicture) {
-    settings_.film = folder_.path() / "flight.mkv";
+    settings_.outputs = {folder_.path() / "flight.mkv"};
     show().start();
     show().finish();
     const LiveReport report = show().report();
     EXPECT_EQ(report.programme.pictures, 0u);
-    EXPECT_NE(report.programme.sinks.at(0).failure.find("has no picture"), std::string::npos)
-        << report.programme.sinks.at(0).failure;
-    EXPECT_FALSE(std::filesystem::exists(settings_.film));
+    EXPECT_NE(report.outputs.at(0).failure.find("has no picture"), std::string::npos)
+        << report.outputs.at(0).failure;
+    EXPECT_FALSE(std::filesystem::exists(settings_.outputs[0]));
 }
 
 TEST_F(LiveShowTest, ReportsTheSourceMapAndTheEyesOfTheLastPicture) {

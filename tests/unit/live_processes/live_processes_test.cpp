@@ -139,6 +139,39 @@ TEST_F(LiveProcesses, FlyToTheEndWhereAFilmFailsAndEndWithItsName) {
     EXPECT_NE(last.find("File too large"), std::string::npos) << err;
 }
 
+TEST_F(LiveProcesses, PutOutToSeveralPlacesAtOnceOfWhichOneFails) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const auto host =
+        start_host({"--frames", "30", "--rate", "30000/1001", "--output", file("flight.mkv"),
+                    "--output", "-", "--output", "udp://127.0.0.1:5997", "--output",
+                    "v4l2:/dev/no-such-video", "--json", "--wait", "60"});
+    EXPECT_EQ(host->wait().status, 1) << "an output has failed";
+    const std::string err = host->err();
+    const std::size_t begin = err.find("{\"pictures\"");
+    ASSERT_NE(begin, std::string::npos) << err;
+    const nlohmann::json summary =
+        nlohmann::json::parse(err.substr(begin, err.find('\n', begin) - begin));
+    EXPECT_DOUBLE_EQ(summary["rate_hz"], 30000.0 / 1001);
+    ASSERT_EQ(summary["outputs"].size(), 4u);
+    for (const nlohmann::json& output : summary["outputs"]) {
+        EXPECT_EQ(output["offered"], summary["pictures"]) << output;
+        EXPECT_EQ(output["offered"], output["pictures"].get<int>() + output["dropped"].get<int>() +
+                                         output["unheard"].get<int>())
+            << output;
+    }
+    EXPECT_EQ(summary["outputs"][1]["encoder"], "");
+    EXPECT_EQ(summary["outputs"][3]["state"], "failed");
+    EXPECT_NE(err.find("v4l2:/dev/no-such-video failed"), std::string::npos) << err;
+    // The standard output has pictures and nothing else.
+    const std::string out = host->out();
+    const std::size_t head = out.find('\n') + 1;
+    EXPECT_NE(out.substr(0, head).find("W128 H72 F30000:1001 "), std::string::npos);
+    EXPECT_EQ((out.size() - head) % (6 + 128 * 72 * 3 / 2), 0u);
+    EXPECT_GE((out.size() - head) / (6 + 128 * 72 * 3 / 2),
+              summary["outputs"][1]["pictures"].get<std::size_t>());
+}
+
 TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
     start_rig("left", 0);
     wait_for(*rigs_[0], "publishing on");
@@ -205,6 +238,10 @@ TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
                  {{"--size", "12x80000"}, "12x80000"},
                  {{"--snapshot", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
                  {{"--record", file("film.avi")}, ".mkv"},
+                 {{"--output", "srt://0.0.0.0:9000?mode=listener"}, "whoever calls"},
+                 {{"--record", file("a.mkv"), "--output", file("a.mkv")}, "two outputs"},
+                 {{"--encoder", "libx265"}, "libx264"},
+                 {{"--rate", "30/0"}, "30000/1001"},
                  {{"--contact-sheet", file("sheet.gif")}, ".png"},
                  {{"--path", file("none.toml")}, "none.toml"}};
     for (const auto& c : cases) {

@@ -32,6 +32,7 @@ ProbedFilm probe_film(const std::filesystem::path& path) {
     film.container = input->iformat->name;
     if (const AVDictionaryEntry* tag = av_dict_get(stream->metadata, "timecode", nullptr, 0))
         film.timecode = tag->value;
+    film.rate = stream->r_frame_rate;
     film.width_px = stream->codecpar->width;
     film.height_px = stream->codecpar->height;
     film.duration_s = static_cast<double>(input->duration) / AV_TIME_BASE;

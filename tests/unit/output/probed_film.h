@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/av/av_handles.h"
+
 namespace vantage {
 
 /// What a video file holds, as FFmpeg's demuxer and decoder find it.
@@ -13,6 +15,7 @@ struct ProbedFilm {
     std::string timecode;  ///< of the stream of pictures
     int width_px = 0, height_px = 0;
     double duration_s = 0;
+    AVRational rate{};                       ///< as the container tells it
     std::vector<double> times_s;             ///< of every decoded picture
     std::vector<std::uint8_t> middle_lumas;  ///< Y' of the pixel in the middle of every picture
 };

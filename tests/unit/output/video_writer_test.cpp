@@ -1,22 +1,18 @@
 #include "host_app/output/video_writer.h"
 
+#include <cmath>
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
 #include "common/base/error.h"
-#include "host_app/output/video_recorder.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/full_disk.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/output/probed_film.h"
 
 namespace vantage {
 namespace {
-
-using namespace std::chrono_literals;
 
 ColourImage grey_picture(int width_px, int height_px, int level) {
     return ColourImage(
@@ -37,7 +33,7 @@ class VideoWriterTest : public testing::TestWithParam<const char*> {
 
 TEST_P(VideoWriterTest, KeepsEveryPictureItsTimeAndItsLight) {
     VideoWriter writer(path_, {.width_px = 96, .height_px = 64, .rate_hz = 25});
-    for (int i = 0; i < 40; ++i) writer.add(grey_picture(96, 64, 5 * i), i * 40ms);
+    for (int i = 0; i < 40; ++i) writer.add(grey_picture(96, 64, 5 * i), i);
     EXPECT_FALSE(std::filesystem::exists(path_)) << "before it is whole";
     writer.finish();
     const ProbedFilm film = probe_film(path_);
@@ -60,19 +56,19 @@ TEST_P(VideoWriterTest, CarriesTheTimeCodeOfItsFirstPicture) {
                                         {14.0, "01:02:03:13"}}) {
         VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = rate_hz});
         for (int i = 0; i < 3; ++i)
-            writer.add(grey_picture(64, 48, 100), i * 80ms, i == 0 ? code : "00:00:00:00");
+            writer.add(grey_picture(64, 48, 100), i, i == 0 ? code : "00:00:00:00");
         writer.finish();
         EXPECT_EQ(probe_film(path_).timecode, code);
     }
     VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = 25});
-    writer.add(grey_picture(64, 48, 100), 0ms);
+    writer.add(grey_picture(64, 48, 100), 0);
     writer.finish();
     EXPECT_EQ(probe_film(path_).timecode, "");
 }
 
 TEST_P(VideoWriterTest, KeepsAGapInTimeAsAGap) {
     VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = 25});
-    for (const int tick : {0, 1, 2, 7, 8}) writer.add(grey_picture(64, 48, 100), tick * 40ms);
+    for (const int tick : {0, 1, 2, 7, 8}) writer.add(grey_picture(64, 48, 100), tick);
     writer.finish();
     const ProbedFilm film = probe_film(path_);
     ASSERT_EQ(film.times_s.size(), 5u);
@@ -80,9 +76,35 @@ TEST_P(VideoWriterTest, KeepsAGapInTimeAsAGap) {
     EXPECT_NEAR(film.times_s[4], 0.32, 1e-6);
 }
 
+TEST_P(VideoWriterTest, TellsBroadcastRatesExactly) {
+    for (const auto& [rate_hz, rate] : {std::pair(25.0, AVRational{25, 1}),
+                                        {29.97, {30000, 1001}},
+                                        {30.0, {30, 1}},
+                                        {50.0, {50, 1}},
+                                        {59.94, {60000, 1001}},
+                                        {60.0, {60, 1}}}) {
+        VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = rate_hz});
+        const std::int64_t pictures = 4 * std::llround(rate_hz);
+        for (std::int64_t i = 0; i < pictures; ++i) writer.add(grey_picture(64, 48, 100), i);
+        writer.finish();
+        const ProbedFilm film = probe_film(path_);
+        // Matroska has the length of a picture in whole nanoseconds, and FFmpeg makes fractions of
+        // it whose numbers are 30000 at the most.
+        if (std::string(GetParam()) == ".mkv" && rate.num > 30000)
+            EXPECT_NEAR(av_q2d(film.rate) / av_q2d(rate), 1, 1e-7) << rate_hz;
+        else
+            EXPECT_EQ(av_cmp_q(film.rate, rate), 0)
+                << rate_hz << ": " << film.rate.num << "/" << film.rate.den;
+        ASSERT_EQ(film.times_s.size(), static_cast<std::size_t>(pictures));
+        // Matroska keeps milliseconds.
+        for (std::size_t i = 0; i < film.times_s.size(); ++i)
+            ASSERT_NEAR(film.times_s[i], static_cast<double>(i) * rate.den / rate.num, 0.00051);
+    }
+}
+
 TEST_P(VideoWriterTest, LeavesOutTheOddRowAndColumn) {
     VideoWriter writer(path_, {.width_px = 61, .height_px = 47, .rate_hz = 30});
-    writer.add(grey_picture(61, 47, 50), 0ns);
+    writer.add(grey_picture(61, 47, 50), 0);
     writer.finish();
     const ProbedFilm film = probe_film(path_);
     EXPECT_EQ(film.width_px, 60);
@@ -93,7 +115,7 @@ TEST_P(VideoWriterTest, LeavesTheOldFileWhenItDoesNotFinish) {
     std::ofstream(path_) << "the last take";
     {
         VideoWriter writer(path_, {.width_px = 64, .height_px = 48, .rate_hz = 25});
-        writer.add(grey_picture(64, 48, 100), 0ns);
+        writer.add(grey_picture(64, 48, 100), 0);
     }
     EXPECT_EQ(files_in(folder_.path()), 1u);
     std::string text;
@@ -122,82 +144,6 @@ TEST(VideoWriterRefusal, DoesNotWriteAFilmWithoutPictures) {
     VideoWriter writer(folder.path() / "film.mkv", {.width_px = 64, .height_px = 48});
     EXPECT_THROW(writer.finish(), Error);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "film.mkv"));
-}
-
-TEST(VideoRecorder, AccountsForEveryPicture) {
-    const TemporaryFolder folder;
-    const std::filesystem::path path = folder.path() / "film.mkv";
-    VideoRecorder recorder(path, {.width_px = 320, .height_px = 240, .rate_hz = 100});
-    for (int i = 0; i < 60; ++i) recorder.add(grey_picture(320, 240, i), i * 10ms);
-    recorder.finish();
-    EXPECT_EQ(recorder.frames() + recorder.dropped(), 60u);
-    EXPECT_GE(recorder.frames(), 8u) << "what waits at the end is written";
-    const ProbedFilm film = probe_film(path);
-    EXPECT_EQ(film.times_s.size(), recorder.frames());
-    EXPECT_NEAR(film.times_s.back(), 0.59, 0.0011) << "the newest picture is never the one dropped";
-}
-
-class FullDiskTest : public testing::TestWithParam<const char*> {
-  protected:
-    /// Pictures that compress badly, until the recorder says that it has failed; its sentence.
-    std::string record_until_it_fails() {
-        VideoRecorder recorder(path_, {.width_px = 160, .height_px = 120, .rate_hz = 25});
-        cv::RNG random(1);
-        ColourImage noise(120, 160);
-        return thrown_sentence([&] {
-            for (int i = 0; i < 250; ++i) {
-                random.fill(noise, cv::RNG::UNIFORM, 0, 256);
-                recorder.add(noise.clone(), i * 40ms);
-                std::this_thread::sleep_for(2ms);
-            }
-            recorder.finish();
-        });
-    }
-
-    TemporaryFolder folder_;
-    std::filesystem::path path_ = folder_.path() / (std::string("film") + GetParam());
-};
-
-TEST_P(FullDiskTest, LeavesTheOldFileWhereNothingCanBeRead) {
-    std::ofstream(path_) << "the last take";
-    std::string sentence;
-    {
-        const FullDisk disk(200);
-        sentence = record_until_it_fails();
-    }
-    EXPECT_NE(sentence.find(path_.string()), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("File too large"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("nothing of it can be read"), std::string::npos) << sentence;
-    EXPECT_EQ(files_in(folder_.path()), 1u);
-    std::string text;
-    std::getline(std::ifstream(path_), text);
-    EXPECT_EQ(text, "the last take");
-}
-
-TEST_P(FullDiskTest, LeavesWhatWasWrittenReadableAndSaysSo) {
-    std::ofstream(path_) << "the last take";
-    std::string sentence;
-    {
-        const FullDisk disk(1'000'000);
-        sentence = record_until_it_fails();
-    }
-    EXPECT_NE(sentence.find("File too large"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("what was written until then is kept"), std::string::npos) << sentence;
-    EXPECT_EQ(files_in(folder_.path()), 1u);
-    const ProbedFilm film = probe_film(path_);
-    EXPECT_EQ(film.width_px, 160);
-    EXPECT_GE(film.times_s.size(), 5u);
-}
-
-INSTANTIATE_TEST_SUITE_P(Containers, FullDiskTest, testing::Values(".mkv", ".mp4"));
-
-TEST(VideoRecorder, LeavesNoFileBehindWhenAbandoned) {
-    const TemporaryFolder folder;
-    {
-        VideoRecorder recorder(folder.path() / "film.mkv", {.width_px = 64, .height_px = 48});
-        recorder.add(grey_picture(64, 48, 3), 0ns);
-    }
-    EXPECT_EQ(files_in(folder.path()), 0u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/output_path.h"
 #include "common/take/take_reader.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -153,7 +154,7 @@ TEST_F(TakeFileTest, ReplacesNoFile) {
               }).find("never replaces a file"),
               std::string::npos);
     EXPECT_EQ(bytes_of_file(take_), before);
-    EXPECT_EQ(free_take_name(take_).filename(), "take-2.mkv");
+    EXPECT_EQ(free_path(take_).filename(), "take-2.mkv");
 }
 
 TEST_F(TakeFileTest, KeepsWhatWasWrittenWhenItsProcessIsKilled) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/output_path.h"
 #include "common/base/pulse_grid.h"
 #include "common/take/take_reader.h"
 #include "tests/support/data_folder.h"
@@ -175,7 +176,7 @@ TEST_F(TakeRecorderTest, RefusesWhatIsNoPlaceForATake) {
 TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
     TakeRecorder recorder(settings());
     for (const int take : {1, 2}) {
-        recorder.begin(free_take_name(take_));
+        recorder.begin(free_path(take_));
         offer_both(recorder, 1000, 1000 + static_cast<std::uint64_t>(take));
         recorder.finish();
     }

@@ -1,0 +1,230 @@
+#include "host_app/output/output.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/pulse_grid.h"
+
+namespace vantage {
+namespace {
+
+/// Rides out a stutter of encoder, disk or peer; at 1280x720 a picture is 3.7 MB, shared by
+/// outputs.
+constexpr std::size_t most_waiting = 8;
+/// One number of time code counts several pictures above, and a reader would be told a wrong time.
+constexpr double most_numbers_a_second = 60;
+/// Between two tries of a stream that fails: the first time, and the most.
+constexpr std::chrono::milliseconds first_rest{500}, longest_rest{10'000};
+/// That a peer has to take what waits when an output ends.
+constexpr std::chrono::seconds last_words{2};
+constexpr std::chrono::milliseconds look_period{50};
+
+}  // namespace
+
+Output::Output(OutputPlan plan, const OutputFormat& format, double pulse_rate_hz)
+    : plan_(std::move(plan)), queue_(most_waiting) {
+    if (PulseGrid(format.rate_hz).rate_hz() <= most_numbers_a_second)
+        timecode_.emplace(pulse_rate_hz, format.rate_hz);
+    state_.name = plan_.name;
+    state_.film = plan_.film;
+    if (plan_.is_encoded) state_.encoder = format.encoder;
+    thread_ = std::thread([this] { run(); });
+}
+
+Output::~Output() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_abandoned_ = is_ending_ = true;
+        is_wanted_ = false;
+        patience_.ends_after({});
+    }
+    woken_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Output::start() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (is_ending_) return;
+        is_wanted_ = true;
+        patience_.is_endless();
+        if (state_.phase == OutputPhase::off || state_.phase == OutputPhase::failed) {
+            state_.phase = OutputPhase::opening;
+            state_.failure.clear();
+            is_due_ = true;
+        }
+    }
+    woken_.notify_all();
+}
+
+void Output::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        want_no_more();
+        // Who ends what fails has seen that it does.
+        if (plan_.is_stream && state_.phase == OutputPhase::failed) {
+            state_.phase = OutputPhase::off;
+            state_.failure.clear();
+        }
+    }
+    woken_.notify_all();
+}
+
+void Output::want_no_more() {
+    is_wanted_ = false;
+    patience_.ends_after(state_.phase == OutputPhase::on ? last_words : std::chrono::seconds(0));
+}
+
+void Output::take(const ProgrammePicture& picture) {
+    std::string timecode = timecode_ && picture.set ? timecode_->of(*picture.set) : std::string();
+    const std::lock_guard lock(mutex_);
+    if (!is_wanted_) return;
+    ++state_.offered;
+    const bool waits_to_open = state_.phase == OutputPhase::opening && !plan_.is_stream;
+    if (state_.phase != OutputPhase::on && !waits_to_open) {
+        ++(plan_.is_stream ? state_.unheard : state_.dropped);
+        return;
+    }
+    if (queue_.push({picture.picture, picture.tick, std::move(timecode)})) ++state_.dropped;
+}
+
+void Output::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        want_no_more();
+        is_ending_ = true;
+    }
+    woken_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+OutputState Output::state() const {
+    const std::lock_guard lock(mutex_);
+    OutputState state = state_;
+    state.queued = state.offered - state.pictures - state.dropped - state.unheard;
+    state.write_ms = write_ms_.summary();
+    return state;
+}
+
+bool Output::is_wanted() const {
+    const std::lock_guard lock(mutex_);
+    return is_wanted_;
+}
+
+void Output::run() {
+    std::chrono::nanoseconds rest = first_rest;
+    for (;;) {
+        {
+            std::unique_lock lock(mutex_);
+            woken_.wait(lock, [this] { return is_due_ || is_ending_; });
+            if (!is_due_) return;
+            is_due_ = false;
+        }
+        const std::uint64_t before = state().pictures;
+        try {
+            serve();
+            rest = first_rest;
+        } catch (const std::exception& error) {
+            note_failure(error.what());
+            if (state().pictures > before) rest = first_rest;
+            if (wait_to_try_again(rest))
+                rest = std::min<std::chrono::nanoseconds>(2 * rest, longest_rest);
+        }
+    }
+}
+
+void Output::serve() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (plan_.is_listening) state_.phase = OutputPhase::waiting;
+    }
+    first_tick_.reset();
+    std::unique_ptr<OutputTarget> target = plan_.open(patience_);
+    {
+        const std::lock_guard lock(mutex_);
+        state_.phase = OutputPhase::on;
+        state_.failure.clear();
+        bytes_before_ = state_.bytes;
+    }
+    log_info("{}: {}", plan_.name, words_of(OutputPhase::on));
+    try {
+        for (;;) {
+            if (const std::optional<Item> item = queue_.pop_for(look_period)) {
+                write(*target, *item);
+                while (queue_.size() == 0 && target->catch_up())
+                    ;
+            } else if (!is_wanted()) {
+                break;
+            }
+        }
+        if (is_abandoned_) return;
+        target->finish();
+    } catch (const std::exception& error) {
+        throw Error(error.what() + target->salvage());
+    }
+    const std::lock_guard lock(mutex_);
+    state_.bytes = bytes_before_ + target->bytes();
+    state_.bit_rate_bps = 0;
+    is_due_ = is_wanted_;
+    state_.phase = is_wanted_ ? OutputPhase::opening : OutputPhase::off;
+    log_info("{}: ended", plan_.name);
+}
+
+void Output::write(OutputTarget& target, const Item& item) {
+    if (!first_tick_) first_tick_ = item.tick;
+    const MonotonicTime start = MonotonicClock::now();
+    target.write(item.picture, static_cast<std::int64_t>(item.tick - *first_tick_), item.timecode);
+    const MonotonicTime end = MonotonicClock::now();
+    const std::lock_guard lock(mutex_);
+    write_ms_.add(std::chrono::duration<double, std::milli>(end - start).count());
+    ++state_.pictures;
+    state_.bytes = bytes_before_ + target.bytes();
+    bytes_rate_.add(state_.bytes, end);
+    constexpr double bits = 8;
+    state_.bit_rate_bps = bits * bytes_rate_.per_second();
+}
+
+void Output::note_failure(const std::string& sentence) {
+    const std::lock_guard lock(mutex_);
+    while (queue_.pop_for({}))
+        ;
+    state_.dropped = state_.offered - state_.pictures - state_.unheard;
+    state_.bit_rate_bps = 0;
+    // Told to end before anybody took it: that is no failure.
+    if (plan_.is_stream && !is_wanted_ && state_.phase != OutputPhase::on) {
+        state_.phase = state_.failure.empty() ? OutputPhase::off : OutputPhase::failed;
+        return;
+    }
+    if (state_.failure != sentence)
+        log_error("{} fails, and the programme goes on: {}", plan_.name, sentence);
+    state_.phase = OutputPhase::failed;
+    state_.failure = sentence;
+    ++state_.failures;
+    if (!plan_.is_stream) is_wanted_ = false;
+}
+
+bool Output::wait_to_try_again(std::chrono::nanoseconds time) {
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, time, [this] { return !is_wanted_; });
+    is_due_ = is_wanted_;
+    return is_due_;
+}
+
+const char* words_of(OutputPhase phase) {
+    switch (phase) {
+        case OutputPhase::off:
+            break;
+        case OutputPhase::opening:
+            return "opening";
+        case OutputPhase::waiting:
+            return "waiting for a caller";
+        case OutputPhase::on:
+            return "on";
+        case OutputPhase::failed:
+            return "FAILED";
+    }
+    return "off";
+}
+
+}  // namespace vantage

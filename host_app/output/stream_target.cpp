@@ -1,0 +1,95 @@
+#include "host_app/output/stream_target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/av/av_log.h"
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+struct AvDictionary {
+    ~AvDictionary() { av_dict_free(&entries); }
+    AVDictionary* entries = nullptr;
+};
+
+[[noreturn]] void fail_for(const char* what, int code) {
+    const std::string remark = take_av_remark();
+    fail("{}: {}", what, remark.empty() ? av_reason(code) : remark);
+}
+
+int is_over(void* patience) { return static_cast<const OutputPatience*>(patience)->is_over(); }
+
+}  // namespace
+
+StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patience) {
+    keep_av_log();
+    (void)take_av_remark();
+    avformat_network_init();
+    AVFormatContext* output = nullptr;
+    if (const int code =
+            avformat_alloc_output_context2(&output, nullptr, "mpegts", settings.url.c_str());
+        code < 0)
+        fail_for("it cannot be opened", code);
+    output_.reset(output);
+    output_->interrupt_callback = {is_over, const_cast<OutputPatience*>(&patience)};
+    // A picture waits for nothing behind it.
+    output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    output_->max_delay = 0;
+    AvDictionary options;
+    for (const auto& [name, value] : settings.options)
+        av_dict_set(&options.entries, name.c_str(), value.c_str(), 0);
+    if (const int code = avio_open2(&output_->pb, settings.url.c_str(), AVIO_FLAG_WRITE,
+                                    &output_->interrupt_callback, &options.entries);
+        code < 0)
+        fail_for("it cannot be opened", code);
+    encoder_.emplace(settings.encoder, settings.encoding);
+    stream_ = avformat_new_stream(output_.get(), nullptr);
+    if (!stream_) fail("memory is short");
+    stream_->time_base = encoder_->context().time_base;
+    stream_->avg_frame_rate = encoder_->context().framerate;
+    avcodec_parameters_from_context(stream_->codecpar, &encoder_->context());
+    av_dict_set(&output_->metadata, "service_name", "Vantage", 0);
+    if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
+        fail_for("it cannot be opened", code);
+}
+
+void StreamTarget::write(const ColourImage& picture, std::int64_t tick, const std::string&) {
+    encoder_->add(picture, tick);
+    send();
+}
+
+void StreamTarget::finish() {
+    encoder_->end();
+    send();
+    if (const int code = av_write_trailer(output_.get()); code < 0)
+        fail_for("it does not end", code);
+}
+
+std::uint64_t StreamTarget::bytes() const {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));
+}
+
+void StreamTarget::send() {
+    while (AVPacket* packet = encoder_->next()) {
+        av_packet_rescale_ts(packet, encoder_->context().time_base, stream_->time_base);
+        packet->stream_index = stream_->index;
+        if (const int code = av_write_frame(output_.get(), packet); code < 0)
+            fail_for("its peer or the network is gone", code);
+    }
+}
+
+EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format) {
+    // 4.6 Mbit/s at 1280x720 and 50 Hz, 10.4 at 1920x1080: what contribution links carry.
+    constexpr double bits_a_pixel = 0.1, least_bps = 500e3;
+    const double usual_bps =
+        std::max(least_bps, bits_a_pixel * format.width_px * format.height_px * format.rate_hz);
+    return {.width_px = format.width_px,
+            .height_px = format.height_px,
+            .rate_hz = format.rate_hz,
+            .bit_rate_bps = url.bit_rate_bps().value_or(std::llround(usual_bps)),
+            .is_live = true};
+}
+
+}  // namespace vantage

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_app/output/output_target.h"
+#include "host_app/output/picture_encoder.h"
+
+namespace vantage {
+
+/// A stream over a network by FFmpeg: H.264 in MPEG-TS. A picture is on its way when write()
+/// returns; a receiver can join at any second.
+class StreamTarget final : public OutputTarget {
+  public:
+    struct Settings {
+        std::string url;                                           ///< FFmpeg's, without secrets
+        std::vector<std::pair<std::string, std::string>> options;  ///< FFmpeg's of its protocol
+        std::string encoder;
+        EncoderSettings encoding;
+    };
+    /// Waits for a peer where the protocol has one. Throws Error if there is none, or it refuses,
+    /// or patience is over; `patience` must outlive this.
+    StreamTarget(const Settings& settings, const OutputPatience& patience);
+
+    void write(const ColourImage& picture, std::int64_t tick, const std::string& timecode) override;
+    void finish() override;
+    std::uint64_t bytes() const override;
+
+  private:
+    void send();
+
+    AvOutputPtr output_;
+    std::optional<PictureEncoder> encoder_;
+    AVStream* stream_ = nullptr;  ///< owned by output_
+};
+
+/// What every stream of a programme is encoded with: a constant bit rate, by the option `bitrate`
+/// or one that suits the size.
+EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format);
+
+}  // namespace vantage
