@@ -1,6 +1,8 @@
 #include "common/take/take_format.h"
 
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 extern "C" {
 #include <libavutil/base64.h>
@@ -55,15 +57,32 @@ nlohmann::json unsealed(std::string_view text, std::string_view what) {
     return json;
 }
 
+/// Whether the JSON is a number that the type holds: others cannot even be asked for.
+template <class T, class Json>
+bool is_number_of(const Json& json) {
+    if constexpr (std::is_floating_point_v<T>)
+        return json.is_number() && std::isfinite(json.template get<T>());
+    else if (json.is_number_unsigned())
+        return std::in_range<T>(json.template get<std::uint64_t>());
+    else
+        return json.is_number_integer() && std::in_range<T>(json.template get<std::int64_t>());
+}
+
 /// Numbers that are there and are numbers of the kind; the rest is a record of another program.
 template <class T>
 T number(const nlohmann::json& json, const char* key) {
     const auto found = json.find(key);
-    if (found == json.end() || !found->is_number()) fail("a record has no number {}", key);
-    const T value = found->get<T>();
-    if constexpr (std::is_floating_point_v<T>)
-        if (!std::isfinite(value)) fail("a record's {} is no number", key);
-    return value;
+    if (found == json.end() || !is_number_of<T>(*found))
+        fail("a record has no number {}, or one that cannot be", key);
+    return found->get<T>();
+}
+
+/// The same of take.json.
+template <class T>
+T fact(const nlohmann::ordered_json& json, const char* key) {
+    const auto& value = json.at(key);
+    if (!is_number_of<T>(value)) fail("its {} is no number that can be", key);
+    return value.template get<T>();
 }
 
 std::optional<std::uint32_t> crc_of(const nlohmann::json& json, const char* key) {
@@ -111,20 +130,20 @@ TakeFacts take_facts_from(std::string_view text) {
     const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
     try {
         TakeFacts facts;
-        const int version = json.at("vantage_take").get<int>();
+        const int version = fact<int>(json, "vantage_take");
         if (version < 1 || version > take_version)
             fail("it is a take of version {}, and this program reads versions 1 to {}", version,
                  take_version);
         facts.program = json.at("program").get<std::string>();
-        facts.pulse_rate_hz = json.at("pulse_rate_hz").get<double>();
+        facts.pulse_rate_hz = fact<double>(json, "pulse_rate_hz");
         if (!(facts.pulse_rate_hz >= 0.001 && facts.pulse_rate_hz <= 1e6))
             fail("its pulse_rate_hz = {} is outside 0.001..1000000", facts.pulse_rate_hz);
-        facts.origin = tai_from_ns(json.at("origin_tai_ns").get<std::int64_t>());
+        facts.origin = tai_from_ns(fact<std::int64_t>(json, "origin_tai_ns"));
         constexpr std::int64_t latest_ns = std::int64_t{1} << 62;
         if (to_ns(facts.origin) < 0 || to_ns(facts.origin) > latest_ns)
             fail("its origin of {} ns is no time", to_ns(facts.origin));
         facts.timecode = json.at("timecode").get<std::string>();
-        facts.tai_offset_s = json.at("tai_offset_s").get<int>();
+        facts.tai_offset_s = fact<int>(json, "tai_offset_s");
         constexpr int most_offset_s = 1000;
         if (std::abs(facts.tai_offset_s) > most_offset_s)
             fail("its tai_offset_s = {} is beyond {}", facts.tai_offset_s, most_offset_s);
@@ -211,6 +230,8 @@ CameraRecord camera_record_from(std::string_view text) {
     CameraRecord record;
     record.tick = number<std::uint64_t>(json, "tick");
     record.pulse = number<std::uint64_t>(json, "pulse");
+    if (record.pulse > max_trigger_index)
+        fail("a camera's record names pulse {}, beyond {}", record.pulse, max_trigger_index);
     record.time = tai_from_ns(number<std::int64_t>(json, "time_tai_ns"));
     if (to_ns(record.time) < 0) fail("a camera's record says that it was before 1970");
     const auto pose = json.find("world_from_camera");

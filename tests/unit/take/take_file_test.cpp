@@ -321,6 +321,28 @@ TEST_F(TakeFileTest, OpensAfterAnyKill) {
     }
 }
 
+TEST_F(TakeFileTest, RefusesNumbersThatNoRecordHolds) {
+    const std::string text = to_text(CameraRecord{});
+    const std::string open = text.substr(0, text.rfind(",\"crc32\""));
+    EXPECT_NO_THROW(camera_record_from(seal_record(open)));
+    const std::string facts = to_json(small_facts({"north"}, first_pulse)).dump();
+    EXPECT_NO_THROW(take_facts_from(facts));
+    for (const std::string number : {"1e60", "-1", "0.5", "1e18", "99999999999999999999", "true"}) {
+        for (const std::string key : {"tick", "pulse", "time_tai_ns"}) {
+            std::string changed = open;
+            const std::size_t at = changed.find("\"" + key + "\":") + key.size() + 3;
+            changed.replace(at, changed.find(',', at) - at, number);
+            EXPECT_THROW(camera_record_from(seal_record(changed)), Error) << key << ' ' << number;
+        }
+        for (const std::string key : {"vantage_take", "origin_tai_ns"}) {
+            std::string changed = facts;
+            const std::size_t at = changed.find("\"" + key + "\":") + key.size() + 3;
+            changed.replace(at, changed.find(',', at) - at, number);
+            EXPECT_THROW(take_facts_from(changed), Error) << key << ' ' << number;
+        }
+    }
+}
+
 TEST_F(TakeFileTest, ReadsATakeOfVersion1ForEver) {
     const TakeReader reader(source_folder() / "tests" / "takes" / "version_1.mkv");
     EXPECT_TRUE(reader.is_ended());
