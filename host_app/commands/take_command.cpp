@@ -13,13 +13,15 @@
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
 #include "host_app/commands/take_time.h"
+#include "host_app/exports/take_export.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
 namespace {
 
 struct TakeOptions {
-    std::string take, from, to, output;
+    std::string take, from, to, output, form;
+    std::uint64_t every = 1;
     std::vector<std::string> takes;
     bool json = false;
 };
@@ -185,16 +187,50 @@ void tell(const TakeCopy& copy, const TakeOptions& options) {
             copy.twice > 0 ? fmt::format(", {} were there twice", copy.twice) : "");
 }
 
+/// What --from and --to say.
+TakePart part_of(const TakeReader& take, const TakeOptions& options) {
+    const Span span = span_of(take);
+    TakePart part;
+    part.from =
+        options.from.empty() ? span.first : pulse_of(take, options.from, span.first, span.last);
+    part.to =
+        options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span.first, span.last);
+    part.every = options.every;
+    if (part.from >= part.to) fail("--from {} is not before --to {}", options.from, options.to);
+    return part;
+}
+
 void cut(const TakeOptions& options) {
     const TakeReader take(options.take);
     use_zone_of(take);
-    const Span span = span_of(take);
-    const std::uint64_t from =
-        options.from.empty() ? span.first : pulse_of(take, options.from, span.first, span.last);
-    const std::uint64_t to =
-        options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span.first, span.last);
-    if (from >= to) fail("--from {} is not before --to {}", options.from, options.to);
-    tell(copy_takes({&take}, from, to, options.output, progress_of(options.output)), options);
+    const TakePart part = part_of(take, options);
+    tell(copy_takes({&take}, part.from, part.to, options.output, progress_of(options.output)),
+         options);
+}
+
+void export_take(const TakeOptions& options) {
+    const ExportFormat* format =
+        options.form == "camera" ? nullptr : &find_export_format(options.form);
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    const TakePart part = part_of(take, options);
+    const ExportBooks books =
+        format ? export_moments(take, *format, part, options.output, progress_of(options.output))
+               : export_camera(take, part, options.output);
+    if (options.json)
+        std::cout << nlohmann::ordered_json{{"path", options.output},
+                                            {"as", options.form},
+                                            {"written", books.written},
+                                            {"there", books.there},
+                                            {"damaged", books.damaged}}
+                         .dump()
+                  << '\n';
+    else
+        std::cout << fmt::format(
+            "{}: {} {}{}{}\n", options.output, books.written,
+            format ? "moments" : "ticks of the camera",
+            books.there > 0 ? fmt::format(", {} were there", books.there) : "",
+            books.damaged > 0 ? fmt::format(", {} damaged frames left out", books.damaged) : "");
 }
 
 void join(const TakeOptions& options) {
@@ -235,10 +271,13 @@ CommandEntry take_command_entry() {
         CLI::App* cut_command =
             add("cut", "A part of a take as a new one; nothing is coded anew", cut);
         add_take(cut_command);
-        cut_command->add_option("--from", options->from,
+        const auto add_part = [&](CLI::App* command) {
+            command->add_option("--from", options->from,
                                 "Seconds after the beginning, or time code (default: all)");
-        cut_command->add_option("--to", options->to,
+            command->add_option("--to", options->to,
                                 "The first that is left out, likewise (default: to the end)");
+        };
+        add_part(cut_command);
         cut_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
         CLI::App* join_command =
             add("join", "Several takes of a stage as one, by pulse: of other rigs, or other times",
@@ -247,6 +286,23 @@ CommandEntry take_command_entry() {
             ->required()
             ->expected(1, 1000);
         join_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
+        CLI::App* export_command =
+            add("export",
+                "What a take holds for other programs; what was broken off goes on where it was",
+                export_take);
+        add_take(export_command);
+        std::string forms = "camera: the flight, as CSV and FreeD";
+        for (const ExportFormat& format : export_formats())
+            forms += fmt::format("; {}: {}", format.name, format.words);
+        export_command->add_option("--as", options->form, forms)->required();
+        add_part(export_command);
+        export_command
+            ->add_option("--every", options->every,
+                         "Of so many pulses one; of the camera, of so many ticks")
+            ->check(CLI::Range(1, 1'000'000))
+            ->capture_default_str();
+        export_command->add_option("-o,--output", options->output, "The folder it goes to")
+            ->required();
     }};
 }
 

@@ -1,0 +1,97 @@
+#include "host_app/exports/moment.h"
+
+#include <algorithm>
+
+#include "common/base/log.h"
+
+namespace vantage {
+namespace {
+
+/// A view without disparity has an empty map.
+DepthImage depth_of(const RigFrame& frame) {
+    DepthImage depth(frame.disparity.size(), 0.0f);
+    if (depth.empty()) return depth;
+    const double px_per_step = static_cast<double>(frame.geometry.width_px) / frame.disparity.cols /
+                               disparity_steps_per_px;
+    for (int y = 0; y < depth.rows; ++y)
+        for (int x = 0; x < depth.cols; ++x)
+            if (const std::uint16_t steps = frame.disparity(y, x); steps != 0)
+                depth(y, x) = static_cast<float>(frame.geometry.depth_m(steps * px_per_step));
+    return depth;
+}
+
+}  // namespace
+
+Eigen::Matrix3d MomentView::depth_K() const {
+    Eigen::Matrix3d scaled = K;
+    const double x = static_cast<double>(depth_m.cols) / colour.cols;
+    const double y = static_cast<double>(depth_m.rows) / colour.rows;
+    // Pixel centres are at whole numbers: a picture begins half a pixel before the first.
+    constexpr double half_px = 0.5;
+    scaled(0, 0) *= x;
+    scaled(0, 1) *= x;
+    scaled(0, 2) = (K(0, 2) + half_px) * x - half_px;
+    scaled(1, 1) *= y;
+    scaled(1, 2) = (K(1, 2) + half_px) * y - half_px;
+    return scaled;
+}
+
+std::vector<SurfacePoint> surface_points(const Moment& moment, int step) {
+    std::vector<SurfacePoint> points;
+    for (const MomentView& view : moment.views) {
+        const Eigen::Matrix3d rays = view.depth_K().inverse();
+        for (int y = 0; y < view.depth_m.rows; y += step)
+            for (int x = 0; x < view.depth_m.cols; x += step) {
+                const double z = view.depth_m(y, x);
+                if (z <= 0) continue;
+                const Eigen::Vector3d at =
+                    view.world_from_camera * (z * (rays * Eigen::Vector3d(x, y, 1)));
+                const cv::Vec4b colour = view.colour(y * view.colour.rows / view.depth_m.rows,
+                                                     x * view.colour.cols / view.depth_m.cols);
+                points.push_back({at.cast<float>(), {colour[0], colour[1], colour[2]}});
+            }
+    }
+    return points;
+}
+
+MomentReader::MomentReader(const TakeReader& take)
+    : take_(take), show_(take_show_from(take.facts().show)) {
+    for (const TakeRig& rig : take.facts().rigs) restorers_.emplace_back(rig);
+}
+
+Moment MomentReader::at(std::uint64_t pulse) {
+    Moment moment;
+    moment.pulse = pulse;
+    for (std::size_t rig = 0; rig < restorers_.size(); ++rig) {
+        const std::vector<TakeReader::Frame>& frames = take_.frames(rig);
+        const auto there =
+            std::lower_bound(frames.begin(), frames.end(), pulse,
+                             [](const TakeReader::Frame& frame, std::uint64_t wanted) {
+                                 return frame.pulse < wanted;
+                             });
+        if (there == frames.end() || there->pulse != pulse) continue;
+        try {
+            StoredFrame stored = take_.load(rig, *there);
+            const RigFrame frame = restorers_[rig].restore(stored);
+            if (frame.colour.empty()) continue;
+            MomentView view;
+            view.rig = take_.facts().rigs[rig].name;
+            const auto correction = show_.colours.find(view.rig);
+            const bool is_stages =
+                correction == show_.colours.end() || correction->second.is_identity();
+            view.colour = is_stages ? frame.colour : correction->second.apply(frame.colour);
+            if (is_stages && take_.facts().rigs[rig].colour.codec == TakePictures::Codec::jpeg)
+                view.jpeg = std::move(stored.colour);
+            view.depth_m = depth_of(frame);
+            view.K = frame.geometry.K_left();
+            view.world_from_camera = frame.world_from_camera;
+            moment.views.push_back(std::move(view));
+        } catch (const TakeDamaged& error) {
+            log_warning("{}", error.what());
+            ++moment.damaged;
+        }
+    }
+    return moment;
+}
+
+}  // namespace vantage

@@ -1,0 +1,113 @@
+#include "host_app/exports/point_files.h"
+
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/colour/colour_correction.h"
+
+namespace vantage {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "what is written is little-endian");
+
+void append(std::string& bytes, const void* from, std::size_t count) {
+    bytes.append(static_cast<const char*>(from), count);
+}
+void append_number(std::string& bytes, std::uint32_t number) {
+    append(bytes, &number, sizeof number);
+}
+
+void write(const std::filesystem::path& file, const std::string& bytes) {
+    write_file_atomically(file, std::as_bytes(std::span(bytes)));
+}
+
+}  // namespace
+
+void write_ply(const Moment& moment, const std::filesystem::path& file) {
+    const std::vector<SurfacePoint> points = surface_points(moment, 1);
+    std::string bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\ncomment pulse {}\nelement vertex {}\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+        moment.pulse, points.size());
+    for (const SurfacePoint& point : points) {
+        append(bytes, point.position_m.data(), 3 * sizeof(float));
+        append(bytes, point.rgb.val, 3);
+    }
+    write(file, bytes);
+}
+
+void write_glb(const Moment& moment, const std::filesystem::path& file) {
+    const std::vector<SurfacePoint> points = surface_points(moment, 1);
+    if (points.empty()) fail("{} is not written: no rig has depth at that moment", file.string());
+    std::string positions, colours;
+    Eigen::Vector3f least = points.front().position_m, most = least;
+    for (const SurfacePoint& point : points) {
+        append(positions, point.position_m.data(), 3 * sizeof(float));
+        // A colour of glTF's is linear light, and every element begins at a multiple of four bytes.
+        for (int i = 0; i < 3; ++i) {
+            constexpr double most_8_bit = 255, most_16_bit = 65535;
+            const auto linear = static_cast<std::uint16_t>(
+                std::lround(most_16_bit * srgb_decode(point.rgb[i] / most_8_bit)));
+            append(colours, &linear, sizeof linear);
+        }
+        colours.append(2, '\xff');
+        least = least.cwiseMin(point.position_m);
+        most = most.cwiseMax(point.position_m);
+    }
+    constexpr int of_float = 5126, of_16_bit = 5123, as_points = 0, array_buffer = 34962;
+    const nlohmann::ordered_json json{
+        {"asset", {{"version", "2.0"}, {"generator", "vantage"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"nodes", {{{"mesh", 0}, {"name", fmt::format("pulse {}", moment.pulse)}}}},
+        {"meshes",
+         {{{"primitives",
+            {{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}, {"mode", as_points}}}}}}},
+        {"accessors",
+         {{{"bufferView", 0},
+           {"componentType", of_float},
+           {"count", points.size()},
+           {"type", "VEC3"},
+           {"min", {least[0], least[1], least[2]}},
+           {"max", {most[0], most[1], most[2]}}},
+          {{"bufferView", 1},
+           {"componentType", of_16_bit},
+           {"normalized", true},
+           {"count", points.size()},
+           {"type", "VEC4"}}}},
+        {"bufferViews",
+         {{{"buffer", 0},
+           {"byteOffset", 0},
+           {"byteLength", positions.size()},
+           {"target", array_buffer}},
+          {{"buffer", 0},
+           {"byteOffset", positions.size()},
+           {"byteLength", colours.size()},
+           {"target", array_buffer}}}},
+        {"buffers", {{{"byteLength", positions.size() + colours.size()}}}}};
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    constexpr std::uint32_t header_bytes = 12, chunk_header_bytes = 8, version = 2;
+    const std::size_t binary_bytes = positions.size() + colours.size();
+    const std::size_t all = header_bytes + 2 * chunk_header_bytes + text.size() + binary_bytes;
+    if (all > ~std::uint32_t{0})
+        fail("{} is not written: {} points are more than a GLB file holds", file.string(),
+             points.size());
+    std::string bytes = "glTF";
+    append_number(bytes, version);
+    append_number(bytes, static_cast<std::uint32_t>(all));
+    append_number(bytes, static_cast<std::uint32_t>(text.size()));
+    bytes += "JSON" + text;
+    append_number(bytes, static_cast<std::uint32_t>(binary_bytes));
+    bytes += std::string("BIN\0", 4) + positions + colours;
+    write(file, bytes);
+}
+
+}  // namespace vantage

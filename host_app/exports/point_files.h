@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host_app/exports/moment.h"
+
+namespace vantage {
+
+// What the rigs saw as coloured points, in metres; not there, or whole. Throw Error if the file
+// cannot be written.
+
+/// Stanford's polygon format (PLY), binary. World as the stage's: y up.
+void write_ply(const Moment& moment, const std::filesystem::path& file);
+/// glTF 2.0 in one file, a primitive of points; its axes are the stage's.
+void write_glb(const Moment& moment, const std::filesystem::path& file);
+
+}  // namespace vantage
