@@ -77,4 +77,10 @@ void TakeFile::cut_to_whole() {
 
 void TakeFile::sync() { ::fdatasync(fd_.get()); }
 
+void TakeFile::begin_sync() {
+    if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    syncing_ = std::async(std::launch::async, [fd = fd_.get()] { ::fdatasync(fd); });
+}
+
 }  // namespace vantage

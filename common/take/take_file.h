@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 
 #include "common/av/av_handles.h"
 #include "common/base/unique_fd.h"
@@ -25,8 +26,11 @@ class TakeFile {
     void mark_whole() { whole_ = end_; }
     /// ...and what came after it is taken off again.
     void cut_to_whole();
-    /// Until it is on the disk.
+    /// Waits until it is on the disk.
     void sync();
+    /// Sees to it that it gets there; one at a time, so that what is written meanwhile need not
+    /// wait for a slow disk.
+    void begin_sync();
 
   private:
     static int write(void* self, std::uint8_t* bytes, int size);
@@ -36,6 +40,7 @@ class TakeFile {
     AVIOContext* io_ = nullptr;
     std::int64_t at_ = 0, end_ = 0, whole_ = 0;
     int failure_ = 0;
+    std::future<void> syncing_;  ///< ends before fd_ does
 };
 
 }  // namespace vantage

@@ -144,6 +144,8 @@ bool TakeWriter::add(std::size_t rig, StoredFrame frame) {
     gaps_ += record.gap;
     tracks.last_pulse = record.pulse;
     tracks.last_ms = at_ms;
+    // FFmpeg opens no file that has tracks and no picture.
+    if (frames_ == 1) flush();
     return true;
 }
 
@@ -187,7 +189,7 @@ void TakeWriter::flush() {
     avio_flush(output_->pb);
     if (code < 0 || file_->failure() != 0) fail_writing(code);
     file_->mark_whole();
-    file_->sync();
+    file_->begin_sync();
 }
 
 void TakeWriter::finish() {

@@ -135,7 +135,7 @@ TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
     EXPECT_EQ(z, points.back().position_m.z());
 }
 
-TEST_F(TakeExportTest, WritesGltfWhoseLengthsFit) {
+TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
     const Moment moment = first_moment();
     write_glb(moment, path("one.glb"));
     const std::string glb = text("one.glb");
@@ -153,6 +153,10 @@ TEST_F(TakeExportTest, WritesGltfWhoseLengthsFit) {
     EXPECT_EQ(json["buffers"][0]["byteLength"], count * 20);
     EXPECT_EQ(number(20 + number(12)), count * 20);
     EXPECT_EQ(glb.size(), 20 + number(12) + 8 + count * 20);
+    const ProgramResult info = run_to_end("/usr/bin/env", {"assimp", "info", path("one.glb")});
+    EXPECT_EQ(info.status, 0) << info.out;
+    EXPECT_NE(info.out.find(fmt::format("[{} / 0 / {} | point]", count, count)), std::string::npos)
+        << info.out;
 }
 
 /// As a trainer reads it: by the text of the COLMAP model alone.

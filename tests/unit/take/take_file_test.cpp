@@ -1,6 +1,8 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -179,6 +181,14 @@ TEST_F(TakeFileTest, KeepsWhatWasWrittenWhenItsProcessIsKilled) {
     run("ffmpeg", {"-v", "error", "-i", take_.string(), "-map", "0:v", "-f", "null", "-"});
 }
 
+TEST_F(TakeFileTest, OpensFromItsFirstFrameOn) {
+    TakeWriter writer(take_, small_facts({"north"}, first_pulse));
+    FrameStorer storer(writer.facts().rigs[0]);
+    writer.add(0, storer.store(sent_frame("north", first_pulse)));
+    EXPECT_EQ(TakeReader(take_).frames(0).size(), 1u);
+    run("ffprobe", {"-v", "error", take_.string()});
+}
+
 TEST_F(TakeFileTest, IsReadUpToWhereItIsCutOff) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 60);
     const std::vector<std::byte> whole = bytes_of_file(take_);
@@ -261,6 +271,37 @@ TEST_F(TakeFileTest, EndsReadableWhereTheDiskIsFull) {
     EXPECT_GT(reader.frames(0).size(), 10u);
     for (const TakeReader::Frame& frame : reader.frames(0)) EXPECT_NO_THROW(reader.load(0, frame));
     run("ffmpeg", {"-v", "error", "-i", take_.string(), "-map", "0:v", "-f", "null", "-"});
+}
+
+/// In a process that sees a tmpfs in place of the folder: 0 if its take is as it should be.
+int fill_small_tmpfs(const std::filesystem::path& folder) {
+    constexpr int not_allowed = 77;
+    if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return not_allowed;
+    // What is mounted from now on is nobody else's.
+    if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=400k") != 0)
+        return not_allowed;
+    const std::filesystem::path take = folder / "take.mkv";
+    const std::string sentence =
+        thrown_sentence([&] { write_small_take(take, two_rigs, 100, 10'000); });
+    if (sentence.find("No space left on device; what was written until then opens") ==
+        std::string::npos)
+        return 2;
+    const TakeReader reader(take);
+    if (!reader.damage().empty() || reader.frames(0).size() < 10) return 3;
+    for (const TakeReader::Frame& frame : reader.frames(0)) reader.load(0, frame);
+    return 0;
+}
+
+TEST_F(TakeFileTest, EndsReadableOnAFullTmpfs) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) _exit(fill_small_tmpfs(folder_.path()));
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "this process may mount no tmpfs";
+    EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_F(TakeFileTest, RefusesWhatIsNoTake) {
