@@ -13,7 +13,7 @@ namespace {
 
 struct LiveOptions {
     ShowOptions show;
-    std::string stage, take;
+    std::string stage, take, takes;
     double wait_s = 10, past_mb = 1024, pre_roll_s = 0;
 };
 
@@ -38,7 +38,8 @@ void live(const LiveOptions& options) {
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     const std::unique_ptr<JogDeck> deck = options.show.make_deck();
-    TakeDesk takes(stage, options.stage, options.take, as_duration(options.pre_roll_s));
+    TakeDesk takes(stage, options.stage, options.take, options.takes,
+                   as_duration(options.pre_roll_s));
     if (!options.take.empty()) takes.begin(options.take);
     StageReceiver receiver(stage, StageReceiver::Purpose::film, takes.tap());
     LiveShow show(settings, plan, takes.feed(feed_of(receiver)), deck.get());
@@ -58,9 +59,15 @@ CommandEntry live_command_entry() {
             "live", "Connect to the rigs of a stage, fuse, fly, put out; ends with a summary");
         command->add_option("--stage", options->stage, "The stage (TOML)")->required();
         options->show.add_to(*command, "the stage's");
-        command->add_option("--take", options->take,
-                            "Record what the rigs send from the start (.mkv; see vantage take); in "
-                            "a window the key T ends it and begins another");
+        CLI::Option* take = command->add_option(
+            "--take", options->take,
+            "Record what the rigs send from the start (.mkv; see vantage take); in "
+            "a window the key T ends it and begins another");
+        command
+            ->add_option("--takes", options->takes,
+                         "Folder of the takes that the key T begins, named for the time (default: "
+                         "where the program was started)")
+            ->excludes(take);
         command
             ->add_option("--pre-roll", options->pre_roll_s,
                          "Seconds that a take begun with the key T begins before it")

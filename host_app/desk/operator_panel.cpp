@@ -196,15 +196,17 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
         text(palette::dim, fmt::format("pulse {}", state.pulse));
         ImGui::SameLine(0, 0);
     }
+    // What never was live is not from an exposure to a picture.
+    const std::string latency =
+        state.latency_ms > 0 ? fmt::format("{:.0f} ms   ", state.latency_ms) : "";
     const std::string right =
         state.asks_to_end ? std::string("Esc again to end the programme")
         : !state.question.empty()
             ? state.question
-            : fmt::format("{}x{}   {:.1f} pictures/s   {:.0f} ms   {}, level {}/{}   F1 help",
+            : fmt::format("{}x{}   {:.1f} pictures/s   {}{}, level {}/{}   F1 help",
                           state.picture ? state.picture->width_px() : 0,
                           state.picture ? state.picture->height_px() : 0, state.picture_rate_hz,
-                          state.latency_ms, state.synthesiser, state.render_level,
-                          state.prepare_level);
+                          latency, state.synthesiser, state.render_level, state.prepare_level);
     ImGui::SetCursorPosX(screen.x - ImGui::CalcTextSize(right.c_str()).x - 0.9f * em());
     text(palette::dim, right);
     ImGui::End();
@@ -317,6 +319,7 @@ void draw_take(const PanelTake& take, const UiFonts& fonts) {
     ImGui::Spacing();
     heading(fonts, "TAKE");
     ImGui::PushTextWrapPos(0);
+    text(palette::dim, take.path);
     if (take.is_running)
         text(palette::dim, fmt::format("{:.1f} s, {:.1f} MB a second", take.duration_s, take.mb_s));
     if (take.left_out > 0) text(palette::warn, fmt::format("{} frames left out", take.left_out));

@@ -46,6 +46,7 @@ struct PanelNovelty {
 /// The take that is recorded, or what ended it.
 struct PanelTake {
     bool is_running = false;
+    std::string path;
     double duration_s = 0, mb_s = 0;
     std::uint64_t left_out = 0;  ///< frames that came and are not in it
     std::string failure;

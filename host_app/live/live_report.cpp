@@ -348,6 +348,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);
+    json["seek_to_picture_ms"] = to_json(programme.seek_ms);
     json["instants"] = {
         {"prepared", report.instants_prepared},
         {"a_second", programme.duration_s > 0
@@ -486,6 +487,7 @@ std::string to_text(const LiveReport& report) {
     if (programme.latency_ms.count > 0)
         text += line_of("exposure to picture", programme.latency_ms);
     if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    if (programme.seek_ms.count > 0) text += line_of("seek to picture", programme.seek_ms);
     text +=
         fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));

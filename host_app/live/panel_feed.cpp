@@ -51,6 +51,7 @@ std::optional<PanelTake> panel_take(const TakeState& take) {
     if (take.phase == TakePhase::none && take.failure.empty()) return std::nullopt;
     PanelTake panel;
     panel.is_running = take.phase == TakePhase::opening || take.phase == TakePhase::recording;
+    panel.path = take.path;
     panel.duration_s = take.duration_s;
     panel.mb_s = take.mb_s;
     for (const TakeState::Rig& rig : take.rigs) panel.left_out += rig.dropped + rig.refused;

@@ -161,6 +161,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         transport_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
     last_look_s_ = time_s;
     if (instant_) transport_.take(step.time, instant_->set->trigger_index, span);
+    follow_seek(now);
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
         const std::vector<SynthesiserEntry> all = synthesiser_entries();
@@ -203,6 +204,17 @@ bool Programme::look(double time_s, MonotonicTime now) {
         if (is_same(better, shown_->job)) return false;
     }
     return !shown_ || !is_same(job, shown_->job);
+}
+
+void Programme::follow_seek(MonotonicTime now) {
+    if (!transport_.pulse()) seek_.reset();
+    if (std::exchange(seen_jumps_, transport_.jumps()) == transport_.jumps()) return;
+    const std::optional<std::uint64_t> pulse =
+        transport_.pulse() ? instants_.past_pulse_at(*transport_.pulse()) : std::nullopt;
+    if (pulse && shown_ && shown_->job.instant->set->trigger_index != *pulse)
+        seek_ = {now, *pulse};
+    else
+        seek_.reset();
 }
 
 void Programme::wish_for_instant(MonotonicTime now) {
@@ -262,6 +274,15 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     last_new_ = now;
     if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     const ReadyInstant& instant = *made.job.instant;
+    if (seek_ && transport_.pulse()) {
+        // Time goes on meanwhile.
+        const auto wanted = instants_.past_pulse_at(*transport_.pulse()).value_or(seek_->pulse);
+        const std::uint64_t shown = instant.set->trigger_index;
+        if (shown >= std::min(seek_->pulse, wanted) && shown <= std::max(seek_->pulse, wanted)) {
+            seek_ms_.add(ms_between(seek_->since, now));
+            seek_.reset();
+        }
+    }
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
         const double latency_ms =
@@ -345,6 +366,7 @@ ProgrammeBooks Programme::books() const {
     books.interval_ms = interval_ms_.summary();
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hand_ms_.summary();
+    books.seek_ms = seek_ms_.summary();
     books.render_ms = render_ms_.summary();
     books.readback_ms = readback_ms_.summary();
     return books;

@@ -37,6 +37,7 @@ struct ProgrammeBooks {
     Percentiles interval_ms;     ///< between two new pictures
     Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
     Percentiles hand_ms;         ///< from an input to the hand-over of the first picture with it
+    Percentiles seek_ms;         ///< from a jump in time to the hand-over of its instant's picture
     Percentiles render_ms, readback_ms;
     std::vector<double> render_shares, prepare_shares;  ///< of the time, by level
     int faults = 0;                                     ///< renderers that were made anew
@@ -99,6 +100,7 @@ class Programme {
     bool look(double time_s, MonotonicTime now);
     void wish_for_instant(MonotonicTime now);
     void begin_picture();
+    void follow_seek(MonotonicTime now);
     void better_what_is_held(MonotonicTime now);
     void follow_synthesiser();
     void hand_over(std::uint64_t passed_ticks, bool was_due);
@@ -123,6 +125,13 @@ class Programme {
     OrbitView view_;
     CameraState camera_;
     std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
+    /// A jump in time of which no picture is there yet.
+    struct Seek {
+        MonotonicTime since;
+        std::uint64_t pulse;  ///< that it led to
+    };
+    std::optional<Seek> seek_;
+    std::uint64_t seen_jumps_ = 0;
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;
@@ -135,7 +144,7 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, render_ms_, readback_ms_;
+    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, seek_ms_, render_ms_, readback_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

@@ -82,6 +82,7 @@ void Transport::to_live() {
 
 void Transport::go_to(double pulse, const PastSets::Span& span) {
     state_.pulse = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
+    ++jumps_;
 }
 
 void Transport::change_speed(int steps) {
@@ -97,6 +98,7 @@ void Transport::change_speed(int steps) {
 void Transport::arrive(double at, double again_at) {
     if (state_.loops) {
         state_.pulse = again_at;
+        ++jumps_;
         return;
     }
     state_.pulse = at;

@@ -47,6 +47,8 @@ class Transport {
     /// In the past: the pulse.
     std::optional<double> pulse() const { return state_.pulse; }
     const TransportState& state() const { return state_; }
+    /// How often it went somewhere else than time does: a jog, a cue, a loop's end.
+    std::uint64_t jumps() const { return jumps_; }
 
   private:
     void toggle_hold();
@@ -58,6 +60,7 @@ class Transport {
     TransportState state_;
     bool is_of_take_ = false, is_at_end_ = false;
     double last_speed_ = 1;
+    std::uint64_t jumps_ = 0;
 };
 
 }  // namespace vantage

@@ -68,8 +68,14 @@ class CameraSink final : public PictureSink {
 }  // namespace
 
 TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
-                   std::filesystem::path path, std::chrono::nanoseconds pre_roll)
-    : path_(std::move(path)), recorder_(recorder_settings(stage, stage_file, pre_roll)) {}
+                   std::filesystem::path path, std::filesystem::path folder,
+                   std::chrono::nanoseconds pre_roll)
+    : path_(std::move(path)),
+      folder_(std::move(folder)),
+      recorder_(recorder_settings(stage, stage_file, pre_roll)) {
+    if (!folder_.empty() && !std::filesystem::is_directory(folder_))
+        fail("takes cannot go to {}: there is no such folder; make it", folder_.string());
+}
 
 FrameTap TakeDesk::tap() {
     return [this](const ArrivedFrame& frame) { recorder_.offer(frame); };
@@ -105,7 +111,7 @@ void TakeDesk::begin(const std::filesystem::path& path) {
 void TakeDesk::toggle() {
     try {
         if (!recorder_.is_running()) {
-            begin(free_path(path_.empty() ? name_for_now() : path_));
+            begin(free_path(path_.empty() ? folder_ / name_for_now() : path_));
             return;
         }
         recorder_.end();

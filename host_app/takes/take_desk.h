@@ -19,9 +19,11 @@ namespace vantage {
 class TakeDesk {
   public:
     /// `stage_file` is attached to every take, and the rigs' colour files are. Without a `path`
-    /// takes are named for the time at which they begin; with one the second is PATH-2.
+    /// takes are named for the time at which they begin and go to `folder`, which has to be there;
+    /// with one the second is PATH-2. Throws Error without that folder.
     TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
-             std::filesystem::path path, std::chrono::nanoseconds pre_roll);
+             std::filesystem::path path, std::filesystem::path folder,
+             std::chrono::nanoseconds pre_roll);
 
     /// For the receiver; this must outlive it.
     FrameTap tap();
@@ -43,7 +45,7 @@ class TakeDesk {
   private:
     void ask_all();
 
-    std::filesystem::path path_;
+    std::filesystem::path path_, folder_;
     TakeRecorder recorder_;
     std::mutex mutex_;
     std::function<void(const std::string&, bool)> ask_;

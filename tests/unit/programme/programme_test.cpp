@@ -423,6 +423,28 @@ TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
     EXPECT_FALSE(programme_->state().behind_s);
 }
 
+TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
+    instants_settings_.replay_bytes = 100'000'000;
+    make();
+    start();
+    for (std::uint64_t pulse = 1; pulse <= 5; ++pulse) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    // To stand where it is is no jump.
+    pilot_.next([](PilotStep& step) { step.time.speed_steps = 1; });
+    ASSERT_TRUE(wait_for([&] { return programme_->state().time.pulse.has_value(); }));
+    EXPECT_EQ(programme_->books().seek_ms.count, 0u);
+    for (std::uint64_t seek = 1; seek <= 3; ++seek) {
+        const int pulses = seek == 2 ? 3 : -3;
+        const std::uint64_t wanted = seek == 2 ? 5 : 2;
+        pilot_.next([&](PilotStep& step) { step.time.pulses = pulses; });
+        ASSERT_TRUE(wait_for_pulse(wanted));
+        ASSERT_TRUE(wait_for([&] { return programme_->books().seek_ms.count == seek; }));
+    }
+    EXPECT_GT(programme_->books().seek_ms.max, 0);
+}
+
 TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
     constexpr std::size_t set_bytes = 2 * 46 * 62 * (4 + 2);
     instants_settings_.replay_bytes = 3 * set_bytes;
