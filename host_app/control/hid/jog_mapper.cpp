@@ -128,6 +128,27 @@ void JogMapper::take_button(const DeckEvent& event) {
         case ButtonAction::live:
             input_.to_live = true;
             break;
+        case ButtonAction::mark_in:
+            input_.mark_in = true;
+            break;
+        case ButtonAction::mark_out:
+            input_.mark_out = true;
+            break;
+        case ButtonAction::no_marks:
+            input_.clear_marks = true;
+            break;
+        case ButtonAction::loop:
+            input_.toggle_loop = !input_.toggle_loop;
+            break;
+        case ButtonAction::cue:
+            input_.cue = true;
+            break;
+        case ButtonAction::slower:
+            --input_.speed_steps;
+            break;
+        case ButtonAction::faster:
+            ++input_.speed_steps;
+            break;
         case ButtonAction::nothing:
             break;
     }

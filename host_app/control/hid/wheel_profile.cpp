@@ -38,7 +38,14 @@ constexpr Named<ButtonAction> button_actions[] = {{"nothing", ButtonAction::noth
                                                   {"play", ButtonAction::play},
                                                   {"reset", ButtonAction::reset},
                                                   {"synthesiser", ButtonAction::synthesiser},
-                                                  {"live", ButtonAction::live}};
+                                                  {"live", ButtonAction::live},
+                                                  {"mark_in", ButtonAction::mark_in},
+                                                  {"mark_out", ButtonAction::mark_out},
+                                                  {"no_marks", ButtonAction::no_marks},
+                                                  {"loop", ButtonAction::loop},
+                                                  {"cue", ButtonAction::cue},
+                                                  {"slower", ButtonAction::slower},
+                                                  {"faster", ButtonAction::faster}};
 constexpr int last_shot = 9;
 constexpr Named<ReportField::Kind> field_kinds[] = {{"delta", ReportField::Kind::delta},
                                                     {"counter", ReportField::Kind::counter},

@@ -41,6 +41,13 @@ enum class ButtonAction {
     reset,        ///< back to the start
     synthesiser,  ///< the next one
     live,         ///< out of the past, or of a frozen instant
+    mark_in,
+    mark_out,
+    no_marks,
+    loop,  ///< plays between the marks again and again, or no more
+    cue,   ///< to the in mark
+    slower,
+    faster,  ///< to the next speed of the past
 };
 
 struct ButtonMap {

@@ -24,7 +24,10 @@ class JogMapperTest : public testing::Test {
             {"b3", {ButtonAction::freeze, 0}},      {"b4", {ButtonAction::mode, 0}},
             {"b5", {ButtonAction::play, 0}},        {"b6", {ButtonAction::reset, 0}},
             {"b7", {ButtonAction::synthesiser, 0}}, {"b8", {ButtonAction::nothing, 0}},
-            {"b10", {ButtonAction::live, 0}}};
+            {"b10", {ButtonAction::live, 0}},       {"in", {ButtonAction::mark_in, 0}},
+            {"out", {ButtonAction::mark_out, 0}},   {"none", {ButtonAction::no_marks, 0}},
+            {"loop", {ButtonAction::loop, 0}},      {"cue", {ButtonAction::cue, 0}},
+            {"slower", {ButtonAction::slower, 0}},  {"faster", {ButtonAction::faster, 0}}};
     }
     void take(const JogEvent& event, const char* path = "/dev/hidraw0") {
         mapper_.take({DeckEvent::Kind::control, path, profile_, event, {}, {}});
@@ -78,6 +81,13 @@ TEST_F(JogMapperTest, TurnsButtonsIntoRequests) {
     EXPECT_TRUE(push("b6").reset);
     EXPECT_TRUE(push("b10").to_live);
     EXPECT_TRUE(push("b7").next_synthesiser);
+    EXPECT_TRUE(push("in").mark_in);
+    EXPECT_TRUE(push("out").mark_out);
+    EXPECT_TRUE(push("none").clear_marks);
+    EXPECT_TRUE(push("loop").toggle_loop);
+    EXPECT_TRUE(push("cue").cue);
+    EXPECT_EQ(push("slower").speed_steps, -1);
+    EXPECT_EQ(push("faster").speed_steps, 1);
     const FlightInput nothing = push("b8");
     EXPECT_FALSE(nothing.steers() || nothing.toggle_freeze || nothing.turns_wheel());
 }
