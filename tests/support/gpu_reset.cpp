@@ -88,6 +88,12 @@ void glDrawElements(GLenum mode, GLsizei count, GLenum type, const void* indices
     if (!vantage::is_lost()) draw(mode, count, type, indices);
 }
 
+void glDrawElementsIndirect(GLenum mode, GLenum type, const void* command) {
+    static const auto draw =
+        vantage::real<decltype(glDrawElementsIndirect)>("glDrawElementsIndirect");
+    if (!vantage::is_lost()) draw(mode, type, command);
+}
+
 void glDispatchCompute(GLuint x, GLuint y, GLuint z) {
     static const auto dispatch = vantage::real<decltype(glDispatchCompute)>("glDispatchCompute");
     if (!vantage::is_lost()) dispatch(x, y, z);

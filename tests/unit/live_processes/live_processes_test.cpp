@@ -277,6 +277,25 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
     EXPECT_EQ(read_colour_image(file("screen.png")).size(), cv::Size(640, 360));
 }
 
+TEST_F(LiveProcesses, GetOverAResetOfTheGpuWithoutLosingATick) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    ChildProgram host(VANTAGE_PROGRAM,
+                      {"live", "--stage", file("stage.toml"), "--headless", "--rate", "10",
+                       "--seconds", "8", "--snapshot", file("last.png"), "--json", "--wait", "60"},
+                      folder_.path(), {"LD_PRELOAD=" VANTAGE_GPU_RESET});
+    wait_for(host, first_progress);
+    host.send_signal(SIGUSR2);
+    const ProgramResult result = host.wait();
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    EXPECT_EQ(summary["contexts_lost"], 1) << result.err;
+    EXPECT_NEAR(summary["pictures"].get<double>(), 10 * summary["duration_s"].get<double>(), 1.5);
+    EXPECT_GE(summary["new_pictures"], 5);
+    // What is drawn on a lost context stays black.
+    EXPECT_GT(cv::mean(read_colour_image(file("last.png")))[1], 20);
+}
+
 TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
     start_rig("left", -12);
     start_rig("right", 12);
