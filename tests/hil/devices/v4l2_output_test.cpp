@@ -63,7 +63,8 @@ TEST_F(V4l2OutputTest, AProgramThatReadsTheDeviceSeesTheProgramme) {
     V4l2Camera camera({.path = capture_node,
                        .width_px = size.width,
                        .height_px = size.height,
-                       .pixel_format = "YUYV"});
+                       .pixel_format = "YUYV",
+                       .controls = {}});
     // The first pictures may be vivid's own noise, of before anything came.
     bool is_seen = false;
     cv::Vec4b seen[3];

@@ -87,8 +87,12 @@ class OperatorScreen : public testing::Test {
 TEST_F(OperatorScreen, ShowsTheTakeAndWhereInThePastItIs) {
     const ColourImage before = draw(state_);
     PanelState taking = state_;
-    taking.take = {
-        .is_running = true, .duration_s = 75, .mb_s = 36.9, .left_out = 3, .failure = ""};
+    taking.take = {.is_running = true,
+                   .path = "",
+                   .duration_s = 75,
+                   .mb_s = 36.9,
+                   .left_out = 3,
+                   .failure = ""};
     taking.time = {.speed = 0.5, .at = 0.3, .in = 0.25, .out = 0.75, .loops = true};
     const ColourImage after = draw(taking);
     // The line of time lies right under the bar: green between the marks only.
