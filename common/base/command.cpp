@@ -5,6 +5,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <malloc.h>
 
 #include "common/base/command_documents.h"
 #include "common/base/error.h"
@@ -39,10 +40,19 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return words;
 }
 
+/// Threads that come and go, such as those that compile shaders, leave what they freed to the arena
+/// of their time; with up to eight a processor, as glibc has them, memory grows with every
+/// change of the synthesiser.
+void share_arenas() {
+    constexpr int arenas = 2;
+    mallopt(M_ARENA_MAX, arenas);
+}
+
 }  // namespace
 
 int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
                 char** argv) {
+    share_arenas();
     CLI::App program{std::string(facts.description), std::string(facts.name)};
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text(facts));

@@ -13,15 +13,7 @@ namespace {
 constexpr std::uint32_t buffers = 3;
 constexpr double most_hz = 61;
 
-void set_control(const V4l2Device& device, const std::string& name, int value) {
-    for (const V4l2Control& control : device.controls())
-        if (control.name == name) return device.set_control(control, value);
-    fail("{} has no control '{}'", device.path().string(), name);
-}
-
-}  // namespace
-
-void set_vivid_timings(const V4l2Device& device, const cv::Size& size) {
+void set_timings(const V4l2Device& device, const cv::Size& size) {
     v4l2_enum_dv_timings listed{};
     for (; device.try_request(VIDIOC_ENUM_DV_TIMINGS, &listed); ++listed.index) {
         const v4l2_bt_timings& timings = listed.timings.bt;
@@ -36,13 +28,6 @@ void set_vivid_timings(const V4l2Device& device, const cv::Size& size) {
     fail("{} has no timings for {}x{}", device.path().string(), size.width, size.height);
 }
 
-void loop_vivid(const V4l2Device& capture) {
-    set_control(capture, "Loop Video", 1);
-    set_control(capture, "OSD Text Mode", 2);
-}
-
-namespace {
-
 void set_grey(const V4l2Device& device, v4l2_buf_type type, const cv::Size& size) {
     v4l2_format format{};
     format.type = type;
@@ -54,6 +39,12 @@ void set_grey(const V4l2Device& device, v4l2_buf_type type, const cv::Size& size
     format.fmt.pix.bytesperline = 0;  // else the stride of the format before stays
     format.fmt.pix.sizeimage = 0;
     device.request(VIDIOC_S_FMT, &format, "set the format");
+}
+
+void set_control(const V4l2Device& device, const std::string& name, int value) {
+    for (const V4l2Control& control : device.controls())
+        if (control.name == name) return device.set_control(control, value);
+    fail("{} has no control '{}'", device.path().string(), name);
 }
 
 v4l2_buffer output_buffer(std::uint32_t index = 0) {
@@ -72,11 +63,12 @@ VividLoop::VividLoop(const std::filesystem::path& capture, const std::filesystem
     : output_(output) {
     {
         const V4l2Device sensor(capture);
-        loop_vivid(sensor);
-        set_vivid_timings(sensor, picture.size());
+        set_control(sensor, "Loop Video", 1);
+        set_control(sensor, "OSD Text Mode", 2);
+        set_timings(sensor, picture.size());
         set_grey(sensor, V4L2_BUF_TYPE_VIDEO_CAPTURE, picture.size());
     }
-    set_vivid_timings(output_, picture.size());
+    set_timings(output_, picture.size());
     set_grey(output_, V4L2_BUF_TYPE_VIDEO_OUTPUT, picture.size());
     show(picture);
     feeder_ = std::jthread([this](const std::stop_token& stop) { feed(stop); });

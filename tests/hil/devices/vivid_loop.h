@@ -11,12 +11,6 @@
 
 namespace vantage {
 
-/// Sets a node of vivid to HDMI timings of this size. Throws Error if the driver has none.
-void set_vivid_timings(const V4l2Device& device, const cv::Size& size);
-
-/// Leads what goes to vivid's output to its capture node, as it is.
-void loop_vivid(const V4l2Device& capture);
-
 /// A camera whose picture a test chooses: an output node of the kernel's vivid driver, looped to a
 /// capture node. Shows one grey picture until destroyed. The capture node then delivers exactly its
 /// bytes as GREY.
