@@ -12,7 +12,6 @@ std::span<const RenderLevel> render_levels() {
         {3, 2, 0, 1, true, 1},
         {4, 2, 0, 0.75, true, 1},
         {5, 2, 0, 0.625, true, 1},
-        {6, 2, 0, 0.5, true, 0},
     };
     return levels;
 }

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     steps->add_option("--seconds", stepped.measured_s, "Measured");
     steps->add_option("--start", stepped.start_s, "In the stage's loop of 24 s");
     steps->add_option("--prepare-level", stepped.prepare_level)->check(CLI::Range(0, 3));
-    steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 6));
+    steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 5));
     steps->add_flag("--exact", stepped.with_exact_depth, "Depth of the stage, not of the matchers");
     bool without_times = false;
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
