@@ -12,6 +12,7 @@
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/base/log.h"
 #include "common/colour/colour_file.h"
 #include "common/image/image_file.h"
@@ -93,7 +94,7 @@ void run(const Options& options) {
     if (options.rigs.empty() == options.charts.empty())
         fail("give either --rig (colours from what rigs see of one another) or --chart");
     const Result result = options.charts.empty() ? from_overlap(options) : from_charts(options);
-    std::filesystem::create_directories(options.output);
+    make_folder(options.output);
     nlohmann::json rigs = nlohmann::json::array();
     std::string text;
     for (std::size_t i = 0; i < result.names.size(); ++i) {

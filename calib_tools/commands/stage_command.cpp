@@ -14,6 +14,7 @@
 #include "calib_tools/stage/stage_report.h"
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
 #include "common/image/picture_list.h"
@@ -140,7 +141,7 @@ void run(const Options& options) {
     StageCalibration stage =
         with_kept_film(kept, [&] { return calibrate_stage(rigs, boards, floor); });
     stage.rejected.insert(stage.rejected.end(), notes.rejected.begin(), notes.rejected.end());
-    std::filesystem::create_directories(options.output);
+    make_folder(options.output);
     for (std::size_t i = 0; i < stage.rigs.size(); ++i) {
         const StageCalibration::Rig& rig = stage.rigs[i];
         const std::filesystem::path file =

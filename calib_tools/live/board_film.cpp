@@ -10,6 +10,7 @@
 #include "calib_tools/board/chessboard_finder.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/base/log.h"
 #include "common/base/time.h"
 #include "common/image/image_file.h"
@@ -225,7 +226,7 @@ BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
     BoardFilm film;
     film.pictures.resize(cameras.size());
     for (const FilmedCamera& camera : cameras) {
-        std::filesystem::create_directories(camera.folder);
+        make_folder(camera.folder);
         if (!options.go_on) require_empty(camera);
     }
     if (options.go_on) {

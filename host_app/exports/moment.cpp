@@ -3,37 +3,26 @@
 #include <algorithm>
 
 #include "common/base/log.h"
+#include "host_app/instants/depth_views.h"
+#include "host_app/instants/projection.h"
 
 namespace vantage {
 namespace {
 
 /// A view without disparity has an empty map.
 DepthImage depth_of(const RigFrame& frame) {
-    DepthImage depth(frame.disparity.size(), 0.0f);
-    if (depth.empty()) return depth;
-    const double px_per_step = static_cast<double>(frame.geometry.width_px) / frame.disparity.cols /
-                               disparity_steps_per_px;
+    const DepthView view = depth_view_of(frame);
+    DepthImage depth(view.depth_size());
     for (int y = 0; y < depth.rows; ++y)
-        for (int x = 0; x < depth.cols; ++x)
-            if (const std::uint16_t steps = frame.disparity(y, x); steps != 0)
-                depth(y, x) = static_cast<float>(frame.geometry.depth_m(steps * px_per_step));
+        for (int x = 0; x < depth.cols; ++x) depth(y, x) = view.depth_m_at(x, y);
     return depth;
 }
 
 }  // namespace
 
 Eigen::Matrix3d MomentView::depth_K() const {
-    Eigen::Matrix3d scaled = K;
-    const double x = static_cast<double>(depth_m.cols) / colour.cols;
-    const double y = static_cast<double>(depth_m.rows) / colour.rows;
-    // Pixel centres are at whole numbers: a picture begins half a pixel before the first.
-    constexpr double half_px = 0.5;
-    scaled(0, 0) *= x;
-    scaled(0, 1) *= x;
-    scaled(0, 2) = (K(0, 2) + half_px) * x - half_px;
-    scaled(1, 1) *= y;
-    scaled(1, 2) = (K(1, 2) + half_px) * y - half_px;
-    return scaled;
+    return scaled_intrinsics(K, static_cast<double>(depth_m.cols) / colour.cols,
+                             static_cast<double>(depth_m.rows) / colour.rows);
 }
 
 std::vector<SurfacePoint> surface_points(const Moment& moment, int step) {

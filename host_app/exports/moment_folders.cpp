@@ -11,18 +11,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/atomic_file.h"
-#include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/image/image_file.h"
+#include "host_app/exports/point_files.h"
 #include "host_app/view_sets/view_set_writer.h"
 
 namespace vantage {
 namespace {
-
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail("cannot make the folder {}: {}", folder.string(), error.message());
-}
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
     write_file_atomically(file, std::as_bytes(std::span(text)));
@@ -106,25 +101,16 @@ void write_training_folder(const Moment& moment, const std::filesystem::path& fo
     }
     // To begin from: some ten thousands are enough.
     constexpr int step = 4;
-    std::string ply;
+    const std::vector<SurfacePoint> surface = surface_points(moment, step);
     std::size_t point = 0;
-    for (const SurfacePoint& each : surface_points(moment, step)) {
+    for (const SurfacePoint& each : surface)
         points += fmt::format("{} {:.5f} {:.5f} {:.5f} {} {} {} 0\n", ++point, each.position_m[0],
                               each.position_m[1], each.position_m[2], each.rgb[0], each.rgb[1],
                               each.rgb[2]);
-        ply +=
-            fmt::format("{:.5f} {:.5f} {:.5f} {} {} {}\n", each.position_m[0], each.position_m[1],
-                        each.position_m[2], each.rgb[0], each.rgb[1], each.rgb[2]);
-    }
     write_text(model / "cameras.txt", cameras);
     write_text(model / "images.txt", images);
     write_text(model / "points3D.txt", points);
-    write_text(folder / "points.ply",
-               fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
-                           "property float y\nproperty float z\nproperty uchar red\n"
-                           "property uchar green\nproperty uchar blue\nend_header\n",
-                           point) +
-                   ply);
+    write_ply(surface, folder / "points.ply");
     write_text(folder / "transforms.json", transforms.dump(1) + '\n');
 }
 

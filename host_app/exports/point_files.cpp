@@ -29,18 +29,21 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 
 }  // namespace
 
-void write_ply(const Moment& moment, const std::filesystem::path& file) {
-    const std::vector<SurfacePoint> points = surface_points(moment, 1);
+void write_ply(const std::vector<SurfacePoint>& points, const std::filesystem::path& file) {
     std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment pulse {}\nelement vertex {}\n"
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
         "property float x\nproperty float y\nproperty float z\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-        moment.pulse, points.size());
+        points.size());
     for (const SurfacePoint& point : points) {
         append(bytes, point.position_m.data(), 3 * sizeof(float));
         append(bytes, point.rgb.val, 3);
     }
     write(file, bytes);
+}
+
+void write_ply(const Moment& moment, const std::filesystem::path& file) {
+    write_ply(surface_points(moment, 1), file);
 }
 
 void write_glb(const Moment& moment, const std::filesystem::path& file) {

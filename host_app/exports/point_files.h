@@ -10,6 +10,7 @@ namespace vantage {
 // cannot be written.
 
 /// Stanford's polygon format (PLY), binary. World as the stage's: y up.
+void write_ply(const std::vector<SurfacePoint>& points, const std::filesystem::path& file);
 void write_ply(const Moment& moment, const std::filesystem::path& file);
 /// glTF 2.0 in one file, a primitive of points; its axes are the stage's.
 void write_glb(const Moment& moment, const std::filesystem::path& file);

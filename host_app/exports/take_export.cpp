@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "host_app/exports/camera_files.h"
 #include "host_app/exports/moment.h"
 #include "host_app/exports/moment_folders.h"
@@ -26,6 +28,14 @@ constexpr std::array<ExportFormat, 4> formats{{
     {"views", "a view set for vantage render, a folder a moment", "", write_view_set},
 }};
 
+/// Of a take with frames.
+std::uint64_t first_pulse(const TakeReader& take) {
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
+    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig)
+        if (!take.frames(rig).empty()) first = std::min(first, take.frames(rig).front().pulse);
+    return first;
+}
+
 std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& part) {
     std::set<std::uint64_t> pulses;
     for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig)
@@ -39,9 +49,7 @@ std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& par
 
 /// Where an export of the take goes: a new folder, or one that such an export was begun in.
 void claim(const std::filesystem::path& folder, const TakeReader& take, const std::string& format) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail("cannot make the folder {}: {}", folder.string(), error.message());
+    make_folder(folder);
     const nlohmann::ordered_json claim{
         {"version", 1},
         {"origin_tai_ns", take.facts().origin.time_since_epoch().count()},
@@ -84,7 +92,7 @@ ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, c
     const std::vector<std::uint64_t> pulses = pulses_of(take, part);
     if (pulses.empty()) fail("{} is not written: no frame is in that part", folder.string());
     claim(folder, take, format.name);
-    const std::uint64_t first = pulses_of(take, {}).front();
+    const std::uint64_t first = first_pulse(take);
     MomentReader reader(take);
     ExportBooks books;
     for (std::size_t i = 0; i < pulses.size(); ++i) {

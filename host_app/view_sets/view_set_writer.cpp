@@ -2,6 +2,7 @@
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/image/pfm.h"
 
 namespace vantage {
@@ -23,11 +24,7 @@ nlohmann::ordered_json rows_of(const Matrix& matrix) {
 ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(folder)) {
     if (std::filesystem::exists(folder_ / "views.json"))
         fail("{} holds a view set already; give a new folder", folder_.string());
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error)
-        fail("cannot make the folder {} ({}); give one that can be written", folder_.string(),
-             error.message());
+    make_folder(folder_);
 }
 
 void ViewSetWriter::begin_view(const Camera& camera, const std::filesystem::path& picture) {

@@ -7,6 +7,7 @@
 
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/base/log.h"
 #include "common/base/print_result.h"
 #include "common/base/stop_signal.h"
@@ -50,7 +51,7 @@ std::optional<StereoFrame> next_kept(StereoSource& source, const Options& option
 
 void run(const Options& options) {
     const RigConfig config = load_rig_config(options.config);
-    std::filesystem::create_directories(options.folder);
+    make_folder(options.folder);
     StopSignal stop;
     const std::unique_ptr<StereoSource> source = make_source(config);
     for (const std::string& line : source->report()) log_info("{}", line);
