@@ -282,7 +282,7 @@ TEST_F(LiveProcesses, GetOverAResetOfTheGpuWithoutLosingATick) {
     start_rig("right", 12);
     ChildProgram host(VANTAGE_PROGRAM,
                       {"live", "--stage", file("stage.toml"), "--headless", "--rate", "10",
-                       "--seconds", "8", "--snapshot", file("last.png"), "--json", "--wait", "60"},
+                       "--frames", "120", "--snapshot", file("last.png"), "--json", "--wait", "60"},
                       folder_.path(), {"LD_PRELOAD=" VANTAGE_GPU_RESET});
     wait_for(host, first_progress);
     host.send_signal(SIGUSR2);
