@@ -22,6 +22,7 @@ TakeSets::TakeSets(std::shared_ptr<const TakeReader> take) : take_(std::move(tak
 
 TakeSets::~TakeSets() {
     if (ahead_) ahead_->set.wait();
+    if (given_up_.valid()) given_up_.wait();
 }
 
 std::size_t TakeSets::place_of(double pulse) const {
@@ -39,39 +40,56 @@ std::optional<PastSets::Span> TakeSets::span() const {
     return Span{pulses_.front(), pulses_.back(), pulses_.size(), take_->bytes()};
 }
 
-std::optional<FrameSet> TakeSets::at(double pulse) const {
-    const std::size_t place = place_of(pulse);
+std::optional<FrameSet> TakeSets::take_ahead(std::uint64_t pulse) const {
     std::optional<Ahead> ahead;
-    bool goes_back = false;
     {
         const std::lock_guard lock(mutex_);
         ahead = std::exchange(ahead_, std::nullopt);
-        goes_back = place < last_place_;
-        last_place_ = place;
+        if (ahead && ahead->pulse != pulse) {
+            *ahead->unwanted = true;
+            given_up_ = std::move(ahead->set);
+            return std::nullopt;
+        }
     }
-    // Of another place it is thrown away, when it is done.
-    std::optional<FrameSet> set;
-    if (ahead) {
-        FrameSet decoded = ahead->set.get();
-        if (ahead->pulse == pulses_[place]) set = std::move(decoded);
-    }
-    if (!set) set = decode(pulses_[place]);
-    set->complete = MonotonicClock::now();
-    if (goes_back ? place > 0 : place + 1 < pulses_.size()) {
-        const std::uint64_t next = pulses_[goes_back ? place - 1 : place + 1];
+    return ahead ? std::optional(ahead->set.get()) : std::nullopt;
+}
+
+void TakeSets::decode_ahead(std::uint64_t pulse) const {
+    const std::lock_guard lock(mutex_);
+    if (ahead_) return;
+    if (given_up_.valid() &&
+        given_up_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    const auto unwanted = std::make_shared<Unwanted>(false);
+    ahead_ = Ahead{pulse, unwanted, std::async(std::launch::async, [this, pulse, unwanted] {
+                       return decode(pulse, *unwanted);
+                   })};
+}
+
+std::optional<FrameSet> TakeSets::at(double pulse) const {
+    const std::size_t place = place_of(pulse);
+    const auto here = static_cast<std::ptrdiff_t>(place);
+    std::ptrdiff_t stride = 0, stride_before = 0;
+    {
         const std::lock_guard lock(mutex_);
-        if (!ahead_)
-            ahead_ =
-                Ahead{next, std::async(std::launch::async, [this, next] { return decode(next); })};
+        stride = here - std::exchange(last_place_, here);
+        stride_before = std::exchange(last_stride_, stride);
     }
+    std::optional<FrameSet> set = take_ahead(pulses_[place]);
+    if (!set) set = decode(pulses_[place], Unwanted(false));
+    set->complete = MonotonicClock::now();
+    const std::ptrdiff_t next = here + stride;
+    if (stride != 0 && stride == stride_before && next >= 0 && next < std::ssize(pulses_))
+        decode_ahead(pulses_[static_cast<std::size_t>(next)]);
     return set;
 }
 
-FrameSet TakeSets::decode(std::uint64_t pulse) const {
+FrameSet TakeSets::decode(std::uint64_t pulse, const Unwanted& unwanted) const {
     std::vector<std::future<std::shared_ptr<const RigFrame>>> frames;
     for (std::size_t rig = 0; rig < rigs_.size(); ++rig)
-        frames.push_back(
-            std::async(std::launch::async, [this, rig, pulse] { return decode(rig, pulse); }));
+        frames.push_back(std::async(std::launch::async, [this, rig, pulse, &unwanted] {
+            return decode(rig, pulse, unwanted);
+        }));
     FrameSet set;
     set.trigger_index = pulse;
     for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
@@ -82,16 +100,18 @@ FrameSet TakeSets::decode(std::uint64_t pulse) const {
     return set;
 }
 
-std::shared_ptr<const RigFrame> TakeSets::decode(std::size_t number, std::uint64_t pulse) const {
+std::shared_ptr<const RigFrame> TakeSets::decode(std::size_t number, std::uint64_t pulse,
+                                                 const Unwanted& unwanted) const {
     const std::vector<TakeReader::Frame>& frames = take_->frames(number);
     const auto frame = std::lower_bound(
         frames.begin(), frames.end(), pulse,
         [](const TakeReader::Frame& each, std::uint64_t wanted) { return each.pulse < wanted; });
-    if (frame == frames.end() || frame->pulse != pulse) return nullptr;
+    if (unwanted || frame == frames.end() || frame->pulse != pulse) return nullptr;
     Rig& rig = *rigs_[number];
     try {
         const StoredFrame stored = take_->load(number, *frame);
         const std::lock_guard lock(rig.mutex);
+        if (unwanted) return nullptr;
         return std::make_shared<const RigFrame>(rig.restorer->restore(stored));
     } catch (const Error& error) {
         const std::lock_guard lock(rig.mutex);

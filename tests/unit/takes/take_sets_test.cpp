@@ -69,6 +69,32 @@ TEST_F(TakeSetsTest, ShowsWhatIsSoundOfADamagedTake) {
     EXPECT_EQ(sets.at(131)->present(), 2);
 }
 
+TEST_F(TakeSetsTest, DecodesWhatWasSoughtAloneAndWhatFollowsOnceItGoesOnFromThere) {
+    write();
+    std::vector<std::byte> bytes = bytes_of_file(file_);
+    bytes[reader()->frames(0)[31].colour.at + 50] ^= std::byte{1};
+    write_bytes(file_, bytes);
+    // Whoever decodes the set of pulse 131 is told that it is damaged.
+    const auto log_of = [&](const std::vector<double>& pulses) {
+        testing::internal::CaptureStderr();
+        {
+            const TakeSets sets(reader());
+            for (const double pulse : pulses) sets.at(pulse);
+        }
+        return testing::internal::GetCapturedStderr();
+    };
+    using Pulses = std::vector<double>;
+    for (const Pulses& jumps :
+         {Pulses{130}, {110, 130}, {110, 111, 112, 130}, {150, 132}, {150, 149, 132}, {130, 130}})
+        EXPECT_EQ(log_of(jumps), "") << jumps.size();
+    for (const Pulses& steps : {Pulses{128, 129, 130},
+                                {127, 128, 129, 130},
+                                {125, 127, 129},
+                                {140, 137, 134},
+                                {134, 133, 132}})
+        EXPECT_NE(log_of(steps).find("is damaged"), std::string::npos) << steps.front();
+}
+
 TEST_F(TakeSetsTest, RefusesATakeWithoutFrames) {
     {
         TakeWriter writer(file_, small_facts({"north"}, 100));
