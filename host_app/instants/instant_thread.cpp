@@ -254,6 +254,7 @@ void InstantThread::prepare_instants() {
             continue;
         }
         const std::uint64_t shown = last_.set ? last_.set->trigger_index : 0;
+        const MonotonicTime taken_up = MonotonicClock::now();
         std::optional<FrameSet> set = next_set(wish, last_.set ? shown : shown - 1);
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
@@ -276,6 +277,8 @@ void InstantThread::prepare_instants() {
             next.set = std::make_shared<const FrameSet>(std::move(*set));
             next.exposure = exposure_of(*next.set);
             next.is_live = is_live;
+            next.taken_up = taken_up;
+            next.fetch_ms = std::chrono::duration<double, std::milli>(start - taken_up).count();
             publish(std::move(next), wish, preparer, start);
             prepared = wish;
             unprepared_.reset();

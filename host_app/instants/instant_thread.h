@@ -35,6 +35,8 @@ struct ReadyInstant {
     std::uint64_t number = 0;         ///< grows with every instant, also with one that is bettered
     std::string synthesiser;          ///< that it was prepared for
     bool is_live = true;
+    MonotonicTime taken_up{};  ///< when its set began to be fetched
+    double fetch_ms = 0;       ///< until its set was there, decoded
     double prepare_ms = 0;
 };
 

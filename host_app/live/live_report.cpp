@@ -349,6 +349,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);
     json["seek_to_picture_ms"] = to_json(programme.seek_ms);
+    json["seek_steps_ms"] = {{"wait", to_json(programme.seek_steps_ms.wait)},
+                             {"fetch", to_json(programme.seek_steps_ms.fetch)},
+                             {"prepare", to_json(programme.seek_steps_ms.prepare)},
+                             {"picture", to_json(programme.seek_steps_ms.picture)}};
     json["instants"] = {
         {"prepared", report.instants_prepared},
         {"a_second", programme.duration_s > 0
@@ -487,7 +491,13 @@ std::string to_text(const LiveReport& report) {
     if (programme.latency_ms.count > 0)
         text += line_of("exposure to picture", programme.latency_ms);
     if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
-    if (programme.seek_ms.count > 0) text += line_of("seek to picture", programme.seek_ms);
+    if (programme.seek_ms.count > 0) {
+        text += line_of("seek to picture", programme.seek_ms);
+        text += line_of("  waiting for the instant before", programme.seek_steps_ms.wait);
+        text += line_of("  reading and decoding", programme.seek_steps_ms.fetch);
+        text += line_of("  preparing", programme.seek_steps_ms.prepare);
+        text += line_of("  rendering, until its tick", programme.seek_steps_ms.picture);
+    }
     text +=
         fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));

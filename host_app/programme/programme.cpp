@@ -274,15 +274,7 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     last_new_ = now;
     if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     const ReadyInstant& instant = *made.job.instant;
-    if (seek_ && transport_.pulse()) {
-        // Time goes on meanwhile.
-        const auto wanted = instants_.past_pulse_at(*transport_.pulse()).value_or(seek_->pulse);
-        const std::uint64_t shown = instant.set->trigger_index;
-        if (shown >= std::min(seek_->pulse, wanted) && shown <= std::max(seek_->pulse, wanted)) {
-            seek_ms_.add(ms_between(seek_->since, now));
-            seek_.reset();
-        }
-    }
+    note_seek(instant, now);
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
         const double latency_ms =
@@ -290,6 +282,27 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
         latency_ms_.add(latency_ms);
         state_.latency_ms = latency_ms;
     }
+}
+
+void Programme::note_seek(const ReadyInstant& instant, MonotonicTime now) {
+    if (!seek_ || !transport_.pulse()) return;
+    // Time goes on meanwhile.
+    const auto wanted = instants_.past_pulse_at(*transport_.pulse()).value_or(seek_->pulse);
+    const std::uint64_t shown = instant.set->trigger_index;
+    if (shown < std::min(seek_->pulse, wanted) || shown > std::max(seek_->pulse, wanted)) return;
+    const double all_ms = ms_between(seek_->since, now);
+    // What was done of it before the jump is not counted.
+    const double begun_ms = ms_between(seek_->since, instant.taken_up);
+    const double taken_up_ms = std::clamp(begun_ms, 0.0, all_ms);
+    const double fetched_ms = std::clamp(begun_ms + instant.fetch_ms, 0.0, all_ms);
+    const double prepared_ms =
+        std::clamp(begun_ms + instant.fetch_ms + instant.prepare_ms, 0.0, all_ms);
+    seek_ms_.add(all_ms);
+    seek_steps_ms_.wait.add(taken_up_ms);
+    seek_steps_ms_.fetch.add(fetched_ms - taken_up_ms);
+    seek_steps_ms_.prepare.add(prepared_ms - fetched_ms);
+    seek_steps_ms_.picture.add(all_ms - prepared_ms);
+    seek_.reset();
 }
 
 void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
@@ -367,6 +380,8 @@ ProgrammeBooks Programme::books() const {
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hand_ms_.summary();
     books.seek_ms = seek_ms_.summary();
+    books.seek_steps_ms = {seek_steps_ms_.wait.summary(), seek_steps_ms_.fetch.summary(),
+                           seek_steps_ms_.prepare.summary(), seek_steps_ms_.picture.summary()};
     books.render_ms = render_ms_.summary();
     books.readback_ms = readback_ms_.summary();
     return books;

@@ -28,6 +28,15 @@ struct SinkState {
     std::string failure;  ///< empty: it works
 };
 
+/// Where the time goes between a jump in time and its picture.
+template <class Time>
+struct SeekSteps {
+    Time wait;     ///< for the instant that was being prepared
+    Time fetch;    ///< the set: read, decoded
+    Time prepare;  ///< its instant
+    Time picture;  ///< rendering, and the waits for its turn and for the tick
+};
+
 /// What the programme counted and measured.
 struct ProgrammeBooks {
     std::uint64_t ticks = 0;     ///< since the first picture
@@ -38,6 +47,7 @@ struct ProgrammeBooks {
     Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
     Percentiles hand_ms;         ///< from an input to the hand-over of the first picture with it
     Percentiles seek_ms;         ///< from a jump in time to the hand-over of its instant's picture
+    SeekSteps<Percentiles> seek_steps_ms;
     Percentiles render_ms, readback_ms;
     std::vector<double> render_shares, prepare_shares;  ///< of the time, by level
     int faults = 0;                                     ///< renderers that were made anew
@@ -107,6 +117,7 @@ class Programme {
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks);
     void note_sinks();
     void note(const MadePicture& made, MonotonicTime now);
+    void note_seek(const ReadyInstant& instant, MonotonicTime now);
     /// How long before a tick its picture is to be begun.
     std::chrono::nanoseconds lead() const;
 
@@ -145,6 +156,7 @@ class Programme {
     ProgrammeState state_;
     ProgrammeBooks books_;
     PercentileRecorder interval_ms_, latency_ms_, hand_ms_, seek_ms_, render_ms_, readback_ms_;
+    SeekSteps<PercentileRecorder> seek_steps_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

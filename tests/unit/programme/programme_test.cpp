@@ -442,7 +442,15 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
         ASSERT_TRUE(wait_for_pulse(wanted));
         ASSERT_TRUE(wait_for([&] { return programme_->books().seek_ms.count == seek; }));
     }
-    EXPECT_GT(programme_->books().seek_ms.max, 0);
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_GT(books.seek_ms.max, 0);
+    // And where the time went: no step took more than the whole, and preparing takes time.
+    const SeekSteps<Percentiles>& steps = books.seek_steps_ms;
+    for (const Percentiles& step : {steps.wait, steps.fetch, steps.prepare, steps.picture}) {
+        EXPECT_EQ(step.count, 3u);
+        EXPECT_LE(step.max, books.seek_ms.max);
+    }
+    EXPECT_GT(steps.prepare.max, 0);
 }
 
 TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
