@@ -46,10 +46,6 @@ void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
             ? rig.steady_depth()
             : consensus_.better(compared(rig), compared(rigs_), level.refinement);
     closer_.close(bettered, rig.steady_depth(), rig.colour(), model->depth_target());
-    edge_trust_.judge(rig.colour(), *model);
-    for (const QuadGrid grid : {QuadGrid::coarse, QuadGrid::fine})
-        triangles_.build(model->grid(grid));
-    triangles_.build_rims(*model);
     rig.set_model({model, level.rank, now_s_, instant_});
 }
 
@@ -80,7 +76,9 @@ std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
 
 void StagedPreparer::find_performers(RigHistory& rig, const PrepareLevel& level) {
     const auto find = [&](RigHistory& one) {
-        if (has_depths_.insert(&one).second) performers_.find(one, uploaded_);
+        if (has_depths_.contains(&one)) return;
+        performers_.find(one, uploaded_);
+        has_depths_.insert(&one);
     };
     // The others' are asked for only where they are compared.
     if (level.refinement == PrepareLevel::Refinement::none)
