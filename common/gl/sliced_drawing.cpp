@@ -20,10 +20,18 @@ constexpr std::chrono::seconds patience{10};
 /// A band waits so long for others at most, so that a renderer that is never done leaves some time.
 constexpr std::chrono::milliseconds longest_way{60};
 
+struct ScissorTest {
+    ScissorTest() { glEnable(GL_SCISSOR_TEST); }
+    ~ScissorTest() { glDisable(GL_SCISSOR_TEST); }
+    ScissorTest(const ScissorTest&) = delete;
+    ScissorTest& operator=(const ScissorTest&) = delete;
+};
+
 }  // namespace
 
-SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way)
-    : slice_(slice), way_(way), before_(current_slicing) {
+SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way,
+                             std::function<void()> between)
+    : slice_(slice), way_(way), between_(std::move(between)), before_(current_slicing) {
     current_slicing = this;
 }
 
@@ -33,11 +41,12 @@ const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 
 void SlicedDrawing::give_way() const {
     if (way_) way_->give_way(longest_way);
+    if (between_) between_();
 }
 
 void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>& draw) const {
     if (rows == 0) rows = first_rows;
-    glEnable(GL_SCISSOR_TEST);
+    const ScissorTest scissor;
     for (int y = 0; y < target.height;) {
         const int height = std::min(rows, target.height - y);
         give_way();
@@ -53,7 +62,6 @@ void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>
         rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
                           std::max(target.height, fewest_rows));
     }
-    glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace vantage

@@ -12,11 +12,13 @@ namespace vantage {
 /// While it lives, fullscreen passes of this thread are drawn in bands of rows, each waited for
 /// before the next is begun, so that another context that shares the GPU (or the software
 /// rasteriser) gets its turn between them: while that one claims the right of way, bands wait. How
-/// many rows a band has follows from what the bands of the same pass took before.
+/// many rows a band has follows from what the bands of the same pass took before. `between` is
+/// called before every band; what it throws ends the pass there.
 class SlicedDrawing {
   public:
     /// `way` must outlive it; null: nobody goes first.
-    explicit SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way = nullptr);
+    explicit SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way = nullptr,
+                           std::function<void()> between = {});
     ~SlicedDrawing();
     SlicedDrawing(const SlicedDrawing&) = delete;
     SlicedDrawing& operator=(const SlicedDrawing&) = delete;
@@ -27,12 +29,13 @@ class SlicedDrawing {
     /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory
     /// of a band's height; 0 at first.
     void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
-    /// Waits while another context has the right of way, not for ever.
+    /// Waits while another context has the right of way, not for ever. Throws what `between` does.
     void give_way() const;
 
   private:
     std::chrono::nanoseconds slice_;
     RightOfWay* way_;
+    std::function<void()> between_;
     const SlicedDrawing* before_;
 };
 

@@ -25,6 +25,11 @@ constexpr std::chrono::milliseconds betterings{100};
 /// Instants further apart have nothing to say to each other.
 constexpr double longest_gap_s = 1;
 
+constexpr std::uint64_t no_pulse = ~std::uint64_t{0};
+
+/// Something else is wished for.
+struct GaveWay {};
+
 double ms_since(MonotonicTime start) {
     return std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
 }
@@ -119,11 +124,7 @@ void InstantThread::run() {
         }
         std::unique_lock lock(mutex_);
         ++books_.faults;
-        if (unprepared_) {
-            ++failed_.sets;
-            count_frames(*unprepared_, failed_.frames);
-            unprepared_.reset();
-        }
+        count_unprepared();
         if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
     }
 }
@@ -208,13 +209,38 @@ void InstantThread::let_go_of_preparers() {
     });
 }
 
+void InstantThread::give_way_to_jump() const {
+    if (!jumps_) return;
+    const std::lock_guard lock(mutex_);
+    if (wish_.jumps != *jumps_) throw GaveWay();
+}
+
+bool InstantThread::unless_time_jumps(const InstantWish& wish, const std::function<void()>& work) {
+    bool is_done = true;
+    jumps_ = wish.jumps;
+    try {
+        work();
+    } catch (const GaveWay&) {
+        is_done = false;
+    }
+    jumps_.reset();
+    return is_done;
+}
+
+void InstantThread::count_unprepared() {
+    if (!unprepared_) return;
+    ++failed_.sets;
+    count_frames(*unprepared_, failed_.frames);
+    unprepared_.reset();
+}
+
 void InstantThread::prepare_instants() {
     if (generations_.empty() || generations_.back().member.generation != contexts_->generation())
         generations_.push_back({contexts_->join(), {}});
     const ContextGroup::Member member = generations_.back().member;
     const CurrentContext current(*member.context);
     require_context("instants were prepared");
-    const SlicedDrawing slices(slice, &way_);
+    const SlicedDrawing slices(slice, &way_, [this] { give_way_to_jump(); });
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
@@ -253,9 +279,10 @@ void InstantThread::prepare_instants() {
             woken_.wait_for(lock, patience, [&] { return is_stopping_; });
             continue;
         }
-        const std::uint64_t shown = last_.set ? last_.set->trigger_index : 0;
+        // Of a set that was given up half-way the preparer has some: what is shown comes anew too.
+        const std::uint64_t shown = prepared && last_.set ? last_.set->trigger_index : no_pulse;
         const MonotonicTime taken_up = MonotonicClock::now();
-        std::optional<FrameSet> set = next_set(wish, last_.set ? shown : shown - 1);
+        std::optional<FrameSet> set = next_set(wish, shown);
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
             const bool is_live = !wish.pulse;
@@ -272,14 +299,26 @@ void InstantThread::prepare_instants() {
             const std::vector<DepthView> views = views_of(*set, is_counted);
             // In the past the camera says nothing of what is needed live.
             if (is_live) ask_for_rigs(views, wish.target);
-            preparer->take(views, std::min(dt_s, longest_gap_s));
-            ReadyInstant next = last_;
-            next.set = std::make_shared<const FrameSet>(std::move(*set));
-            next.exposure = exposure_of(*next.set);
-            next.is_live = is_live;
-            next.taken_up = taken_up;
-            next.fetch_ms = std::chrono::duration<double, std::milli>(start - taken_up).count();
-            publish(std::move(next), wish, preparer, start);
+            // What was jumped to is made ready in any case, so that a jog shows what it passes.
+            const bool is_sought = std::exchange(fetched_jumps_, wish.jumps) != wish.jumps;
+            const auto get_ready = [&] {
+                preparer->take(views, std::min(dt_s, longest_gap_s));
+                ReadyInstant next = last_;
+                next.set = std::make_shared<const FrameSet>(std::move(*set));
+                next.exposure = exposure_of(*next.set);
+                next.is_live = is_live;
+                next.taken_up = taken_up;
+                next.fetch_ms = std::chrono::duration<double, std::milli>(start - taken_up).count();
+                publish(std::move(next), wish, preparer, start);
+            };
+            if (is_sought)
+                get_ready();
+            else if (!unless_time_jumps(wish, get_ready)) {
+                const std::lock_guard lock(mutex_);
+                count_unprepared();
+                prepared.reset();
+                continue;
+            }
             prepared = wish;
             unprepared_.reset();
             const std::lock_guard lock(mutex_);
@@ -298,11 +337,11 @@ void InstantThread::prepare_instants() {
             prepare_ms_.add(last_.prepare_ms);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
-            publish(last_, wish, preparer, start);
-            prepared = wish;
+            if (unless_time_jumps(wish, [&] { publish(last_, wish, preparer, start); }))
+                prepared = wish;
             bettered = start;
         } else if (prepared && !wish.pulse && !wish.is_held) {
-            preparer->improve(wish.target);
+            (void)unless_time_jumps(wish, [&] { preparer->improve(wish.target); });
         }
     }
     // What is left of them goes with its preparer, on this context, or on none if that was lost.

@@ -47,6 +47,7 @@ struct InstantWish {
     bool is_held = false;  ///< nothing new; what is shown is bettered
     VirtualView target;    ///< rigs that it needs are prepared
     PrepareLevel level;
+    std::uint64_t jumps = 0;  ///< in time, until now: an instant of before the last gives way
 };
 
 /// What the steps of a frame's way took at the rigs.
@@ -120,6 +121,12 @@ class InstantThread {
     };
     void run();
     void prepare_instants();
+    /// As superseded. Precondition: mutex_ is held.
+    void count_unprepared();
+    /// Does the work, or as much of it as was done when time jumped to elsewhere: then false.
+    bool unless_time_jumps(const InstantWish& wish, const std::function<void()>& work);
+    /// Throws GaveWay where time has jumped.
+    void give_way_to_jump() const;
     /// Destroys what nobody holds instants of any more.
     void let_go_of_preparers();
     std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse);
@@ -143,6 +150,8 @@ class InstantThread {
     bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown
     ReadyInstant last_;                    ///< of the thread: what was prepared last
     std::optional<FrameSet> unprepared_;   ///< of the thread: the live set that is being prepared
+    std::optional<std::uint64_t> jumps_;   ///< of the thread: what it does gives way to the next
+    std::uint64_t fetched_jumps_ = 0;      ///< of the thread: until the last set was wished for
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;

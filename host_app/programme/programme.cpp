@@ -222,7 +222,8 @@ void Programme::wish_for_instant(MonotonicTime now) {
     instants_.wish(
         {transport_.pulse(), transport_.is_held(),
          view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
-         is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare()});
+         is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare(),
+         transport_.jumps()});
     if (instant_ && instant_->number != seen_prepared_ && transport_.is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);

@@ -1,5 +1,6 @@
 #include "common/gl/sliced_drawing.h"
 
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -118,6 +119,17 @@ TEST_F(BandsTest, GrowToTheWholePictureWhereASliceAllowsItAndShrinkWhereNot) {
     const SlicedDrawing slices(1ns);
     for (int i = 0; i < 20; ++i) bands(500, rows, slices);
     EXPECT_GE(bands(500, rows, slices).size(), 500u / 9);
+}
+
+TEST_F(BandsTest, EndWhereWhatIsCalledBetweenThemSaysSo) {
+    int calls = 0, rows = 8;
+    const SlicedDrawing slices(1ns, nullptr, [&] {
+        if (++calls == 4) throw std::runtime_error("enough");
+    });
+    int drawn = 0;
+    EXPECT_THROW(slices.draw({20, 500}, rows, [&] { ++drawn; }), std::runtime_error);
+    EXPECT_EQ(drawn, 3);
+    EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
 }
 
 TEST_F(BandsTest, BelongToTheThreadAndToTheInnermostOne) {

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/gl/context_group.h"
+#include "common/gl/sliced_drawing.h"
 #include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
@@ -20,6 +21,7 @@ using namespace std::chrono_literals;
 struct Orders {
     std::atomic<bool> fails_to_take = false;
     std::atomic<bool> fails_to_prepare = false;
+    std::atomic<bool> draws_next_until_released = false, is_released = false;
     std::atomic<int> made = 0, taken = 0, prepared = 0, forgot = 0, rank = 0;
     std::atomic<double> dt_s = 0;
 };
@@ -32,6 +34,12 @@ class OrderedPreparer final : public InstantPreparer {
     void take(std::span<const DepthView> views, double dt_s) override {
         if (orders_->fails_to_take) fail("the driver is lost");
         // A picture that is marked cannot be prepared.
+        // With an end, so that a test that fails ends too.
+        if (orders_->draws_next_until_released.exchange(false))
+            for (int i = 0; i < 5000 && !orders_->is_released; ++i) {
+                SlicedDrawing::current()->give_way();
+                std::this_thread::sleep_for(2ms);
+            }
         is_marked_ = !views.empty() && views.front().colour(0, 0)[3] == 7;
         orders_->dt_s = dt_s;
         ++orders_->taken;
@@ -66,6 +74,9 @@ class InstantThreadTest : public testing::Test {
             slot.frame = frame;
         }
         feed_.push(set);
+    }
+    void go_to(std::optional<double> pulse, std::uint64_t jumps) {
+        thread_->wish({.pulse = pulse, .target = {}, .level = {}, .jumps = jumps});
     }
     template <class Condition>
     static bool wait_for(Condition condition) {
@@ -118,6 +129,56 @@ TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
     push(2);
     ASSERT_TRUE(wait_for_pulse(2));
     EXPECT_EQ(orders_->forgot, forgot + 2) << "the stage began anew";
+}
+
+TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const auto draw_until_the_jump = [&](std::optional<double> pulse, std::uint64_t jumps) {
+        orders_->draws_next_until_released = true;
+        go_to(pulse, jumps);
+        if (!pulse) push(4);
+        return wait_for([&] { return !orders_->draws_next_until_released; });
+    };
+    go_to(1, 1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    ASSERT_TRUE(draw_until_the_jump(2, 1));
+    int prepared = orders_->prepared;
+    go_to(3, 2);
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(orders_->prepared, prepared + 1);
+    // Of what was given up the preparer has a part: what is shown is not bettered with that.
+    const int taken = orders_->taken;
+    ASSERT_TRUE(draw_until_the_jump(2, 2));
+    go_to(3, 3);
+    ASSERT_TRUE(wait_for([&] { return orders_->taken == taken + 1; }));
+    // A live one that is given up is counted.
+    const std::uint64_t superseded = thread_->books().superseded.sets;
+    ASSERT_TRUE(draw_until_the_jump(std::nullopt, 3));
+    prepared = orders_->prepared;
+    go_to(1, 4);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->prepared, prepared + 1);
+    EXPECT_EQ(thread_->books().superseded.sets, superseded + 1);
+    EXPECT_EQ(thread_->books().faults, 0);
+}
+
+TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const int prepared = orders_->prepared;
+    orders_->draws_next_until_released = true;
+    go_to(2, 1);
+    ASSERT_TRUE(wait_for([&] { return !orders_->draws_next_until_released; }));
+    go_to(1, 2);
+    std::this_thread::sleep_for(50ms);
+    orders_->is_released = true;
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->prepared, prepared + 2);
 }
 
 TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
