@@ -10,6 +10,7 @@
 #include "common/base/pulse_grid.h"
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
+#include "host_app/control/ports/freed_sink.h"
 #include "host_app/desk/operator_window.h"
 #include "host_app/desk/screen_windows.h"
 #include "host_app/live/corridor_watch.h"
@@ -71,7 +72,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         .synthesiser = synthesiser.empty() ? view.synthesiser : synthesiser,
         .quality = QualityWish::parse(quality),
         .source_map = novelty,
-        .outputs = outputs,
+        .outputs = {},
         .encoder = encoder,
         .overwrites = overwrite,
         .contact_sheet = contact_sheet,
@@ -82,6 +83,11 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         settings.format.width_px = wanted.width;
         settings.format.height_px = wanted.height;
     }
+    for (const std::string& url : outputs)
+        if (is_freed_url(url))
+            (void)make_freed_sink(url);
+        else
+            settings.outputs.push_back(url);
     if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
     OutputDesk::check(output_settings(settings));
     (void)find_synthesiser(settings.synthesiser);
@@ -117,10 +123,20 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
                        "Write the last picture (.png, .jpg); of a window, the panels too");
     std::string kinds;
     for (const OutputEntry& entry : output_entries()) kinds += "\n  " + entry.words;
+    kinds += "\n  freed://HOST:PORT (the camera of every tick as FreeD D1; ?camera=1)";
     command
         .add_option(
             "--output", outputs,
             "Put the programme out, clean and at its constant rate; any number of these:" + kinds)
+        ->type_name("URL")
+        ->allow_extra_args(false);
+    std::string ports;
+    for (const PortEntry& entry : port_entries()) ports += "\n  " + entry.words;
+    command
+        .add_option("--control", controls,
+                    "Let others steer (docs/control.md; vantage control lists what they may ask "
+                    "for); any number of these, at this computer only without open=yes:" +
+                        ports)
         ->type_name("URL")
         ->allow_extra_args(false);
     command.add_option("--record", film,
@@ -167,21 +183,25 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
 }
 
 void ShowSession::run(StopSignal& stop) {
+    for (const std::string& url : options.outputs)
+        if (is_freed_url(url)) show.add(make_freed_sink(url));
+    ControlRoom room(options.controls, show);
     if (options.headless)
-        run_headless(stop);
+        run_headless(stop, room);
     else
-        run_in_window(stop);
+        run_in_window(stop, room);
 }
 
 /// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
 /// the names of outputs that failed, a take among them.
-void ShowSession::finish(const CorridorWatch& corridor,
+void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
                          const std::function<ColourImage()>& last_picture) {
     show.finish();
     if (takes) takes->finish();
     LiveReport report = show.report();
     if (takes && takes->state().takes > 0) report.take = takes->state();
     report.played = played;
+    report.ports = room.close();
     report.uncovered = corridor.uncovered_parts();
     if (deck) report.wheels = deck->devices();
     // Where pictures went to the standard output, nothing else may.
@@ -199,7 +219,15 @@ void ShowSession::finish(const CorridorWatch& corridor,
         fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
 }
 
-void ShowSession::run_headless(StopSignal& stop) {
+/// What hands asked for beyond the programme itself.
+void ShowSession::follow_wishes(OutputSwitch& outputs, ControlRoom& room, MonotonicTime now) {
+    const SessionWishes wishes = show.controls().take_wishes();
+    if (takes && wishes.toggle_take) takes->toggle();
+    for (const int number : wishes.outputs) outputs.press(number, now);
+    room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, now);
+}
+
+void ShowSession::run_headless(StopSignal& stop, ControlRoom& room) {
     if (!wait(stop)) return;
     // A disk that is too slow is to be known before the first picture.
     while (takes && takes->state().phase == TakePhase::opening &&
@@ -209,20 +237,22 @@ void ShowSession::run_headless(StopSignal& stop) {
     show.start();
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
+    OutputSwitch outputs(show.outputs());
     ScreenWindows screens(false);
     const std::chrono::milliseconds look(show.outputs().screens().empty() ? 20 : 4);
     while (!show.is_over() && !stop.wait_for(look)) {
+        follow_wishes(outputs, room, MonotonicClock::now());
         screens.follow(show.outputs().screens());
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(corridor, [&] {
+    finish(room, corridor, [&] {
         const auto last = show.state().picture;
         return last->sources ? last->sources->picture : last->picture;
     });
 }
 
-void ShowSession::run_in_window(StopSignal& stop) {
+void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
     // However small the picture, there is room for what an operator reads.
     constexpr double least_width_px = 960;
     const PictureFormat& format = show.settings().format;
@@ -245,8 +275,7 @@ void ShowSession::run_in_window(StopSignal& stop) {
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
         const MonotonicTime now = MonotonicClock::now();
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
-        if (takes && input.toggle_take) takes->toggle();
-        outputs.press(input.toggle_output, now);
+        follow_wishes(outputs, room, now);
         screens.follow(show.outputs().screens());
         show.controls().hands().put(input, now);
         last = now;
@@ -262,7 +291,7 @@ void ShowSession::run_in_window(StopSignal& stop) {
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(corridor, [&] { return window.screenshot(); });
+    finish(room, corridor, [&] { return window.screenshot(); });
 }
 
 }  // namespace vantage

@@ -11,6 +11,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
 #include "host_app/commands/stereoscopic_options.h"
+#include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
 #include "host_app/takes/take_desk.h"
 
@@ -19,7 +20,7 @@ namespace vantage {
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
     std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder, rate;
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
     double seconds = 0;
@@ -50,9 +51,10 @@ struct ShowSession {
     void run(StopSignal& stop);
 
   private:
-    void run_headless(StopSignal& stop);
-    void run_in_window(StopSignal& stop);
-    void finish(const class CorridorWatch& corridor,
+    void run_headless(StopSignal& stop, ControlRoom& room);
+    void run_in_window(StopSignal& stop, ControlRoom& room);
+    void follow_wishes(class OutputSwitch& outputs, ControlRoom& room, MonotonicTime now);
+    void finish(ControlRoom& room, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);
 };
 

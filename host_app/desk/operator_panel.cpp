@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "host_app/control/table/control_command.h"
 #include "host_app/desk/ui_renderer.h"
 
 namespace vantage {
@@ -488,37 +491,30 @@ void draw_help(const UiFonts& fonts) {
     text("Flying the virtual camera");
     ImGui::PopFont();
     ImGui::Spacing();
-    constexpr const char* rows[][2] = {
+    std::vector<std::pair<std::string, const char*>> rows{
         {"left drag, arrow keys", "orbit around the pivot"},
         {"right or middle drag, A D Q E", "shift left, right, down, up"},
         {"wheel, W S", "nearer, farther"},
-        {"Ctrl + wheel, + -", "narrower, wider field of view"},
-        {"1 .. 9", "fly to a shot (at first: what rig 1 .. 9 sees)"},
-        {"Ctrl + 1 .. 9", "keep this view as a shot"},
-        {"R", "back to the start"},
-        {"Space", "freeze the instant and fly on; in the past: stop, play on"},
-        {", .", "a frame back, a frame on, through what is kept of the past"},
-        {"[ ]", "play the past slower, faster: from twice back to twice on"},
-        {"I O U B", "mark in, mark out, no marks, loop between them"},
-        {"Home", "to the in mark"},
-        {"L", "back to live; of a take: normal speed"},
-        {"P", "play or leave the planned move"},
-        {"T", "begin or end a take of what the rigs send"},
-        {"F2", "next synthesiser"},
-        {"F5 .. F12", "begin output 1 .. 8; pressed twice, end it"},
-        {"N", "show which rig each pixel comes from"},
-        {"Tab", "show or hide the panels"},
-        {"F1", "show or hide this help"},
-        {"Esc", "end"}};
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-        for (const auto& row : rows) {
-            ImGui::TableNextRow();
+        {"Ctrl + wheel, + -", "narrower, wider field of view"}};
+    for (const ControlCommand& command : control_commands())
+        if (std::string words = key_words(command); !words.empty())
+            rows.emplace_back(std::move(words), command.does);
+    rows.insert(rows.end(), {{"Tab", "show or hide the panels"},
+                             {"F1", "show or hide this help"},
+                             {"Esc", "end; asks first"}});
+    constexpr int columns = 2;
+    const std::size_t lines = (rows.size() + columns - 1) / columns;
+    if (ImGui::BeginTable("keys", 2 * columns, ImGuiTableFlags_SizingFixedFit)) {
+        for (std::size_t i = 0; i < lines * columns; ++i) {
             ImGui::TableNextColumn();
-            ImGui::PushFont(fonts.strong);
-            text(row[0]);
-            ImGui::PopFont();
+            const std::size_t row = i % columns * lines + i / columns;
+            if (row < rows.size()) {
+                ImGui::PushFont(fonts.strong);
+                text(rows[row].first);
+                ImGui::PopFont();
+            }
             ImGui::TableNextColumn();
-            text(palette::dim, row[1]);
+            if (row < rows.size()) text(palette::dim, rows[row].second);
         }
         ImGui::EndTable();
     }

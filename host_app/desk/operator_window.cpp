@@ -1,6 +1,7 @@
 #include "host_app/desk/operator_window.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numbers>
 
 #define GLFW_INCLUDE_NONE
@@ -10,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/gl/limits.h"
+#include "host_app/control/table/control_command.h"
 
 namespace vantage {
 namespace {
@@ -24,6 +26,27 @@ std::string glfw_reason() {
 }
 
 constexpr double end_asks_s = 3;
+
+/// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
+int glfw_key(std::string_view name) {
+    if (name == "Space") return GLFW_KEY_SPACE;
+    if (name == "Home") return GLFW_KEY_HOME;
+    if (name.size() > 1) return GLFW_KEY_F1 + std::atoi(name.data() + 1) - 1;
+    return name.empty() ? GLFW_KEY_UNKNOWN : name.front();
+}
+
+/// 0: the key does not give the command; else the number that it gives, 1 for one without.
+int number_of_key(const ControlCommand& command, int key, bool with_control) {
+    const int first = glfw_key(command.key.name);
+    const int keys = command.argument == CommandArgument::number ? command.most : 1;
+    if (first == GLFW_KEY_UNKNOWN || key < first || key >= first + keys) return 0;
+    // Only where there are two of one key does it matter whether Ctrl is held.
+    const bool shares_key = std::any_of(
+        control_commands().begin(), control_commands().end(), [&](const ControlCommand& other) {
+            return &other != &command && std::string_view(other.key.name) == command.key.name;
+        });
+    return shares_key && command.key.with_control != with_control ? 0 : key - first + 1;
+}
 
 /// 18 px for 1080 rows.
 float body_font_px(int window_height_px) {
@@ -90,55 +113,21 @@ bool OperatorWindow::held(int key) const { return glfwGetKey(window_.get(), key)
 
 void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
     OperatorWindow& self = *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
-    // Held, these go on from frame to frame.
-    if (action != GLFW_RELEASE && (key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD))
-        self.input_.past_steps += key == GLFW_KEY_COMMA ? -1 : 1;
-    if (action != GLFW_RELEASE && (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET))
-        self.input_.speed_steps += key == GLFW_KEY_LEFT_BRACKET ? -1 : 1;
-    if (action != GLFW_PRESS) return;
-    self.take_key(key, (modifiers & GLFW_MOD_CONTROL) != 0);
+    if (action == GLFW_RELEASE) return;
+    const bool with_control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    for (const ControlCommand& command : control_commands()) {
+        const int number = number_of_key(command, key, with_control);
+        if (number > 0 && (action == GLFW_PRESS || command.key.repeats))
+            apply({&command, static_cast<double>(number)}, self.input_);
+    }
+    if (action == GLFW_PRESS) self.take_key(key);
 }
 
-void OperatorWindow::take_key(int key, bool control) {
+/// Keys that are the window's own.
+void OperatorWindow::take_key(int key) {
     switch (key) {
-        case GLFW_KEY_SPACE:
-            input_.toggle_freeze = !input_.toggle_freeze;
-            break;
-        case GLFW_KEY_R:
-            input_.reset = true;
-            break;
-        case GLFW_KEY_P:
-            input_.toggle_move = !input_.toggle_move;
-            break;
-        case GLFW_KEY_L:
-            input_.to_live = true;
-            break;
-        case GLFW_KEY_I:
-            input_.mark_in = true;
-            break;
-        case GLFW_KEY_O:
-            input_.mark_out = true;
-            break;
-        case GLFW_KEY_U:
-            input_.clear_marks = true;
-            break;
-        case GLFW_KEY_B:
-            input_.toggle_loop = !input_.toggle_loop;
-            break;
-        case GLFW_KEY_HOME:
-            input_.cue = true;
-            break;
-        case GLFW_KEY_T:
-            input_.toggle_take = !input_.toggle_take;
-            break;
-        case GLFW_KEY_N:
-            input_.toggle_novelty = !input_.toggle_novelty;
-            break;
         case GLFW_KEY_F1:
             show_help_ = !show_help_;
-            break;
-        case GLFW_KEY_F2:
-            input_.next_synthesiser = true;
             break;
         case GLFW_KEY_TAB:
             show_panels_ = !show_panels_;
@@ -150,10 +139,7 @@ void OperatorWindow::take_key(int key, bool control) {
             end_asked_until_s_ = glfwGetTime() + end_asks_s;
             break;
         default:
-            if (key >= GLFW_KEY_F5 && key <= GLFW_KEY_F12)
-                input_.toggle_output = key - GLFW_KEY_F5 + 1;
-            if (key < GLFW_KEY_1 || key > GLFW_KEY_9) break;
-            (control ? input_.store_shot : input_.recall_shot) = key - GLFW_KEY_1 + 1;
+            break;
     }
 }
 

@@ -61,7 +61,7 @@ class OperatorWindow {
             : texture(TextureFormat::rgba8, width_px, height_px), target({&texture}) {}
     };
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
-    void take_key(int key, bool control);
+    void take_key(int key);
     static void on_button(GLFWwindow* window, int button, int action, int modifiers);
     static void on_cursor(GLFWwindow* window, double x, double y);
     void take_cursor(double x, double y);

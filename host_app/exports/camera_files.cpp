@@ -1,8 +1,6 @@
 #include "host_app/exports/camera_files.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,48 +16,11 @@ namespace {
 
 constexpr double deg = 180 / std::numbers::pi;
 
-/// 24 bits, the highest first; what does not fit stays at the limit.
-void put_24_bits(std::byte* at, double value) {
-    constexpr double most = (1 << 23) - 1;
-    const auto bits = static_cast<std::uint32_t>(
-        static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most))));
-    at[0] = static_cast<std::byte>(bits >> 16 & 0xff);
-    at[1] = static_cast<std::byte>(bits >> 8 & 0xff);
-    at[2] = static_cast<std::byte>(bits & 0xff);
-}
-
 }  // namespace
 
-PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera) {
-    const Eigen::Vector3d right = world_from_camera.linear().col(0);
-    const Eigen::Vector3d forward = world_from_camera.linear().col(2);
-    PanTiltRoll turn;
-    turn.pan_rad = std::atan2(forward.x(), -forward.z());
-    turn.tilt_rad = std::asin(std::clamp(forward.y(), -1.0, 1.0));
-    const Eigen::Vector3d level(std::cos(turn.pan_rad), 0, std::sin(turn.pan_rad));
-    turn.roll_rad = std::atan2(-right.dot(level.cross(forward)), right.dot(level));
-    return turn;
-}
-
-std::array<std::byte, 29> freed_message(const CameraRecord& camera) {
-    constexpr double steps_a_degree = 32768, steps_a_mm = 64, mm = 1000, per_thousand = 1000;
-    const PanTiltRoll turn = pan_tilt_roll_of(camera.world_from_camera);
-    const Eigen::Vector3d at = camera.world_from_camera.translation();
-    std::array<std::byte, 29> bytes{};
-    bytes[0] = std::byte{0xd1};
-    bytes[1] = std::byte{1};
-    put_24_bits(&bytes[2], turn.pan_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[5], turn.tilt_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[8], turn.roll_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[11], at.x() * mm * steps_a_mm);
-    put_24_bits(&bytes[14], -at.z() * mm * steps_a_mm);
-    put_24_bits(&bytes[17], at.y() * mm * steps_a_mm);
-    put_24_bits(&bytes[20], camera.field_of_view_rad * deg * per_thousand);
-    put_24_bits(&bytes[23], camera.focus_m * mm);
-    unsigned sum = 0x40;
-    for (std::size_t i = 0; i + 1 < bytes.size(); ++i) sum -= std::to_integer<unsigned>(bytes[i]);
-    bytes.back() = static_cast<std::byte>(sum & 0xff);
-    return bytes;
+std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera) {
+    return encode_freed(
+        freed_camera({camera.world_from_camera, camera.field_of_view_rad, camera.focus_m}, 1));
 }
 
 void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> cameras,

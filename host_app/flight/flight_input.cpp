@@ -16,6 +16,7 @@ void FlightInput::add(const FlightInput& other) {
     toggle_move ^= other.toggle_move;
     toggle_novelty ^= other.toggle_novelty;
     toggle_take ^= other.toggle_take;
+    toggle_tracking ^= other.toggle_tracking;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
@@ -30,6 +31,29 @@ void FlightInput::add(const FlightInput& other) {
     if (other.recall_shot != 0) recall_shot = other.recall_shot;
     if (other.toggle_output != 0) toggle_output = other.toggle_output;
     if (other.store_shot != 0) store_shot = other.store_shot;
+}
+
+bool FlightInput::commands_twice(const FlightInput& other) const {
+    const auto both = [&](auto FlightInput::*what) { return this->*what != 0 && other.*what != 0; };
+    return both(&FlightInput::toggle_freeze) || both(&FlightInput::toggle_move) ||
+           both(&FlightInput::toggle_novelty) || both(&FlightInput::toggle_take) ||
+           both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_loop) ||
+           both(&FlightInput::reset) || both(&FlightInput::next_synthesiser) ||
+           both(&FlightInput::next_wheel_mode) || both(&FlightInput::to_live) ||
+           both(&FlightInput::mark_in) || both(&FlightInput::mark_out) ||
+           both(&FlightInput::clear_marks) || both(&FlightInput::cue) ||
+           both(&FlightInput::recall_shot) || both(&FlightInput::store_shot) ||
+           both(&FlightInput::toggle_output);
+}
+
+FlightInput FlightInput::turns() const {
+    FlightInput turns;
+    for (const auto what : {&FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
+                            &FlightInput::pan_right_widths, &FlightInput::pan_up_widths,
+                            &FlightInput::dolly, &FlightInput::zoom, &FlightInput::wheel_steps,
+                            &FlightInput::shuttle_s, &FlightInput::past_steps})
+        turns.*what = this->*what;
+    return turns;
 }
 
 }  // namespace vantage

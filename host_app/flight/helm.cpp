@@ -55,6 +55,11 @@ void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& st
     camera_.keep_within(corridor_);
 }
 
+void Helm::stand_at(const OrbitView& view) {
+    leave_move();
+    camera_.jump_to(constrained(view, limits_));
+}
+
 OrbitView Helm::view() const {
     if (!on_move_) return camera_.view();
     OrbitView on_move = move_->at(move_s_);

@@ -32,6 +32,9 @@ class Helm {
     /// From now on within these limits and, unless it is nothing, as if it had begun at `start`.
     void settle(const FlightLimits& limits, const std::optional<OrbitView>& start);
 
+    /// From now on it stands there, until somebody flies on.
+    void stand_at(const OrbitView& view);
+
     /// From now on hands fly within this corridor; null: anywhere. A planned move is not held up.
     void keep_within(std::shared_ptr<const Corridor> corridor) {
         corridor_ = corridor;

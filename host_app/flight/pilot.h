@@ -11,6 +11,8 @@ namespace vantage {
 /// What hands and plans want of one tick.
 struct PilotStep {
     OrbitView view;
+    /// Where what flies is no hand on an orbit: the camera, of which `view` is the nearest orbit.
+    std::optional<CameraState> camera{};
     bool next_synthesiser = false, toggle_source_map = false;
     TransportInput time{};
     std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in this step

@@ -416,6 +416,14 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                   {"fault", wheel.fault},
                                   {"reports", wheel.reports},
                                   {"unread", wheel.unread}});
+    for (const PortState& port : report.ports)
+        json["control"].push_back({{"name", port.name},
+                                   {"obeyed", port.books.obeyed},
+                                   {"unknown", port.books.unknown},
+                                   {"malformed", port.books.malformed},
+                                   {"dropped", port.books.dropped},
+                                   {"last_refusal", port.books.last_refusal},
+                                   {"failure", port.failure}});
     if (report.take) json["take"] = take_json(*report.take);
     for (const OutputState& output : report.outputs)
         if (!output.film.empty() && !json.contains("film"))
@@ -472,6 +480,12 @@ std::string results_text(const LiveReport& report) {
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
                             wheel.model, wheel.place.path, wheel.reports, wheel.unread,
                             wheel.fault.empty() ? "" : "; ", wheel.fault);
+    for (const PortState& port : report.ports)
+        text += fmt::format(
+            "control: {}, {} obeyed, {} unknown, {} malformed, {} more than may come{}{}\n",
+            port.name, counted(port.books.obeyed, "message"), port.books.unknown,
+            port.books.malformed, port.books.dropped,
+            port.failure.empty() ? "" : "; failed: ", port.failure);
     if (report.take) text += take_text(*report.take);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;

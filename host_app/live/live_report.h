@@ -12,6 +12,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/ports/control_desk.h"
 #include "host_app/flight/corridor_books.h"
 #include "host_app/flight/move_coverage.h"
 #include "host_app/flight/orbit_view.h"
@@ -68,6 +69,7 @@ struct LiveReport {
     std::string played;             ///< the take that was played; empty: the stage was live
 
     std::vector<OutputState> outputs;
+    std::vector<PortState> ports;  ///< that others steered by
 };
 
 /// The steps of a frame's way, by name, of which there are samples: at the rigs as the worst of

@@ -72,6 +72,7 @@ class LiveShow {
 
     const LiveSettings& settings() const { return settings_; }
     OutputDesk& outputs() { return outputs_; }
+    const OutputDesk& outputs() const { return outputs_; }
     FlightControls& controls() { return controls_; }
     const FlightControls& controls() const { return controls_; }
     /// Null until the stage is known.

@@ -44,8 +44,9 @@ std::vector<std::string> as_strings(std::initializer_list<std::string_view> word
 
 }  // namespace
 
-OutputUrl OutputUrl::parse(const std::string& text) {
+OutputUrl OutputUrl::parse(const std::string& text, const std::string& kind) {
     OutputUrl url;
+    url.kind = kind;
     const std::size_t mark = text.find('?');
     const std::string front = text.substr(0, mark);
     url.shown = front;
@@ -72,9 +73,9 @@ OutputUrl OutputUrl::parse(const std::string& text) {
         // A secret is not to stand in the sentence about it either.
         if (equals == std::string::npos || name.empty())
             fail(
-                "the output {} has an option without a value: options are NAME=VALUE, with & "
+                "the {} {} has an option without a value: options are NAME=VALUE, with & "
                 "between them",
-                front);
+                kind, front);
         url.options[name] = decoded(std::string_view(pair).substr(equals + 1), front);
         url.shown += fmt::format("{}{}={}", at == mark + 1 ? "?" : "&", name,
                                  name == "passphrase" ? "***" : pair.substr(equals + 1));
@@ -86,8 +87,8 @@ OutputUrl OutputUrl::parse(const std::string& text) {
 void OutputUrl::require_options_of(std::initializer_list<std::string_view> known) const {
     for (const auto& [name, value] : options) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        if (known.size() == 0) fail("the output {} takes no options", shown);
-        fail("the output {} has no option '{}'; {}", shown, name,
+        if (known.size() == 0) fail("the {} {} takes no options", kind, shown);
+        fail("the {} {} has no option '{}'; {}", kind, shown, name,
              suggest_name(name, as_strings(known)));
     }
 }
@@ -121,8 +122,8 @@ std::optional<int> OutputUrl::number(const std::string& name, int least, int mos
     const auto [end, error] = std::from_chars(text->data(), last, value);
     const std::string_view rest(end, last);
     if (error != std::errc() || !(rest.empty() || rest == unit) || value < least || value > most)
-        fail("the output {}: {} is {} to {}{}{}", shown, name, least, most, unit.empty() ? "" : " ",
-             unit);
+        fail("the {} {}: {} is {} to {}{}{}", kind, shown, name, least, most,
+             unit.empty() ? "" : " ", unit);
     return value;
 }
 
@@ -130,7 +131,7 @@ std::string OutputUrl::choice(const std::string& name,
                               std::initializer_list<std::string_view> known) const {
     const std::string value = option(name).value_or(std::string(*known.begin()));
     if (std::find(known.begin(), known.end(), value) == known.end())
-        fail("the output {}: {} is {}, not '{}'", shown, name, fmt::join(known, " or "), value);
+        fail("the {} {}: {} is {}, not '{}'", kind, shown, name, fmt::join(known, " or "), value);
     return value;
 }
 
@@ -143,9 +144,9 @@ NetworkPlace network_place_of(const OutputUrl& url) {
     }
     if (endpoint.host == "*" || endpoint.port == "*")
         fail(
-            "the output {} names no place: write {}://HOST:PORT, with 0.0.0.0 for all of this "
+            "the {} {} names no place: write {}://HOST:PORT, with 0.0.0.0 for all of this "
             "computer's addresses",
-            url.shown, url.scheme);
+            url.kind, url.shown, url.scheme);
     return {endpoint.host, std::stoi(endpoint.port), endpoint.loopback};
 }
 

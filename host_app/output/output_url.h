@@ -16,9 +16,10 @@ struct OutputUrl {
     std::string place;
     std::map<std::string, std::string> options;
     std::string shown;  ///< as it was written, but for what is secret
+    std::string kind;   ///< what sentences about it call it
 
     /// Throws Error for what is no such thing.
-    static OutputUrl parse(const std::string& text);
+    static OutputUrl parse(const std::string& text, const std::string& kind = "output");
 
     /// Throws Error naming the option that is none of these.
     void require_options_of(std::initializer_list<std::string_view> known) const;

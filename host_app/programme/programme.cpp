@@ -174,7 +174,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         retired_still_ = std::move(still_maker_);
         begun_still_.reset();
     }
-    const CameraState camera = step.view.camera();
+    const CameraState camera = step.camera.value_or(step.view.camera());
     if (!is_same_view(camera, camera_) || step.time.is_any() || transport_.is_moving())
         changed_ = now;
     view_ = step.view;

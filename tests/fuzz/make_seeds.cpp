@@ -169,6 +169,18 @@ target_m = [0.0, 1.0, 0.0]
                 "world_from_camera = [[1,0,0,0],[0,1,0,0],[0,0,1,0]]\n");
 }
 
+void write_controls(const Seeds& seeds) {
+    using namespace std::string_view_literals;
+    seeds.write(
+        "osc_message", "numbers",
+        "/vantage/shot\0\0\0,ihfdTFs\0\0\0\0\0\0\0\3\0\0\0\0\0\0\0\1\x3f\x80\0\0\x3f\xf0\0\0\0\0\0\0go\0\0"sv);
+    seeds.write("osc_message", "bundle",
+                "#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x14/vantage/live\0\0\0,\0\0\0"sv);
+    seeds.write(
+        "freed_message", "d1",
+        "\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);
+}
+
 void write_wheels(const Seeds& seeds) {
     using namespace std::string_view_literals;
     seeds.write("jog_report", "contour", "\5\0\5\0\0\0\5\7\6\0\x10\1"sv);
@@ -276,6 +288,7 @@ int main(int argc, char** argv) {
         vantage::write_pictures(seeds);
         vantage::write_messages(seeds);
         vantage::write_configurations(seeds);
+        vantage::write_controls(seeds);
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);

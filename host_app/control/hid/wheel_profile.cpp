@@ -25,28 +25,7 @@ struct Named {
     const char* name;
     Action action;
 };
-constexpr Named<AxisAction> axis_actions[] = {
-    {"nothing", AxisAction::nothing}, {"wheel", AxisAction::wheel},
-    {"shuttle", AxisAction::shuttle}, {"orbit", AxisAction::orbit},
-    {"elevate", AxisAction::elevate}, {"pan_right", AxisAction::pan_right},
-    {"pan_up", AxisAction::pan_up},   {"dolly", AxisAction::dolly},
-    {"zoom", AxisAction::zoom}};
-constexpr Named<ButtonAction> button_actions[] = {{"nothing", ButtonAction::nothing},
-                                                  {"store", ButtonAction::store},
-                                                  {"freeze", ButtonAction::freeze},
-                                                  {"mode", ButtonAction::mode},
-                                                  {"play", ButtonAction::play},
-                                                  {"reset", ButtonAction::reset},
-                                                  {"synthesiser", ButtonAction::synthesiser},
-                                                  {"live", ButtonAction::live},
-                                                  {"mark_in", ButtonAction::mark_in},
-                                                  {"mark_out", ButtonAction::mark_out},
-                                                  {"no_marks", ButtonAction::no_marks},
-                                                  {"loop", ButtonAction::loop},
-                                                  {"cue", ButtonAction::cue},
-                                                  {"slower", ButtonAction::slower},
-                                                  {"faster", ButtonAction::faster}};
-constexpr int last_shot = 9;
+constexpr const char *nothing = "nothing", *shuttle = "shuttle", *store_next = "store";
 constexpr Named<ReportField::Kind> field_kinds[] = {{"delta", ReportField::Kind::delta},
                                                     {"counter", ReportField::Kind::counter},
                                                     {"axis", ReportField::Kind::axis},
@@ -78,15 +57,37 @@ Action read_named(TomlTable& table, std::string_view key, const Named<Action> (&
     return found ? *found : Action{};
 }
 
-ButtonMap read_button(TomlTable& table, const std::string& control, const std::string& action) {
-    constexpr std::string_view shot = "shot ";
-    if (action.size() == shot.size() + 1 && action.starts_with(shot)) {
-        const int number = action.back() - '0';
-        if (number >= 1 && number <= last_shot) return {ButtonAction::shot, number};
+/// An axis is turned by every command with steps, or is a shuttle.
+void read_axis_action(TomlTable& table, AxisMap& map) {
+    constexpr std::string_view key = "action";
+    std::string name;
+    table.require(key);
+    table.read(key, name);
+    if (!table.has(key) || name == nothing) return;
+    if (name == shuttle) {
+        map.action = AxisAction::shuttle;
+        return;
     }
-    if (const ButtonAction* found = find_named(button_actions, action)) return {*found, 0};
-    std::vector<std::string> names = names_of(button_actions);
-    for (int n = 1; n <= last_shot; ++n) names.push_back(fmt::format("shot {}", n));
+    std::vector<std::string> names{nothing, shuttle};
+    for (const ControlCommand& command : control_commands()) {
+        if (command.argument != CommandArgument::steps) continue;
+        if (name == command.name) {
+            map.action = AxisAction::command;
+            map.command = &command;
+            return;
+        }
+        names.emplace_back(command.name);
+    }
+    table.refuse(key, fmt::format("must not be '{}'; {}", name, suggest_name(name, names)));
+}
+
+ButtonMap read_button(TomlTable& table, const std::string& control, const std::string& action) {
+    if (action == nothing) return {};
+    if (action == store_next) return {ButtonAction::store_next, {}};
+    if (const std::optional<CommandCall> call = parse_button_command(action))
+        return {ButtonAction::command, *call};
+    std::vector<std::string> names = button_commands();
+    names.insert(names.end(), {nothing, store_next});
     table.refuse(control, fmt::format("must not be '{}'; {}", action, suggest_name(action, names)));
 }
 
@@ -176,7 +177,7 @@ WheelProfile read_members(TomlTable& top) {
     top.read_named_tables("axes", [&](const std::string& name, TomlTable& table) {
         check_control(table, "action", name, false, controls);
         AxisMap map;
-        map.action = read_named(table, "action", axis_actions);
+        read_axis_action(table, map);
         if (map.action == AxisAction::shuttle && !has_control(controls, name, JogKind::axis))
             table.refuse("action",
                          "must not be 'shuttle' for a control without a rest; 'wheel' "

@@ -8,24 +8,20 @@
 
 #include "host_app/control/hid/described_decoder.h"
 #include "host_app/control/hid/jog_family.h"
+#include "host_app/control/table/control_command.h"
 
 namespace vantage {
 
 /// What a turned or pushed control moves.
 enum class AxisAction {
     nothing,
-    wheel,      ///< steps: along the move, around the orbit or through the past, as the mode says
-    shuttle,    ///< speed of the same, spring-centred
-    orbit,      ///< around the pivot, positive to the camera's right
-    elevate,    ///< positive up
-    pan_right,  ///< shifts camera and pivot
-    pan_up,
-    dolly,  ///< positive nearer
-    zoom,   ///< positive narrower
+    shuttle,  ///< speed of what the wheel drives, spring-centred
+    command,  ///< one of those with steps
 };
 
 struct AxisMap {
     AxisAction action = AxisAction::nothing;
+    const ControlCommand* command = nullptr;  ///< of AxisAction::command
     double dead_zone = 0;    ///< of an axis: nearer to its rest than this it is at rest; 0..0.9
     double sensitivity = 1;  ///< factor
     bool inverted = false;
@@ -33,26 +29,13 @@ struct AxisMap {
 
 enum class ButtonAction {
     nothing,
-    shot,   ///< flies to shot `number`; after `store` it keeps the view as that shot
-    store,  ///< the next shot button stores
-    freeze,
-    mode,         ///< next of what wheel and shuttle drive
-    play,         ///< plays or leaves the planned move
-    reset,        ///< back to the start
-    synthesiser,  ///< the next one
-    live,         ///< out of the past, or of a frozen instant
-    mark_in,
-    mark_out,
-    no_marks,
-    loop,  ///< plays between the marks again and again, or no more
-    cue,   ///< to the in mark
-    slower,
-    faster,  ///< to the next speed of the past
+    store_next,  ///< the next shot button stores
+    command,
 };
 
 struct ButtonMap {
     ButtonAction action = ButtonAction::nothing;
-    int number = 0;  ///< of a shot, 1..9
+    CommandCall call = {};  ///< of ButtonAction::command; a shot stores after `store_next`
 };
 
 /// What a wheel's controls do, and for a wheel that no family knows how its reports are read. A

@@ -27,6 +27,36 @@ TEST(HandsBox, AddsUpWhatComesAndKnowsTheEarliest) {
     EXPECT_FALSE(box.take().input.is_any()) << "every input is taken once";
 }
 
+TEST(HandsBox, KeepsACommandThatIsGivenAgainForTheNextStep) {
+    HandsBox box;
+    const MonotonicTime start{1h};
+    EXPECT_TRUE(box.put({.toggle_output = 1}, start));
+    EXPECT_TRUE(box.put({.orbit_azimuth_rad = 0.1, .toggle_output = 2}, start + 1ms));
+    EXPECT_TRUE(box.put({.orbit_azimuth_rad = 0.2, .mark_in = true}, start + 2ms));
+    EXPECT_EQ(box.take().input.toggle_output, 1);
+    const HandsBox::Taken second = box.take();
+    EXPECT_EQ(second.input.toggle_output, 2);
+    EXPECT_TRUE(second.input.mark_in);
+    EXPECT_NEAR(second.input.orbit_azimuth_rad, 0.3, 1e-12);
+    EXPECT_EQ(second.since, start + 1ms);
+}
+
+TEST(HandsBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
+    HandsBox box;
+    std::size_t left_out = 0;
+    for (int i = 0; i < 1000; ++i)
+        left_out += box.put({.orbit_azimuth_rad = 0.001, .toggle_freeze = true}, {}) ? 0 : 1;
+    EXPECT_EQ(left_out, 1000 - HandsBox::most_waiting);
+    double turned_rad = 0;
+    for (std::size_t i = 0; i < HandsBox::most_waiting; ++i) {
+        const FlightInput input = box.take().input;
+        EXPECT_TRUE(input.toggle_freeze);
+        turned_rad += input.orbit_azimuth_rad;
+    }
+    EXPECT_NEAR(turned_rad, 1.0, 1e-9);
+    EXPECT_FALSE(box.take().since);
+}
+
 /// A wheel in a pretended socket, and the steps that come of turning it.
 class FlightControlsTest : public testing::Test {
   protected:
@@ -258,6 +288,45 @@ TEST(FlightControlsInACorridor, FreeFlightGoesBeyondAndSaysSo) {
     EXPECT_EQ(books.now->loss, CoverageLoss::aside);
     EXPECT_GT(books.beyond_s, 1);
     EXPECT_EQ(books.least_share, books.now->share);
+}
+
+TEST_F(FlightControlsTest, GivesTheSessionWhatIsNotTheProgrammesToDo) {
+    controls_.hands().put({.toggle_take = true, .toggle_output = 2}, MonotonicTime{1h});
+    EXPECT_FALSE(controls_.take_wishes().toggle_take) << "no step has taken it yet";
+    step();
+    controls_.hands().put({.toggle_output = 1}, MonotonicTime{1h});
+    step();
+    const SessionWishes wishes = controls_.take_wishes();
+    EXPECT_TRUE(wishes.toggle_take);
+    EXPECT_EQ(wishes.outputs, (std::vector<int>{2, 1}));
+    EXPECT_TRUE(controls_.take_wishes().outputs.empty()) << "every wish is given once";
+}
+
+TEST_F(FlightControlsTest, ATrackedCameraFliesWithoutAJumpUntilAHandSteers) {
+    CameraState tracked = step().view.camera();
+    tracked.world_from_camera.translation() += Eigen::Vector3d(1, 0, 0);
+    const auto distance = [&](const PilotStep& step) {
+        return (step.camera.value_or(step.view.camera()).world_from_camera.translation() -
+                tracked.world_from_camera.translation())
+            .norm();
+    };
+    PilotStep now = step();
+    for (double last = distance(now); last > 1e-9; last = distance(now)) {
+        controls_.tracked().put(tracked, MonotonicClock::now());
+        now = step();
+        ASSERT_LE(last - distance(now), 0.06) << "no jump";
+        ASSERT_LE(distance(now), last);
+        EXPECT_TRUE(controls_.lines().is_tracked);
+    }
+    turn(5);
+    controls_.tracked().put(tracked, MonotonicClock::now());
+    now = step();
+    EXPECT_FALSE(controls_.lines().is_tracked) << "a hand has taken over";
+    EXPECT_LT(distance(now), 0.1) << "from where it was";
+    controls_.hands().put({.toggle_tracking = true}, MonotonicTime{1h});
+    controls_.tracked().put(tracked, MonotonicClock::now());
+    step();
+    EXPECT_TRUE(controls_.lines().is_tracked);
 }
 
 }  // namespace

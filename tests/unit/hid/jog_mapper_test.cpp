@@ -14,20 +14,32 @@ constexpr double deg = std::numbers::pi / 180;
 class JogMapperTest : public testing::Test {
   protected:
     JogMapperTest() {
-        profile_->axes = {
-            {"jog", {.action = AxisAction::wheel}},
-            {"ring", {.action = AxisAction::shuttle}},
-            {"dial", {.action = AxisAction::orbit, .sensitivity = 2, .inverted = true}},
-            {"x", {.action = AxisAction::pan_right, .dead_zone = 0.2}}};
-        profile_->buttons = {
-            {"b1", {ButtonAction::shot, 3}},        {"b2", {ButtonAction::store, 0}},
-            {"b3", {ButtonAction::freeze, 0}},      {"b4", {ButtonAction::mode, 0}},
-            {"b5", {ButtonAction::play, 0}},        {"b6", {ButtonAction::reset, 0}},
-            {"b7", {ButtonAction::synthesiser, 0}}, {"b8", {ButtonAction::nothing, 0}},
-            {"b10", {ButtonAction::live, 0}},       {"in", {ButtonAction::mark_in, 0}},
-            {"out", {ButtonAction::mark_out, 0}},   {"none", {ButtonAction::no_marks, 0}},
-            {"loop", {ButtonAction::loop, 0}},      {"cue", {ButtonAction::cue, 0}},
-            {"slower", {ButtonAction::slower, 0}},  {"faster", {ButtonAction::faster, 0}}};
+        const auto turns = [](const char* name) {
+            return AxisMap{.action = AxisAction::command, .command = find_command(name)};
+        };
+        profile_->axes = {{"jog", turns("wheel")},
+                          {"ring", {.action = AxisAction::shuttle}},
+                          {"dial", turns("orbit")},
+                          {"x", turns("pan_right")}};
+        profile_->axes["dial"].sensitivity = 2;
+        profile_->axes["dial"].inverted = true;
+        profile_->axes["x"].dead_zone = 0.2;
+        profile_->buttons = {{"b2", {ButtonAction::store_next, {}}}, {"b8", {}}};
+        for (const auto& [button, words] : {std::pair("b1", "shot 3"),
+                                            {"b3", "freeze"},
+                                            {"b4", "mode"},
+                                            {"b5", "play"},
+                                            {"b6", "reset"},
+                                            {"b7", "synthesiser"},
+                                            {"b10", "live"},
+                                            {"in", "mark_in"},
+                                            {"out", "mark_out"},
+                                            {"none", "no_marks"},
+                                            {"loop", "loop"},
+                                            {"cue", "cue"},
+                                            {"slower", "slower"},
+                                            {"faster", "faster"}})
+            profile_->buttons[button] = {ButtonAction::command, *parse_button_command(words)};
     }
     void take(const JogEvent& event, const char* path = "/dev/hidraw0") {
         mapper_.take({DeckEvent::Kind::control, path, profile_, event, {}, {}});

@@ -87,8 +87,10 @@ TEST(WheelProfile, ReadsMapsOfAxesAndButtons) {
     EXPECT_EQ(ring.dead_zone, 0.1);
     EXPECT_EQ(ring.sensitivity, 2);
     EXPECT_TRUE(ring.inverted);
-    EXPECT_EQ(profile.buttons.at("b12").action, ButtonAction::shot);
-    EXPECT_EQ(profile.buttons.at("b12").number, 9);
+    const ButtonMap b12 = profile.buttons.at("b12");
+    ASSERT_EQ(b12.action, ButtonAction::command);
+    EXPECT_STREQ(b12.call.command->name, "shot");
+    EXPECT_EQ(b12.call.argument, 9);
 }
 
 TEST(DescribedWheel, ReadsCountersAxesButtonsAndDeltasFromTheirBits) {

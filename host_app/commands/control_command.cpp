@@ -1,0 +1,30 @@
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/base/command.h"
+#include "host_app/control/table/control_words.h"
+
+namespace vantage {
+
+CommandEntry control_command_entry() {
+    return {[](CLI::App& program) {
+        auto json = std::make_shared<bool>(false);
+        CLI::App* command = program.add_subcommand(
+            "control", "List the commands that a show takes, whatever the hand, and its lamps");
+        command->add_flag("--json", *json, "Write them as one JSON object");
+        command->footer(
+            "Keys, jog maps, OSC and RossTalk are views of this one list; see vantage live "
+            "--control.");
+        command->callback([json] {
+            if (*json)
+                std::cout << control_json().dump() << '\n';
+            else
+                std::cout << command_table() << '\n' << lamp_table();
+        });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,127 @@
+#include "host_app/control/freed/freed_message.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+namespace {
+
+constexpr double deg = 180 / std::numbers::pi;
+constexpr double steps_a_degree = 32768, steps_a_mm = 64, mm = 1000, per_thousand = 1000;
+constexpr std::byte type_d1{0xd1};
+
+/// 24 bits, the highest first; what does not fit stays at the limit.
+void put_24_bits(std::byte* at, double value, double most = (1 << 23) - 1) {
+    const auto bits = static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most))));
+    at[0] = static_cast<std::byte>(bits >> 16 & 0xff);
+    at[1] = static_cast<std::byte>(bits >> 8 & 0xff);
+    at[2] = static_cast<std::byte>(bits & 0xff);
+}
+
+std::uint32_t unsigned_24_bits(const std::byte* at) {
+    return std::to_integer<std::uint32_t>(at[0]) << 16 |
+           std::to_integer<std::uint32_t>(at[1]) << 8 | std::to_integer<std::uint32_t>(at[2]);
+}
+
+double signed_24_bits(const std::byte* at) {
+    const auto bits = static_cast<std::int32_t>(unsigned_24_bits(at));
+    return bits >= 1 << 23 ? bits - (1 << 24) : bits;
+}
+
+std::byte checksum_of(std::span<const std::byte> message) {
+    unsigned sum = 0x40;
+    for (const std::byte byte : message.first(freed_bytes - 1))
+        sum -= std::to_integer<unsigned>(byte);
+    return static_cast<std::byte>(sum & 0xff);
+}
+
+}  // namespace
+
+PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera) {
+    const Eigen::Vector3d right = world_from_camera.linear().col(0);
+    const Eigen::Vector3d forward = world_from_camera.linear().col(2);
+    PanTiltRoll turn;
+    turn.pan_rad = std::atan2(forward.x(), -forward.z());
+    turn.tilt_rad = std::asin(std::clamp(forward.y(), -1.0, 1.0));
+    const Eigen::Vector3d level(std::cos(turn.pan_rad), 0, std::sin(turn.pan_rad));
+    turn.roll_rad = std::atan2(-right.dot(level.cross(forward)), right.dot(level));
+    return turn;
+}
+
+Eigen::Matrix3d turned(const PanTiltRoll& turn) {
+    const Eigen::Vector3d forward(std::sin(turn.pan_rad) * std::cos(turn.tilt_rad),
+                                  std::sin(turn.tilt_rad),
+                                  -std::cos(turn.pan_rad) * std::cos(turn.tilt_rad));
+    const Eigen::Vector3d level(std::cos(turn.pan_rad), 0, std::sin(turn.pan_rad));
+    const Eigen::Vector3d right =
+        std::cos(turn.roll_rad) * level - std::sin(turn.roll_rad) * level.cross(forward);
+    Eigen::Matrix3d rotation;
+    rotation << right, forward.cross(right), forward;
+    return rotation;
+}
+
+std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera) {
+    const PanTiltRoll turn = pan_tilt_roll_of(camera.world_from_camera);
+    const Eigen::Vector3d at = camera.world_from_camera.translation();
+    std::array<std::byte, freed_bytes> bytes{};
+    bytes[0] = type_d1;
+    bytes[1] = std::byte{camera.id};
+    put_24_bits(&bytes[2], turn.pan_rad * deg * steps_a_degree);
+    put_24_bits(&bytes[5], turn.tilt_rad * deg * steps_a_degree);
+    put_24_bits(&bytes[8], turn.roll_rad * deg * steps_a_degree);
+    put_24_bits(&bytes[11], at.x() * mm * steps_a_mm);
+    put_24_bits(&bytes[14], -at.z() * mm * steps_a_mm);
+    put_24_bits(&bytes[17], at.y() * mm * steps_a_mm);
+    constexpr double most_of_lens = (1 << 24) - 1;
+    put_24_bits(&bytes[20], camera.zoom, most_of_lens);
+    put_24_bits(&bytes[23], camera.focus, most_of_lens);
+    bytes.back() = checksum_of(bytes);
+    return bytes;
+}
+
+std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
+    if (message.size() != freed_bytes || message[0] != type_d1 ||
+        message.back() != checksum_of(message))
+        return std::nullopt;
+    const auto angle_rad = [&](int at) {
+        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_a_degree / deg;
+    };
+    const auto metres = [&](int at) {
+        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_a_mm / mm;
+    };
+    const PanTiltRoll turn{angle_rad(2), angle_rad(5), angle_rad(8)};
+    constexpr double zenith_rad = std::numbers::pi / 2;
+    if (std::abs(turn.tilt_rad) > zenith_rad) return std::nullopt;
+    FreedCamera camera;
+    camera.id = std::to_integer<std::uint8_t>(message[1]);
+    camera.world_from_camera.linear() = turned(turn);
+    camera.world_from_camera.translation() = Eigen::Vector3d(metres(11), metres(17), -metres(14));
+    camera.zoom = unsigned_24_bits(&message[20]);
+    camera.focus = unsigned_24_bits(&message[23]);
+    return camera;
+}
+
+FreedCamera freed_camera(const CameraState& camera, std::uint8_t id) {
+    const auto lens = [](double value) {
+        constexpr double most = (1 << 24) - 1;
+        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, most)));
+    };
+    return {id, camera.world_from_camera, lens(camera.field_of_view_rad * deg * per_thousand),
+            lens(camera.focus_m * mm)};
+}
+
+std::optional<double> freed_field_of_view_rad(const FreedCamera& camera) {
+    const double angle_rad = camera.zoom / per_thousand / deg;
+    const FlightLimits limits;
+    if (angle_rad < limits.min_field_of_view_rad || angle_rad > limits.max_field_of_view_rad)
+        return std::nullopt;
+    return angle_rad;
+}
+
+}  // namespace vantage

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "host_app/flight/camera_state.h"
+
+namespace vantage {
+
+/// Which way a camera looks, as operators say it: about the stage's vertical, to the right; up;
+/// clockwise as seen from behind it.
+struct PanTiltRoll {
+    double pan_rad = 0, tilt_rad = 0, roll_rad = 0;
+};
+/// Pan 0 looks along the stage's -z.
+PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera);
+/// The rotation that looks so.
+Eigen::Matrix3d turned(const PanTiltRoll& turn);
+
+/// A camera in a FreeD message of type D1 (Radamec, 1997): x is the stage's x, y its -z, height its
+/// y.
+struct FreedCamera {
+    std::uint8_t id = 1;
+    Pose world_from_camera = Pose::Identity();
+    std::uint32_t zoom = 0, focus = 0;  ///< 24 bits, of the lens's encoders
+};
+
+constexpr std::size_t freed_bytes = 29;
+std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera);
+/// Nothing: it is no D1, or its checksum is another, or it looks to where there is no direction.
+std::optional<FreedCamera> decode_freed(std::span<const std::byte> message);
+
+/// As Vantage says a lens: zoom is the horizontal field of view in thousandths of a degree, focus
+/// millimetres.
+FreedCamera freed_camera(const CameraState& camera, std::uint8_t id);
+
+/// A field of view from a message whose zoom is said that way; nothing: it is no lens that Vantage
+/// has.
+std::optional<double> freed_field_of_view_rad(const FreedCamera& camera);
+
+}  // namespace vantage

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "common/base/time.h"
+#include "host_app/control/flight_controls.h"
+#include "host_app/control/table/lamp.h"
+
+namespace vantage {
+
+/// What the session shows, from its thread to those of the ports.
+class LampBoard {
+  public:
+    void show(ShowLamps lamps) {
+        const std::lock_guard lock(mutex_);
+        shown_ = std::move(lamps);
+    }
+    ShowLamps shown() const {
+        const std::lock_guard lock(mutex_);
+        return shown_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    ShowLamps shown_;
+};
+
+/// What the vision mixer says of this camera.
+class Tally {
+  public:
+    struct State {
+        bool programme = false, preview = false;
+        bool operator==(const State&) const = default;
+    };
+    void put(State state) {
+        const std::lock_guard lock(mutex_);
+        state_ = state;
+    }
+    State state() const {
+        const std::lock_guard lock(mutex_);
+        return state_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    State state_;
+};
+
+/// What a port may act on and tell of. All of it takes calls from any thread and outlives the
+/// ports.
+struct ControlBench {
+    HandsBox& hands;
+    TrackedCamera& tracked;
+    Tally& tally;
+    const LampBoard& lamps;
+};
+
+}  // namespace vantage

@@ -1,0 +1,91 @@
+#include <numbers>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "host_app/control/freed/freed_message.h"
+#include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/udp_socket.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int most_datagrams_a_look = 256;
+constexpr int most_camera_id = 255, least_angle_deg = 5, most_angle_deg = 115;
+/// Where a message does not say how far away its subject is.
+constexpr double usual_focus_m = 4.5;
+
+class FreedPort final : public ControlPort {
+  public:
+    FreedPort(const OutputUrl& url, const ControlBench& bench)
+        : bench_(bench),
+          socket_(UdpSocket::bound(listening_place_of(url), "control " + url.shown)) {
+        url.require_options_of({"open", "camera", "fov"});
+        camera_ = url.number("camera", 0, most_camera_id);
+        if (const auto angle_deg = url.number("fov", least_angle_deg, most_angle_deg))
+            field_of_view_rad_ = *angle_deg * std::numbers::pi / 180;
+    }
+
+    void serve(std::chrono::milliseconds most) override {
+        std::optional<UdpSocket::Datagram> datagram = socket_.receive(most);
+        int looked_at = 0;
+        for (; datagram && looked_at < most_datagrams_a_look; ++looked_at) {
+            take(datagram->bytes);
+            datagram = socket_.receive(0ms);
+        }
+        if (looked_at == most_datagrams_a_look) std::this_thread::sleep_for(10ms);
+        books_.dropped += socket_.overrun() - seen_overrun_;
+        seen_overrun_ = socket_.overrun();
+    }
+
+  private:
+    void take(std::span<const std::byte> bytes) {
+        const std::optional<FreedCamera> message = decode_freed(bytes);
+        if (!message) {
+            refuse(&PortBooks::malformed,
+                   fmt::format("{} bytes that are no FreeD D1 with a right checksum and a tilt "
+                               "within 90 degrees",
+                               bytes.size()));
+            return;
+        }
+        if (camera_ && message->id != *camera_) {
+            refuse(&PortBooks::unknown,
+                   fmt::format("camera {} where {} flies", message->id, *camera_));
+            return;
+        }
+        const std::optional<double> angle_rad =
+            field_of_view_rad_ ? field_of_view_rad_ : freed_field_of_view_rad(*message);
+        if (!angle_rad) {
+            refuse(&PortBooks::malformed,
+                   fmt::format("a zoom of {}, which is no field of view of 5000 to 115000 "
+                               "thousandths of a degree; say fov=DEGREES",
+                               message->zoom));
+            return;
+        }
+        constexpr double mm = 1000;
+        bench_.tracked.put(
+            {message->world_from_camera, *angle_rad,
+             message->focus > 0 && !field_of_view_rad_ ? message->focus / mm : usual_focus_m},
+            MonotonicClock::now());
+        ++books_.obeyed;
+    }
+
+    ControlBench bench_;
+    UdpSocket socket_;
+    std::optional<int> camera_;
+    std::optional<double> field_of_view_rad_;
+    std::uint64_t seen_overrun_ = 0;
+};
+
+}  // namespace
+
+PortEntry freed_port_entry() {
+    return {"freed", "freed://HOST:PORT (a tracked camera flies; ?camera=1, fov=40, open=yes)",
+            [](const OutputUrl& url, const ControlBench& bench) {
+                return std::make_unique<FreedPort>(url, bench);
+            }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,195 @@
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "common/base/log.h"
+#include "host_app/control/ports/allowance.h"
+#include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/osc_message.h"
+#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/table/control_command.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::string_view root = "/vantage/";
+/// A hand's commands a second, many times over.
+constexpr double commands_a_second = 200, commands_at_once = 100;
+constexpr int most_datagrams_a_look = 256;
+constexpr std::size_t most_subscribers = 8;
+constexpr std::chrono::seconds subscription{60}, all_again{2};
+constexpr std::chrono::milliseconds lamp_period{40};
+
+/// Who is told the lamps, and until when.
+struct Listener {
+    SocketAddress address;
+    std::optional<MonotonicTime> until;  ///< nothing: as long as the port is open
+};
+
+class OscPort final : public ControlPort {
+  public:
+    OscPort(const OutputUrl& url, const ControlBench& bench)
+        : bench_(bench),
+          socket_(UdpSocket::bound(listening_place_of(url), "control " + url.shown)) {
+        url.require_options_of({"open", "lamps"});
+        if (const std::optional<std::string> to = url.option("lamps")) {
+            OutputUrl place = url;
+            place.place = *to;
+            listeners_.push_back({resolve(network_place_of(place), "control " + url.shown), {}});
+        }
+    }
+
+    void serve(std::chrono::milliseconds most) override {
+        std::optional<UdpSocket::Datagram> datagram = socket_.receive(std::min(most, lamp_period));
+        int looked_at = 0;
+        for (; datagram && looked_at < most_datagrams_a_look; ++looked_at) {
+            take(*datagram);
+            datagram = socket_.receive(0ms);
+        }
+        // Of a flood the kernel leaves out the rest, so that it takes no processor from pictures.
+        if (looked_at == most_datagrams_a_look) std::this_thread::sleep_for(10ms);
+        books_.dropped += socket_.overrun() - seen_overrun_;
+        seen_overrun_ = socket_.overrun();
+        tell(MonotonicClock::now());
+    }
+
+  private:
+    void take(const UdpSocket::Datagram& datagram) {
+        const MonotonicTime now = MonotonicClock::now();
+        const std::optional<std::vector<OscMessage>> messages = decode_osc(datagram.bytes);
+        if (!messages) {
+            refuse(&PortBooks::malformed,
+                   fmt::format("{} bytes that are no OSC", datagram.bytes.size()));
+            return;
+        }
+        for (const OscMessage& message : *messages) obey(message, datagram.from, now);
+    }
+
+    void obey(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
+        if (!message.address.starts_with(root)) {
+            refuse(&PortBooks::unknown,
+                   fmt::format("{} does not begin with {}", printable(message), root));
+            return;
+        }
+        std::string name = message.address.substr(root.size());
+        if (name == "subscribe") {
+            subscribe(message, from, now);
+            return;
+        }
+        std::vector<double> numbers = message.numbers;
+        // "/vantage/shot/3" is a button of its own on a surface.
+        if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
+            int number = 0;
+            const char* last = name.data() + name.size();
+            const auto [end, error] = std::from_chars(name.data() + slash + 1, last, number);
+            if (error == std::errc() && end == last) {
+                numbers.insert(numbers.begin(), number);
+                name.resize(slash);
+            }
+        }
+        const ControlCommand* command = find_command(name);
+        if (!command) {
+            refuse(&PortBooks::unknown, fmt::format("{} is no command", printable(message)));
+            return;
+        }
+        const std::size_t needed = command->argument == CommandArgument::none ? 0 : 1;
+        // A button of a surface sends 1 when it is pressed and 0 when it is let go.
+        const bool has_press =
+            numbers.size() == needed + 1 && command->argument != CommandArgument::steps;
+        const bool is_let_go = has_press && numbers.back() == 0;
+        if (has_press) numbers.pop_back();
+        std::optional<CommandCall> call;
+        if (numbers.size() == needed && !message.has_others)
+            call = call_of(*command, needed ? std::optional(numbers.front()) : std::nullopt);
+        if (!call) {
+            refuse(&PortBooks::malformed,
+                   fmt::format("{} has arguments that do not fit", printable(message)));
+            return;
+        }
+        FlightInput input;
+        if (!is_let_go) apply(*call, input);
+        const bool is_command = command->argument != CommandArgument::steps && !is_let_go;
+        if ((is_command && !allowance_.take(now)) || !bench_.hands.put(input, now))
+            ++books_.dropped;
+        else
+            ++books_.obeyed;
+    }
+
+    /// Told back to people: what a stranger wrote, without what a terminal obeys.
+    static std::string printable(const OscMessage& message) {
+        std::string text = message.address;
+        for (char& c : text)
+            if (c < ' ' || c > '~') c = '?';
+        return text;
+    }
+
+    void subscribe(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
+        constexpr double highest_port = 65535;
+        SocketAddress to = from;
+        if (!message.numbers.empty()) {
+            const double port = message.numbers.front();
+            if (!(port >= 1 && port <= highest_port && port == std::floor(port))) {
+                refuse(&PortBooks::malformed, "/vantage/subscribe takes a port, 1 to 65535");
+                return;
+            }
+            to = from.with_port(static_cast<std::uint16_t>(port));
+        }
+        std::erase_if(listeners_, [&](const Listener& listener) {
+            return listener.until && (*listener.until < now || listener.address == to);
+        });
+        if (listeners_.size() >= most_subscribers) {
+            ++books_.dropped;
+            return;
+        }
+        listeners_.push_back({to, now + subscription});
+        ++books_.obeyed;
+        is_all_due_ = true;
+    }
+
+    /// Lamps that changed; all of them every other second, since a datagram may be lost.
+    void tell(MonotonicTime now) {
+        if (listeners_.empty() || (now - told_ < lamp_period && !is_all_due_)) return;
+        told_ = now;
+        std::erase_if(listeners_, [&](const Listener& listener) {
+            return listener.until && *listener.until < now;
+        });
+        const bool is_all = is_all_due_ || now - told_all_ >= all_again;
+        if (is_all) told_all_ = now;
+        is_all_due_ = false;
+        const ShowLamps shown = bench_.lamps.shown();
+        for (const Lamp& lamp : lamps()) {
+            const LampValue value = lamp.of(shown);
+            LampValue& last = last_values_[lamp.name];
+            if (!is_all && value == last) continue;
+            last = value;
+            const std::vector<std::byte> bytes =
+                encode_osc(fmt::format("{}lamp/{}", root, lamp.name), value);
+            for (const Listener& listener : listeners_) (void)socket_.send(bytes, listener.address);
+        }
+    }
+
+    ControlBench bench_;
+    UdpSocket socket_;
+    Allowance allowance_{commands_a_second, commands_at_once};
+    std::vector<Listener> listeners_;
+    std::map<std::string, LampValue> last_values_;
+    MonotonicTime told_{}, told_all_{};
+    bool is_all_due_ = true;
+    std::uint64_t seen_overrun_ = 0;
+};
+
+}  // namespace
+
+PortEntry osc_port_entry() {
+    return {"osc", "osc://HOST:PORT (commands /vantage/NAME; ?lamps=HOST:PORT, open=yes)",
+            [](const OutputUrl& url, const ControlBench& bench) {
+                return std::make_unique<OscPort>(url, bench);
+            }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,64 @@
+#include "host_app/control/table/control_words.h"
+
+#include <fmt/format.h>
+
+#include "host_app/control/table/control_command.h"
+#include "host_app/control/table/lamp.h"
+
+namespace vantage {
+namespace {
+
+std::string argument_words(const ControlCommand& command) {
+    switch (command.argument) {
+        case CommandArgument::none:
+            break;
+        case CommandArgument::number:
+            return fmt::format(" N (1 to {})", command.most);
+        case CommandArgument::steps:
+            return " STEPS";
+    }
+    return "";
+}
+
+std::string gpi_words(const ControlCommand& command) {
+    if (command.gpi == 0) return "";
+    if (command.argument != CommandArgument::number) return std::to_string(command.gpi);
+    return fmt::format("{} to {}", command.gpi, command.gpi + command.most - 1);
+}
+
+}  // namespace
+
+std::string command_table() {
+    std::string text = "| command | does | key | GPI | lamp |\n| --- | --- | --- | --- | --- |\n";
+    for (const ControlCommand& command : control_commands())
+        text += fmt::format("| {}{} | {} | {} | {} | {} |\n", command.name, argument_words(command),
+                            command.does, key_words(command), gpi_words(command), command.lamp);
+    return text;
+}
+
+std::string lamp_table() {
+    std::string text = "| lamp | says | is |\n| --- | --- | --- |\n";
+    for (const Lamp& lamp : lamps())
+        if (*lamp.says)
+            text += fmt::format("| {} | {} | {} |\n", lamp.name, lamp.says, kind_words(lamp));
+    return text;
+}
+
+nlohmann::ordered_json control_json() {
+    nlohmann::ordered_json json;
+    for (const ControlCommand& command : control_commands()) {
+        nlohmann::ordered_json entry{{"name", command.name}, {"does", command.does}};
+        if (command.argument == CommandArgument::number) entry["most"] = command.most;
+        if (command.argument == CommandArgument::steps) entry["most_steps"] = most_steps;
+        if (const std::string key = key_words(command); !key.empty()) entry["key"] = key;
+        if (command.gpi != 0) entry["gpi"] = command.gpi;
+        if (*command.lamp) entry["lamp"] = command.lamp;
+        json["commands"].push_back(std::move(entry));
+    }
+    for (const Lamp& lamp : lamps())
+        json["lamps"].push_back(
+            {{"name", lamp.name}, {"says", lamp.says}, {"is", kind_words(lamp)}});
+    return json;
+}
+
+}  // namespace vantage

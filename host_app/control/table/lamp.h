@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace vantage {
+
+/// What there is to show of a session, as far as a desk's lamps go.
+struct ShowLamps {
+    bool live = false, hold = false;
+    double speed = 0;     ///< of time: 1 live, 0 held
+    double behind_s = 0;  ///< of live
+    bool mark_in = false, mark_out = false, loops = false;
+    bool take = false, film = false;
+    bool programme_tally = false, preview_tally = false;
+    bool tracked = false;  ///< a tracked camera flies
+    bool source_map = false;
+    double move = -1;      ///< 0..1 along the planned move; -1: not on it
+    double coverage = -1;  ///< 0..1; -1: not known
+    std::string wheel_mode, synthesiser, timecode;
+    double render_level = 0, prepare_level = 0;
+    double repeated_ticks = 0;
+    std::array<std::string, 8> outputs;  ///< their states; empty: there is none
+};
+
+using LampValue = std::variant<bool, double, std::string>;
+
+/// Something that a desk can show: a lamp that is on or off, a level, a word.
+struct Lamp {
+    const char* name;
+    const char* says;
+    LampValue (*of)(const ShowLamps& show);
+};
+
+/// All of them, in the order in which people are shown them.
+std::span<const Lamp> lamps();
+
+/// "on or off", "a number", "a word".
+const char* kind_words(const Lamp& lamp);
+
+}  // namespace vantage

@@ -1,0 +1,63 @@
+#include "host_app/live/control_room.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds timecode_period{250};
+
+}  // namespace
+
+ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
+    if (urls.empty()) return;
+    desk_.emplace(urls,
+                  ControlBench{show.controls().hands(), show.controls().tracked(), tally_, lamps_});
+}
+
+void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
+                             MonotonicTime now) {
+    if (!desk_) return;
+    const ProgrammeState state = show.state();
+    const FlightControls::Lines lines = show.controls().lines();
+    ShowLamps& lamps = shown_;
+    lamps.live = state.picture && !state.time.is_held && !state.time.pulse;
+    lamps.hold = state.time.is_held || (state.time.pulse && state.time.speed == 0);
+    lamps.speed = lamps.live ? 1 : state.time.speed;
+    lamps.behind_s = state.behind_s.value_or(0);
+    lamps.mark_in = state.time.in.has_value();
+    lamps.mark_out = state.time.out.has_value();
+    lamps.loops = state.time.loops;
+    lamps.take = take && take->phase == TakePhase::recording;
+    const Tally::State tally = tally_.state();
+    lamps.programme_tally = tally.programme;
+    lamps.preview_tally = tally.preview;
+    lamps.tracked = lines.is_tracked;
+    lamps.source_map = state.source_map;
+    lamps.move = lines.move_progress.value_or(-1);
+    lamps.coverage = lines.corridor.now ? lines.corridor.now->share : -1;
+    lamps.wheel_mode = lines.wheel_mode;
+    lamps.synthesiser = state.synthesiser;
+    lamps.render_level = state.render_level;
+    lamps.prepare_level = state.prepare_level;
+    lamps.repeated_ticks = static_cast<double>(show.books().repeated);
+    lamps.film = false;
+    const std::vector<OutputState> outputs = show.outputs().states();
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (i < lamps.outputs.size()) lamps.outputs[i] = words_of(outputs[i].phase);
+        if (!outputs[i].film.empty() && outputs[i].phase == OutputPhase::on) lamps.film = true;
+    }
+    if (state.picture && now - timecode_shown_ >= timecode_period) {
+        timecode_shown_ = now;
+        if (!timecodes_)
+            timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
+        lamps.timecode = timecodes_->of(*state.picture->job.instant->set);
+    }
+    lamps_.show(lamps);
+}
+
+std::vector<PortState> ControlRoom::close() {
+    if (!desk_) return {};
+    desk_->close();
+    return desk_->states();
+}
+
+}  // namespace vantage

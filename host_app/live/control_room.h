@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/take/take_recorder.h"
+#include "host_app/control/ports/control_desk.h"
+#include "host_app/live/live_show.h"
+#include "host_app/output/set_timecode.h"
+
+namespace vantage {
+
+/// The ports of a show by which others steer it, and what they are shown.
+class ControlRoom {
+  public:
+    /// Throws Error as ControlDesk. The show must outlive it.
+    ControlRoom(const std::vector<std::string>& urls, LiveShow& show);
+
+    /// To be called often, from the session's thread. `take`: nothing: none can be recorded.
+    void show_lamps(const LiveShow& show, const std::optional<TakeState>& take, MonotonicTime now);
+    Tally::State tally() const { return tally_.state(); }
+    /// Ends the ports; what they counted.
+    std::vector<PortState> close();
+
+  private:
+    Tally tally_;
+    LampBoard lamps_;
+    std::optional<SetTimecode> timecodes_;
+    ShowLamps shown_;
+    MonotonicTime timecode_shown_{};
+    std::optional<ControlDesk> desk_;
+};
+
+}  // namespace vantage

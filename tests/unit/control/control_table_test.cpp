@@ -1,0 +1,98 @@
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "host_app/control/table/control_command.h"
+#include "host_app/control/table/control_words.h"
+#include "host_app/control/table/lamp.h"
+#include "tests/support/source_folder.h"
+
+namespace vantage {
+namespace {
+
+TEST(ControlTable, EveryCommandDoesSomethingAndIsToldApart) {
+    std::set<std::string> names, keys;
+    std::set<int> gpis;
+    std::set<std::string> lamp_names;
+    for (const Lamp& lamp : lamps()) EXPECT_TRUE(lamp_names.insert(lamp.name).second) << lamp.name;
+    for (const ControlCommand& command : control_commands()) {
+        EXPECT_TRUE(names.insert(command.name).second) << command.name;
+        const std::string words = key_words(command);
+        EXPECT_TRUE(words.empty() || keys.insert(words).second) << words << " has two commands";
+        const int numbers = command.argument == CommandArgument::number ? command.most : 1;
+        for (int n = 0; command.gpi > 0 && n < numbers; ++n)
+            EXPECT_TRUE(gpis.insert(command.gpi + n).second) << "GPI " << command.gpi + n;
+        const std::string lamp = command.lamp;
+        EXPECT_TRUE(lamp.empty() || lamp_names.contains(lamp) || lamp_names.contains(lamp + "/1"))
+            << command.name << " has the lamp " << lamp;
+        FlightInput input;
+        apply({&command, 1}, input);
+        EXPECT_TRUE(input.is_any()) << command.name;
+    }
+}
+
+TEST(ControlTable, ArgumentsHaveToFit) {
+    const ControlCommand& live = *find_command("live");
+    EXPECT_TRUE(call_of(live, std::nullopt));
+    EXPECT_FALSE(call_of(live, 1));
+    const ControlCommand& shot = *find_command("shot");
+    EXPECT_TRUE(call_of(shot, 9));
+    for (const double wrong : {0.0, 1.5, 10.0, -1.0, std::nan("")})
+        EXPECT_FALSE(call_of(shot, wrong)) << wrong;
+    EXPECT_FALSE(call_of(shot, std::nullopt));
+    const ControlCommand& orbit = *find_command("orbit");
+    EXPECT_TRUE(call_of(orbit, -360));
+    for (const double wrong : {361.0, std::nan(""), HUGE_VAL}) EXPECT_FALSE(call_of(orbit, wrong));
+    EXPECT_EQ(find_command("no_such"), nullptr);
+}
+
+TEST(ControlTable, JogMapsNameItsCommands) {
+    EXPECT_EQ(parse_button_command("shot 3")->argument, 3);
+    EXPECT_STREQ(parse_button_command("output 8")->command->name, "output");
+    for (const char* wrong : {"shot", "shot 0", "shot 10", "shot 3x", "shot  3", "live 1", "orbit",
+                              "orbit 3", "Live", ""})
+        EXPECT_FALSE(parse_button_command(wrong)) << wrong;
+    for (const std::string& name : button_commands())
+        EXPECT_TRUE(parse_button_command(name)) << name;
+}
+
+TEST(ControlTable, KeysArePutInWords) {
+    EXPECT_EQ(key_words(*find_command("freeze")), "Space");
+    EXPECT_EQ(key_words(*find_command("store")), "Ctrl + 1 .. 9");
+    EXPECT_EQ(key_words(*find_command("output")), "F5 .. F12");
+    EXPECT_EQ(key_words(*find_command("orbit")), "");
+}
+
+TEST(ControlTable, IsWhatTheDocumentSays) {
+    std::ostringstream document;
+    document << std::ifstream(source_folder() / "docs/control.md").rdbuf();
+    for (const std::string& table : {command_table(), lamp_table()})
+        EXPECT_NE(document.str().find("\n\n" + table + "\n"), std::string::npos)
+            << "docs/control.md has to have what `vantage control` writes:\n"
+            << table;
+    const nlohmann::json json = control_json();
+    EXPECT_EQ(json["commands"].size(), control_commands().size());
+    EXPECT_EQ(json["lamps"].size(), lamps().size());
+}
+
+TEST(Lamps, ShowTheSession) {
+    ShowLamps show;
+    show.live = true;
+    show.outputs[7] = "on";
+    const auto value = [&](std::string_view name) {
+        for (const Lamp& lamp : lamps())
+            if (name == lamp.name) return lamp.of(show);
+        return LampValue("there is no such lamp");
+    };
+    EXPECT_EQ(value("live"), LampValue(true));
+    EXPECT_EQ(value("hold"), LampValue(false));
+    EXPECT_EQ(value("output/8"), LampValue("on"));
+    EXPECT_EQ(value("coverage"), LampValue(-1.0));
+}
+
+}  // namespace
+}  // namespace vantage
