@@ -283,8 +283,11 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
             picture != shown || now - drawn > longest_unchanged) {
             shown = picture;
             drawn = now;
-            window.show(panel.state(show, takes ? std::optional(takes->state()) : std::nullopt,
-                                    outputs.question(now)));
+            PanelState state = panel.state(
+                show, takes ? std::optional(takes->state()) : std::nullopt, outputs.question(now));
+            state.programme_tally = room.tally().programme;
+            state.preview_tally = room.tally().preview;
+            window.show(std::move(state));
         } else {
             window.leave();
         }

@@ -179,6 +179,8 @@ float draw_top_bar(const PanelState& state, const UiFonts& fonts) {
     ImGui::PopFont();
     ImGui::SameLine(0, 1.5f * em());
     ImGui::SetCursorPosY(0.8f * em());
+    if (state.programme_tally) badge(fonts, "ON AIR", palette::bad);
+    if (state.preview_tally) badge(fonts, "PREVIEW", palette::good);
     if (state.waiting)
         badge(fonts, "WAITING FOR RIGS", palette::warn);
     else if (state.behind_s)

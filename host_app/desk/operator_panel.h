@@ -78,6 +78,7 @@ struct PanelState {
     bool recording = false;         ///< a film
     std::optional<PanelTake> take;  ///< nothing: no take is recorded
     std::vector<PanelOutput> outputs;
+    bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says
     std::string question;            ///< that a second press of a key answers; empty: none
     std::optional<double> behind_s;  ///< while in a stage's past: how far
     std::optional<PanelTime> time;   ///< while in the past, or in a take

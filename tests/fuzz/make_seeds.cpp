@@ -176,6 +176,10 @@ void write_controls(const Seeds& seeds) {
         "/vantage/shot\0\0\0,ihfdTFs\0\0\0\0\0\0\0\3\0\0\0\0\0\0\0\1\x3f\x80\0\0\x3f\xf0\0\0\0\0\0\0go\0\0"sv);
     seeds.write("osc_message", "bundle",
                 "#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x14/vantage/live\0\0\0,\0\0\0"sv);
+    seeds.write("tsl_message", "v3",
+                "\x85\x31"
+                "CAMERA 5        "sv);
+    seeds.write("tsl_message", "v5", "\x0d\0\0\0\0\0\5\0\1\0\3\0VIR"sv);
     seeds.write(
         "freed_message", "d1",
         "\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vantage {
+
+/// What a message of TSL's UMD protocol says of one display: a bit for each of its tallies, the
+/// lowest is tally 1. Of version 5.0 tally 1 is red and tally 2 green, whichever lamp of the
+/// display it is.
+struct TslDisplay {
+    int address = 0;
+    unsigned tallies = 0;
+};
+
+/// The displays of a datagram, version 3.1 (18 bytes, which begin with 0x80 + address) or 5.0.
+/// Nothing: it is neither.
+std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> datagram);
+
+}  // namespace vantage
