@@ -26,6 +26,14 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
     return value;
 }
 
+/// Numbers of 64 bits stand where OSC puts them, at four bytes.
+template <class Number>
+Number number_at(const void* argument) {
+    Number number{};
+    std::memcpy(&number, argument, sizeof number);
+    return number;
+}
+
 bool decode_message(std::span<const std::byte> bytes, std::vector<OscMessage>& into) {
     // liblo wants it writable, and turns the numbers in place.
     std::vector<std::byte> copy(bytes.begin(), bytes.end());
@@ -43,16 +51,17 @@ bool decode_message(std::span<const std::byte> bytes, std::vector<OscMessage>& i
     for (std::size_t i = 0; i < types.size(); ++i) {
         switch (types[i]) {
             case LO_INT32:
-                message.numbers.push_back(arguments[i]->i);
+                message.numbers.push_back(number_at<std::int32_t>(arguments[i]));
                 break;
             case LO_INT64:
-                message.numbers.push_back(static_cast<double>(arguments[i]->h));
+                message.numbers.push_back(
+                    static_cast<double>(number_at<std::int64_t>(arguments[i])));
                 break;
             case LO_FLOAT:
-                message.numbers.push_back(static_cast<double>(arguments[i]->f));
+                message.numbers.push_back(static_cast<double>(number_at<float>(arguments[i])));
                 break;
             case LO_DOUBLE:
-                message.numbers.push_back(arguments[i]->d);
+                message.numbers.push_back(number_at<double>(arguments[i]));
                 break;
             case LO_TRUE:
                 message.numbers.push_back(1);

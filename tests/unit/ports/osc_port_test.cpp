@@ -35,6 +35,14 @@ TEST_F(OscPortTest, ObeysWhatOscsendSends) {
     EXPECT_EQ(input.toggle_output, 2);
 }
 
+TEST_F(OscPortTest, TakesNumbersOfEveryKind) {
+    for (const char* number : {"i 3", "h 3", "f 3.0", "d 3.0"}) {
+        oscsend(fmt::format("/vantage/shot {}", number));
+        serve(*port_, all(port_->books()) + 1);
+        EXPECT_EQ(hands_.take().input.recall_shot, 3) << number;
+    }
+}
+
 TEST_F(OscPortTest, CountsAndNeverObeysWhatDoesNotFit) {
     oscsend("/vantage/shot i 10");
     oscsend("/vantage/shot s three");
