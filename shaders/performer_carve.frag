@@ -1,8 +1,6 @@
 // Keeps of a rig's performers the depth that all other rigs' mattes allow: what stands before the set stands in the
 // silhouettes of all rigs that look there (the visual hull of Laurentini, 1994).
-#ifndef OTHERS
-#define OTHERS 3
-#endif
+#include "for_others.glsl"
 #include "set_kinds.glsl"
 
 uniform sampler2D depth_map;             // this instant's, metres, 0 = unknown
@@ -14,14 +12,6 @@ uniform mat4 other_from_pixel[OTHERS];   // the other's (u * z, v * z, z, 1) fro
 uniform vec2 other_size[OTHERS];         // of its picture, px
 
 layout(location = 0) out float carved;  // metres, 0 = unknown
-
-#if OTHERS == 1
-#define FOR_OTHERS(X) X(0)
-#elif OTHERS == 2
-#define FOR_OTHERS(X) X(0) X(1)
-#else
-#define FOR_OTHERS(X) X(0) X(1) X(2)
-#endif
 
 const float hidden = 0.95;  // a set nearer than this share of a point's depth hides it
 

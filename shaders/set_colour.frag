@@ -1,5 +1,7 @@
 // The colour of a rig's set: where it is seen now, the mean of the instants since it last changed, else what was seen
 // before.
+#include "colour_change.glsl"
+
 uniform sampler2D picture;  // this instant's
 uniform sampler2D before;   // mean of the instants before; alpha: how many
 uniform sampler2D seen;     // from set_see.frag
@@ -14,11 +16,6 @@ layout(location = 1) out vec4 mean;
 const float noise = 0.01, motion = 0.02;
 const float pixel_share = 0.4;  // a pixel's noise is larger than that of a window
 const float hidden_from = 0.02; // of the matte around a pixel
-
-float largest(vec3 change) {
-    change = abs(change);
-    return max(change.r, max(change.g, change.b));
-}
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);

@@ -1,5 +1,6 @@
 // What a rig's picture shows at each pixel against its set, which stands still and lies behind everything that moves
 // over it.
+#include "colour_change.glsl"
 #include "depth_votes.glsl"
 #include "set_kinds.glsl"
 
@@ -29,11 +30,6 @@ void look_around(vec2 uv) {
     }
     now /= 17.0;
     known /= 17.0;
-}
-
-float largest(vec3 change) {
-    change = abs(change);
-    return max(change.r, max(change.g, change.b));
 }
 
 bool is_shade() {

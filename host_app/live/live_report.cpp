@@ -211,22 +211,6 @@ std::string take_text(const TakeState& take) {
     return text;
 }
 
-const char* key_of(OutputPhase phase) {
-    switch (phase) {
-        case OutputPhase::off:
-            break;
-        case OutputPhase::opening:
-            return "opening";
-        case OutputPhase::waiting:
-            return "waiting";
-        case OutputPhase::on:
-            return "on";
-        case OutputPhase::failed:
-            return "failed";
-    }
-    return "off";
-}
-
 nlohmann::ordered_json output_json(const OutputState& output) {
     return {{"name", output.name},
             {"state", key_of(output.phase)},

@@ -211,20 +211,25 @@ bool Output::wait_to_try_again(std::chrono::nanoseconds time) {
     return is_due_;
 }
 
-const char* words_of(OutputPhase phase) {
+const char* key_of(OutputPhase phase) {
     switch (phase) {
         case OutputPhase::off:
             break;
         case OutputPhase::opening:
             return "opening";
         case OutputPhase::waiting:
-            return "waiting for a caller";
+            return "waiting";
         case OutputPhase::on:
             return "on";
         case OutputPhase::failed:
-            return "FAILED";
+            return "failed";
     }
     return "off";
+}
+
+const char* words_of(OutputPhase phase) {
+    if (phase == OutputPhase::waiting) return "waiting for a caller";
+    return phase == OutputPhase::failed ? "FAILED" : key_of(phase);
 }
 
 }  // namespace vantage

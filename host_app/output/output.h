@@ -102,7 +102,9 @@ class Output {
     std::thread thread_;
 };
 
-/// A word for people, such as "waiting for a caller".
+/// For machines, such as "waiting".
+const char* key_of(OutputPhase phase);
+/// For people, such as "waiting for a caller".
 const char* words_of(OutputPhase phase);
 
 }  // namespace vantage

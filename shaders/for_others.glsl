@@ -1,0 +1,13 @@
+// How many other rigs a pass looks at.
+#ifndef OTHERS
+#define OTHERS 3
+#endif
+
+// Runs X(0), X(1), ... for every other rig: samplers take constant indices only.
+#if OTHERS == 1
+#define FOR_OTHERS(X) X(0)
+#elif OTHERS == 2
+#define FOR_OTHERS(X) X(0) X(1)
+#else
+#define FOR_OTHERS(X) X(0) X(1) X(2)
+#endif
