@@ -31,8 +31,8 @@ struct CommandAmount {
     double per_step = 0, per_second = 0;
 };
 
-/// Something that an operator can ask for, whatever the hand: keys, jog maps, OSC and RossTalk are
-/// views of the one table of these.
+/// Something that an operator can ask for, whatever the hand: keys, jog maps and OSC are views
+/// of the one table of these.
 struct ControlCommand {
     const char* name;
     CommandArgument argument = CommandArgument::none;
@@ -40,7 +40,6 @@ struct ControlCommand {
     const char* does;
     const char* lamp = "";  ///< that shows what came of it; empty: the picture does
     CommandKey key = {};
-    int gpi = 0;  ///< of RossTalk; of a command with a number that of number 1; 0: none
     CommandAmount amount = {};
     void (*apply)(FlightInput& input, double argument) = nullptr;  ///< unless it has an amount
 };

@@ -20,19 +20,13 @@ std::string argument_words(const ControlCommand& command) {
     return "";
 }
 
-std::string gpi_words(const ControlCommand& command) {
-    if (command.gpi == 0) return "";
-    if (command.argument != CommandArgument::number) return std::to_string(command.gpi);
-    return fmt::format("{} to {}", command.gpi, command.gpi + command.most - 1);
-}
-
 }  // namespace
 
 std::string command_table() {
-    std::string text = "| command | does | key | GPI | lamp |\n| --- | --- | --- | --- | --- |\n";
+    std::string text = "| command | does | key | lamp |\n| --- | --- | --- | --- |\n";
     for (const ControlCommand& command : control_commands())
-        text += fmt::format("| {}{} | {} | {} | {} | {} |\n", command.name, argument_words(command),
-                            command.does, key_words(command), gpi_words(command), command.lamp);
+        text += fmt::format("| {}{} | {} | {} | {} |\n", command.name, argument_words(command),
+                            command.does, key_words(command), command.lamp);
     return text;
 }
 
@@ -51,7 +45,6 @@ nlohmann::ordered_json control_json() {
         if (command.argument == CommandArgument::number) entry["most"] = command.most;
         if (command.argument == CommandArgument::steps) entry["most_steps"] = most_steps;
         if (const std::string key = key_words(command); !key.empty()) entry["key"] = key;
-        if (command.gpi != 0) entry["gpi"] = command.gpi;
         if (*command.lamp) entry["lamp"] = command.lamp;
         json["commands"].push_back(std::move(entry));
     }

@@ -16,16 +16,12 @@ namespace {
 
 TEST(ControlTable, EveryCommandDoesSomethingAndIsToldApart) {
     std::set<std::string> names, keys;
-    std::set<int> gpis;
     std::set<std::string> lamp_names;
     for (const Lamp& lamp : lamps()) EXPECT_TRUE(lamp_names.insert(lamp.name).second) << lamp.name;
     for (const ControlCommand& command : control_commands()) {
         EXPECT_TRUE(names.insert(command.name).second) << command.name;
         const std::string words = key_words(command);
         EXPECT_TRUE(words.empty() || keys.insert(words).second) << words << " has two commands";
-        const int numbers = command.argument == CommandArgument::number ? command.most : 1;
-        for (int n = 0; command.gpi > 0 && n < numbers; ++n)
-            EXPECT_TRUE(gpis.insert(command.gpi + n).second) << "GPI " << command.gpi + n;
         const std::string lamp = command.lamp;
         EXPECT_TRUE(lamp.empty() || lamp_names.contains(lamp) || lamp_names.contains(lamp + "/1"))
             << command.name << " has the lamp " << lamp;
