@@ -120,7 +120,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--seconds", seconds, "End after this time")->check(CLI::Range(0.01, 1e6));
     command.add_option("--path", path, "Fly this move (TOML)");
     command.add_option("--snapshot", snapshot,
-                       "Write the last picture (.png, .jpg); of a window, the panels too");
+                       "Write the last picture (.png, .jpg); of a window, the whole desk");
     std::string kinds;
     for (const OutputEntry& entry : output_entries()) kinds += "\n  " + entry.words;
     kinds += "\n  freed://HOST:PORT (the camera of every tick as FreeD D1; ?camera=1)";

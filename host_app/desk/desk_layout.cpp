@@ -14,7 +14,7 @@ constexpr float gap = 0.4f, status_height = 2.5f, time_line_height = 2.9f, side_
 constexpr float least_width_with_side = 62, least_height_with_rigs = 32;
 
 /// Of a rig's cell: its caption, and by how much it is wider than its colour picture is high.
-constexpr float caption_height = 1.6f, cell_aspect = 2.45f;
+constexpr float caption_height = 1.6f, cell_aspect = 2.2f;
 /// Of the window's height, for the pictures of all rigs.
 constexpr float most_of_height = 0.19f, least_of_height = 0.1f;
 

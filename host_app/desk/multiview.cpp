@@ -22,7 +22,7 @@ float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture,
     return width;
 }
 
-/// Under the depth picture: what does not fit there is told in the side panel.
+/// Under the depth picture, the most important first.
 void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) {
     const Clip clip(pen, rect);
     float y = rect.top;
@@ -34,7 +34,10 @@ void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) 
     if (!rig.worries.empty()) row(palette::warn, rig.worries.front());
     if (rig.nearest_m > 0)
         row(palette::dim, fmt::format("{:.1f} to {:.1f} m", rig.nearest_m, rig.farthest_m));
-    row(palette::dim, rig.clock);
+    const std::string heat =
+        rig.temperature_c ? fmt::format("{:.0f}\u00b0C  ", *rig.temperature_c) : "";
+    row(palette::dim, heat + rig.clock);
+    row(palette::dim, rig.calibration);
 }
 
 void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_of_take) {
@@ -51,7 +54,10 @@ void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_
         x = pen.text_until(right, x, y, colour_of(look.mark), look.words, true) + 0.5f * em;
     if (!is_of_take) {
         const std::string numbers = fmt::format("{:.1f}/s  {:.0f} ms", rig.rate_hz, rig.latency_ms);
-        const std::string lost = rig.lost() > 0 ? fmt::format("lost {}  ", rig.lost()) : "";
+        // At the rig, on the way, at this host.
+        const std::string lost = rig.lost() > 0 ? fmt::format("lost {}/{}/{}  ", rig.lost_at_rig,
+                                                              rig.lost_on_the_way, rig.lost_at_host)
+                                                : "";
         if (x + pen.width_of(lost + numbers) <= right) {
             pen.text_right(right, y, palette::dim, numbers);
             pen.text_right(right - pen.width_of(numbers), y, palette::warn, lost);
@@ -61,7 +67,7 @@ void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_
     const DeskRect pictures{cell.left, cell.top + 1.6f * em, cell.width, cell.height - 1.6f * em};
     const float width = draw_picture(pen, pictures, rig.colour, is_of_now);
     const float left = cell.left + width + 0.15f * em;
-    const DeskRect beside{left, pictures.top, cell.right() - left, 0.72f * pictures.height};
+    const DeskRect beside{left, pictures.top, cell.right() - left, 0.62f * pictures.height};
     if (beside.is_empty()) return;
     draw_picture(pen, beside, rig.depth, is_of_now);
     draw_small_print(pen,

@@ -118,28 +118,7 @@ void draw_sources(Column& column, const DeskSources& sources) {
     }
 }
 
-void draw_health(Column& column, const DeskState& state) {
-    if (state.is_of_take() || state.rigs.empty()) return;
-    column.heading("RIGS");
-    const Pen& pen = column.pen;
-    const float em = pen.em(), head = column.y - pen.line();
-    const float calibration = column.right, lost = calibration - 8 * em, heat = lost - 6 * em;
-    pen.text_right(heat, head, palette::dim, "heat");
-    pen.text_right(lost, head, palette::dim, "lost");
-    pen.text_right(calibration, head, palette::dim, "calibrated");
-    for (const DeskRig& rig : state.rigs) {
-        const float y = column.y;
-        pen.text_until(heat - 2.6f * em, column.left, y, palette::text, rig.name);
-        pen.text_right(heat, y, palette::dim,
-                       rig.temperature_c ? fmt::format("{:.0f}\u00b0", *rig.temperature_c) : "-");
-        // At the rig, on the way, at this host.
-        pen.text_right(
-            lost, y, rig.lost() > 0 ? palette::warn : palette::dim,
-            fmt::format("{}/{}/{}", rig.lost_at_rig, rig.lost_on_the_way, rig.lost_at_host));
-        pen.text_right(calibration, y, palette::dim,
-                       rig.calibration.empty() ? "-" : rig.calibration);
-        column.y += pen.line();
-    }
+void draw_worries(Column& column, const DeskState& state) {
     for (const DeskRig& rig : state.rigs)
         for (const std::string& worry : rig.worries)
             column.wrapped(palette::warn, fmt::format("{}: {}", rig.name, worry));
@@ -177,7 +156,9 @@ void draw_way(Column& column, const DeskState& state) {
     if (state.latencies_ms.empty()) return;
     const float worst = *std::max_element(state.latencies_ms.begin(), state.latencies_ms.end());
     column.row_of_two("exposure to glass", palette::text,
-                      fmt::format("{:.0f} ms, at worst {:.0f}", state.latency_ms, worst));
+                      state.latency_ms > 0
+                          ? fmt::format("{:.0f} ms, at worst {:.0f}", state.latency_ms, worst)
+                          : fmt::format("at worst {:.0f} ms", worst));
 }
 
 /// Most important first: what has no room is cut off at the end. Returns where it ends.
@@ -187,7 +168,7 @@ float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, D
     draw_camera(column, state);
     draw_outputs(column, state, spots);
     if (state.sources) draw_sources(column, *state.sources);
-    draw_health(column, state);
+    draw_worries(column, state);
     draw_way(column, state);
     return column.y + 0.4f * pen.em();
 }

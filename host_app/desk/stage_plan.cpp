@@ -162,7 +162,7 @@ void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& stat
                  "the stage is not known yet");
         return;
     }
-    const PlanMap map = map_of(rect.shrunk(0.5f * pen.em()), *state.plan, state.view);
+    const PlanMap map = map_of(rect.shrunk(1.3f * pen.em()), *state.plan, state.view);
     draw_corridor(pen, map, *state.plan);
     pen.list().AddCircle(map.at(state.plan->extent.centre_m),
                          map.px_per_m() * static_cast<float>(state.plan->extent.radius_m),

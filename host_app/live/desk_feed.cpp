@@ -1,7 +1,7 @@
 #include "host_app/live/desk_feed.h"
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ std::optional<DeskTake> desk_take(const TakeState& take) {
     if (take.phase == TakePhase::none && take.failure.empty()) return std::nullopt;
     DeskTake desk;
     desk.is_running = take.phase == TakePhase::opening || take.phase == TakePhase::recording;
-    desk.path = take.path;
+    desk.path = std::filesystem::path(take.path).filename().string();
     desk.duration_s = take.duration_s;
     desk.mb_s = take.mb_s;
     for (const TakeState::Rig& rig : take.rigs) desk.left_out += rig.dropped + rig.refused;
@@ -153,7 +153,9 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.picture_rate_hz = picture_rate_.per_second();
-    state_.latency_ms = latencies_ms_.empty() ? 0 : latencies_ms_.back();
+    // What never was live is not from an exposure to a picture.
+    const bool is_live = !programme.time.pulse && !programme.time.is_held;
+    state_.latency_ms = latencies_ms_.empty() || !is_live ? 0 : latencies_ms_.back();
     state_.latencies_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.signal = report.signal;
     state_.sources = sources_of(programme);
