@@ -14,8 +14,8 @@
 #include "host_app/desk/operator_window.h"
 #include "host_app/desk/screen_windows.h"
 #include "host_app/live/corridor_watch.h"
+#include "host_app/live/desk_feed.h"
 #include "host_app/live/output_switch.h"
-#include "host_app/live/panel_feed.h"
 #include "host_app/live/progress_log.h"
 #include "host_app/output/picture_encoder.h"
 #include "host_app/output/picture_target.h"
@@ -120,7 +120,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--seconds", seconds, "End after this time")->check(CLI::Range(0.01, 1e6));
     command.add_option("--path", path, "Fly this move (TOML)");
     command.add_option("--snapshot", snapshot,
-                       "Write the last picture (.png, .jpg); of a window, the panels too");
+                       "Write the last picture (.png, .jpg); of a window, the whole desk");
     std::string kinds;
     for (const OutputEntry& entry : output_entries()) kinds += "\n  " + entry.words;
     kinds += "\n  freed://HOST:PORT (the camera of every tick as FreeD D1; ?camera=1)";
@@ -253,44 +253,46 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room) {
 }
 
 void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
-    // However small the picture, there is room for what an operator reads.
-    constexpr double least_width_px = 960;
+    // Room for the desk around the picture, whatever the picture's size.
+    constexpr int least_width_px = 1280, least_height_px = 720;
     const PictureFormat& format = show.settings().format;
-    const double larger = std::max(1.0, least_width_px / format.width_px);
-    OperatorWindow window("Vantage", cvRound(larger * format.width_px),
-                          cvRound(larger * format.height_px));
+    OperatorWindow window("Vantage", std::max(least_width_px, format.width_px),
+                          std::max(least_height_px, format.height_px));
     show.start();
-    PanelFeed panel;
+    DeskFeed desk(plan);
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
     OutputSwitch outputs(show.outputs());
     ScreenWindows screens(true);
-    // Hands are looked at at a rate of its own; the screen is drawn with every new picture, and now
-    // and then without one: where the processor draws, it has better things to do.
-    constexpr std::chrono::milliseconds period{16}, longest_unchanged{200};
-    MonotonicTime last = MonotonicClock::now(), drawn{};
+    // Hands are looked at at a rate of its own, pictures are shown as they come, and the rest of
+    // the desk is drawn now and then: where the processor draws, it has better things to do.
+    constexpr std::chrono::milliseconds period{16};
+    MonotonicTime last = MonotonicClock::now();
     std::shared_ptr<const MadePicture> shown;
     while (!show.is_over() && !window.closed() &&
            !stop.wait_for(
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
         const MonotonicTime now = MonotonicClock::now();
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
+        if (const std::optional<double> pulse = window.take_seek()) show.controls().seek(*pulse);
         follow_wishes(outputs, room, now);
         screens.follow(show.outputs().screens());
         show.controls().hands().put(input, now);
         last = now;
-        if (const auto picture = show.state().picture;
-            picture != shown || now - drawn > longest_unchanged) {
-            shown = picture;
-            drawn = now;
-            PanelState state = panel.state(
-                show, takes ? std::optional(takes->state()) : std::nullopt, outputs.question(now));
+        const ProgrammeState programme = show.state();
+        const bool is_new = programme.picture != shown;
+        if (window.is_desk_due(now) || (is_new && !shown)) {
+            DeskState state =
+                desk.state(show, programme, takes ? std::optional(takes->state()) : std::nullopt,
+                           outputs.question(now));
             state.programme_tally = room.tally().programme;
             state.preview_tally = room.tally().preview;
             window.show(std::move(state));
-        } else {
-            window.leave();
+        } else if (is_new) {
+            window.show_picture(*desk.picture(programme));
         }
+        if (is_new) desk.note_shown(programme);
+        shown = programme.picture;
         progress.tell(show);
         corridor.tell(show);
     }

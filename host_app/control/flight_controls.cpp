@@ -88,6 +88,7 @@ PilotStep FlightControls::step(double time_s) {
     fly(hands, dt_s, step);
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
+    step.time.to_pulse = std::exchange(seek_, std::nullopt);
     wishes_.toggle_take ^= hands.toggle_take;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
@@ -108,11 +109,25 @@ void FlightControls::fly(const FlightInput& hands, double dt_s, PilotStep& step)
         is_tracked_ = tracked.has_value();
         glide_.begin();
     }
+    if (hands.store_shot > 0) {
+        const std::lock_guard lock(mutex_);
+        shots_.at(static_cast<std::size_t>(hands.store_shot - 1)) = helm_.view();
+    }
     helm_.take(hands, rig_view_);
     helm_.advance(dt_s);
     step.view = helm_.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
+}
+
+void FlightControls::seek(double pulse) {
+    const std::lock_guard lock(mutex_);
+    seek_ = pulse;
+}
+
+FlightControls::Shots FlightControls::shots() const {
+    const std::lock_guard lock(mutex_);
+    return shots_;
 }
 
 SessionWishes FlightControls::take_wishes() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -70,6 +71,13 @@ class FlightControls final : public Pilot {
     /// Throws what the deck throws.
     PilotStep step(double time_s) override;
 
+    /// To this pulse of the past, and stand there; from any thread. Of several the last counts.
+    void seek(double pulse);
+
+    /// What hands have kept as shots 1, 2, ...; from any thread.
+    using Shots = std::array<std::optional<OrbitView>, 9>;
+    Shots shots() const;
+
     /// Those of the steps since the last call; from any thread.
     SessionWishes take_wishes();
 
@@ -106,6 +114,8 @@ class FlightControls final : public Pilot {
     mutable std::mutex mutex_;
     Lines lines_;
     SessionWishes wishes_;
+    std::optional<double> seek_;
+    Shots shots_;
 };
 
 }  // namespace vantage

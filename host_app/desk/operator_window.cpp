@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "common/base/error.h"
@@ -25,7 +26,10 @@ std::string glfw_reason() {
     return reason;
 }
 
-constexpr double end_asks_s = 3;
+/// The desk takes no more than a tenth of the time, is drawn no oftener than anybody can read, and
+/// no more seldom than it must.
+constexpr int desk_share = 10;
+constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{500};
 
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
@@ -46,11 +50,6 @@ int number_of_key(const ControlCommand& command, int key, bool with_control) {
             return &other != &command && std::string_view(other.key.name) == command.key.name;
         });
     return shares_key && command.key.with_control != with_control ? 0 : key - first + 1;
-}
-
-/// 18 px for 1080 rows.
-float body_font_px(int window_height_px) {
-    return std::clamp(static_cast<float>(window_height_px) / 60.0f, 13.0f, 36.0f);
 }
 
 }  // namespace
@@ -99,44 +98,60 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     glfwSetKeyCallback(window_.get(), on_key);
     glfwSetMouseButtonCallback(window_.get(), on_button);
     glfwSetCursorPosCallback(window_.get(), on_cursor);
-    ui_.emplace(body_font_px(height_px));
-    // Keeps our callbacks and calls them in turn.
-    ImGui_ImplGlfw_InitForOther(window_.get(), true);
+    glfwSetScrollCallback(window_.get(), on_scroll);
+    glfwSetWindowRefreshCallback(window_.get(), on_change);
+    ui_.emplace(letter_height_px(static_cast<float>(width_px), static_cast<float>(height_px), 1));
     renderer_.emplace(shaders_);
 }
 
-OperatorWindow::~OperatorWindow() { ImGui_ImplGlfw_Shutdown(); }
+OperatorWindow::~OperatorWindow() = default;
+
+OperatorWindow& OperatorWindow::of(GLFWwindow* window) {
+    return *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
+}
 
 bool OperatorWindow::closed() const { return glfwWindowShouldClose(window_.get()) != 0; }
 
 bool OperatorWindow::held(int key) const { return glfwGetKey(window_.get(), key) == GLFW_PRESS; }
 
+void OperatorWindow::on_change(GLFWwindow* window) { of(window).is_changed_ = true; }
+
 void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
-    OperatorWindow& self = *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
+    OperatorWindow& self = of(window);
     if (action == GLFW_RELEASE) return;
+    self.is_changed_ = true;
     const bool with_control = (modifiers & GLFW_MOD_CONTROL) != 0;
     for (const ControlCommand& command : control_commands()) {
         const int number = number_of_key(command, key, with_control);
-        if (number > 0 && (action == GLFW_PRESS || command.key.repeats))
+        if (number == 0 || (action != GLFW_PRESS && !command.key.repeats)) continue;
+        const std::string question = self.question_of(command, number);
+        if (question.empty() || self.guard_.confirms(question, glfwGetTime()))
             apply({&command, static_cast<double>(number)}, self.input_);
     }
     if (action == GLFW_PRESS) self.take_key(key);
+}
+
+std::string OperatorWindow::question_of(const ControlCommand& command, int number) const {
+    const std::string_view name = command.name;
+    if (name == "take" && take_runs_) return "T again to end the take";
+    if (name == "store" && number <= shot_places &&
+        kept_shots_[static_cast<std::size_t>(number - 1)])
+        return fmt::format("Ctrl + {} again to replace shot {}", number, number);
+    return "";
 }
 
 /// Keys that are the window's own.
 void OperatorWindow::take_key(int key) {
     switch (key) {
         case GLFW_KEY_F1:
-            show_help_ = !show_help_;
+            switches_.help = !switches_.help;
             break;
         case GLFW_KEY_TAB:
-            show_panels_ = !show_panels_;
+            switches_.panels = !switches_.panels;
             break;
         case GLFW_KEY_ESCAPE:
-            // Asks first: a second time within the time ends.
-            if (glfwGetTime() < end_asked_until_s_)
+            if (guard_.confirms("Esc again to end the programme", glfwGetTime()))
                 glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
-            end_asked_until_s_ = glfwGetTime() + end_asks_s;
             break;
         default:
             break;
@@ -144,24 +159,55 @@ void OperatorWindow::take_key(int key) {
 }
 
 void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) {
-    OperatorWindow& self = *static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window));
+    OperatorWindow& self = of(window);
     if (button < 0 || button >= static_cast<int>(self.drags_.size())) return;
-    // What begins on a panel is the panel's until the button is up.
+    // What begins beside the picture is none of the camera's until the button is up.
     self.drags_[static_cast<std::size_t>(button)] =
-        action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
+        action == GLFW_PRESS && self.drawn_.picture.contains(static_cast<float>(self.cursor_x_),
+                                                             static_cast<float>(self.cursor_y_));
+    if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+    self.drags_time_ = false;
+    if (action == GLFW_PRESS) self.press_at_cursor();
+}
+
+void OperatorWindow::press_at_cursor() {
+    const auto is_on = [&](const DeskRect& rect) {
+        return rect.contains(static_cast<float>(cursor_x_), static_cast<float>(cursor_y_));
+    };
+    is_changed_ = true;
+    for (const DeskSpots::Numbered& shot : drawn_.spots.shots)
+        if (is_on(shot.rect)) input_.recall_shot = shot.number;
+    for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
+        if (is_on(output.rect)) input_.toggle_output = output.number;
+    if (is_on(drawn_.spots.live)) input_.to_live = true;
+    if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
+    drags_time_ = true;
+    seek_at_cursor();
+}
+
+void OperatorWindow::seek_at_cursor() {
+    if (!drawn_.spots.time) return;
+    const auto& [rect, time] = *drawn_.spots.time;
+    seek_ = time.pulse_at((cursor_x_ - rect.left) / rect.width);
+    is_changed_ = true;
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
-    static_cast<OperatorWindow*>(glfwGetWindowUserPointer(window))->take_cursor(x, y);
+    int width = 0, height = 0, width_px = 0, height_px = 0;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &width_px, &height_px);
+    if (width > 0 && height > 0)
+        of(window).take_cursor(x * width_px / width, y * height_px / height);
 }
 
 void OperatorWindow::take_cursor(double x, double y) {
-    const double width = std::max(ImGui::GetIO().DisplaySize.x, 1.0f);
+    const double width = std::max(drawn_.picture.width, 1.0f);
     const double right = (x - cursor_x_) / width, down = (y - cursor_y_) / width;
     cursor_x_ = x;
     cursor_y_ = y;
+    if (drags_time_) seek_at_cursor();
     if (drags_[GLFW_MOUSE_BUTTON_LEFT]) {
-        // Across the whole window: half a turn. The stage follows the hand.
+        // Across the whole picture: half a turn. The stage follows the hand.
         input_.orbit_azimuth_rad -= right * std::numbers::pi;
         input_.orbit_elevation_rad += down * std::numbers::pi;
     }
@@ -171,11 +217,18 @@ void OperatorWindow::take_cursor(double x, double y) {
     }
 }
 
-void OperatorWindow::take_wheel() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantCaptureMouse) return;
+void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
+    OperatorWindow& self = of(window);
+    const auto is_on = [&](const DeskRect& rect) {
+        return rect.contains(static_cast<float>(self.cursor_x_),
+                             static_cast<float>(self.cursor_y_));
+    };
     constexpr double per_notch = 0.12;
-    (io.KeyCtrl ? input_.zoom : input_.dolly) += per_notch * io.MouseWheel;
+    const bool with_control = self.held(GLFW_KEY_LEFT_CONTROL) || self.held(GLFW_KEY_RIGHT_CONTROL);
+    if (is_on(self.drawn_.picture))
+        (with_control ? self.input_.zoom : self.input_.dolly) += per_notch * up;
+    else if (self.drawn_.spots.time && is_on(self.drawn_.spots.time->rect))
+        self.input_.past_steps += up;
 }
 
 void OperatorWindow::take_held_keys(double dt_s) {
@@ -194,36 +247,69 @@ void OperatorWindow::take_held_keys(double dt_s) {
 FlightInput OperatorWindow::poll(double dt_s) {
     input_ = {};
     glfwPollEvents();
-    ImGui_ImplGlfw_NewFrame();
-    ImGui::NewFrame();
-    take_wheel();
     take_held_keys(dt_s);
     return input_;
 }
 
-void OperatorWindow::show(PanelState state) {
-    state.show_panels = show_panels_;
-    state.show_help = show_help_;
-    state.asks_to_end = glfwGetTime() < end_asked_until_s_;
-    draw_operator_screen(state, ui_->fonts());
-    ImGui::Render();
+std::optional<double> OperatorWindow::take_seek() { return std::exchange(seek_, std::nullopt); }
+
+bool OperatorWindow::is_desk_due(MonotonicTime now) const {
+    return is_changed_ || drawn_.has_overlay || now >= next_desk_;
+}
+
+bool OperatorWindow::fit_to_window() {
     int width_px = 0, height_px = 0;
     glfwGetFramebufferSize(window_.get(), &width_px, &height_px);
     // A window that is put away has no size.
-    if (width_px < 1 || height_px < 1) return;
+    if (width_px < 1 || height_px < 1) return false;
+    const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+    float scale = 1, scale_y = 1;
+    glfwGetWindowContentScale(window_.get(), &scale, &scale_y);
+    if (const float letter_px = letter_height_px(width, height, scale);
+        letter_px != ui_->letter_px()) {
+        ui_->set_letter_px(letter_px);
+        renderer_->take_fonts();
+    }
+    ImGui::GetIO().DisplaySize = {width, height};
     if (!screen_ || screen_->target.size() != cv::Size(width_px, height_px))
         screen_ = std::make_unique<Screen>(width_px, height_px);
+    return true;
+}
+
+void OperatorWindow::show(DeskState state) {
+    const MonotonicTime start = MonotonicClock::now();
+    is_changed_ = false;
+    if (!fit_to_window()) return;
+    if (state.question.empty()) state.question = guard_.question(glfwGetTime());
+    take_runs_ = state.take && state.take->is_running;
+    for (std::size_t i = 0; i < kept_shots_.size(); ++i)
+        kept_shots_[i] = i < state.shots.size() && state.shots[i].is_kept;
+    ImGui::NewFrame();
+    drawn_ = draw_desk(state, switches_, ui_->fonts());
+    ImGui::Render();
     renderer_->draw(*ImGui::GetDrawData(), screen_->target);
+    present();
+    const MonotonicTime end = MonotonicClock::now();
+    next_desk_ = end + std::clamp<std::chrono::nanoseconds>(desk_share * (end - start),
+                                                            least_desk_period, most_desk_period);
+}
+
+void OperatorWindow::show_picture(const Texture& picture) {
+    if (!screen_ || drawn_.picture.is_empty()) return;
+    renderer_->draw_picture(picture, drawn_.picture, screen_->target);
+    present();
+}
+
+void OperatorWindow::present() {
+    const cv::Size size = screen_->target.size();
     // Our pictures have their top in row 0, the window's has its bottom there.
     screen_->target.bind();
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, width_px, height_px, 0, height_px, width_px, 0, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
-    check_gl("showing the operator's screen");
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, size.height, size.width, 0,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    check_gl("showing the operator's desk");
     glfwSwapBuffers(window_.get());
 }
-
-void OperatorWindow::leave() { ImGui::EndFrame(); }
 
 ColourImage OperatorWindow::screenshot() const {
     return screen_ ? ColourImage(screen_->texture.download()) : ColourImage();

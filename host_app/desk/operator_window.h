@@ -4,18 +4,22 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "common/base/time.h"
 #include "common/gl/framebuffer.h"
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
-#include "host_app/desk/operator_panel.h"
+#include "host_app/desk/desk_screen.h"
+#include "host_app/desk/key_guard.h"
+#include "host_app/desk/shot_places.h"
 #include "host_app/desk/ui_renderer.h"
 #include "host_app/flight/flight_input.h"
 
 struct GLFWwindow;
 
 namespace vantage {
+
+struct ControlCommand;
 
 /// GLFW for as long as it lives. Throws Error with GLFW's reason if there is no display.
 class GlfwLibrary {
@@ -27,11 +31,13 @@ class GlfwLibrary {
 };
 
 /// The operator's window, with an OpenGL ES 3.1 context that is current on the constructing thread
-/// while it lives. One a process.
+/// while it lives. One a process. The desk is drawn at a rate of its own, so that where the
+/// processor draws it takes no more than a tenth of the time; in between only the programme's
+/// picture is.
 class OperatorWindow {
   public:
-    /// The window has the picture's size, or less where the screen is smaller. Throws Error, with
-    /// the mend, if there is no display or no OpenGL ES 3.1 on it.
+    /// The window has this size, or less where the screen is smaller. Throws Error, with the mend,
+    /// if there is no display or no OpenGL ES 3.1 on it.
     OperatorWindow(const std::string& title, int width_px, int height_px);
     ~OperatorWindow();
     OperatorWindow(const OperatorWindow&) = delete;
@@ -39,15 +45,20 @@ class OperatorWindow {
 
     /// Looks at mouse and keyboard; `dt_s` is how long a held key has acted.
     FlightInput poll(double dt_s);
+    /// The pulse that the mouse went to on the line of time since the last call.
+    std::optional<double> take_seek();
     bool closed() const;
 
-    /// Draws the operator's screen and shows it. Whether panels and help show is the window's.
-    void show(PanelState state);
+    /// Whether show() is to come next, since hands changed what is shown or it is time again.
+    bool is_desk_due(MonotonicTime now) const;
+    /// Draws the whole desk and shows it. Whether parts and help show is the window's.
+    void show(DeskState state);
+    /// Of the desk that was shown last only the programme's picture is a new one, of the same size.
+    void show_picture(const Texture& picture);
 
-    /// In place of show(): what is shown stays.
-    void leave();
-
-    /// What show() showed last, panels and all.
+    /// Where the parts of what was shown last are.
+    const DrawnDesk& drawn() const { return drawn_; }
+    /// What was shown last, the whole desk.
     ColourImage screenshot() const;
 
   private:
@@ -60,14 +71,23 @@ class OperatorWindow {
         Screen(int width_px, int height_px)
             : texture(TextureFormat::rgba8, width_px, height_px), target({&texture}) {}
     };
+    static OperatorWindow& of(GLFWwindow* window);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     void take_key(int key);
+    /// What a command's key has to be asked before it is obeyed; empty: nothing.
+    std::string question_of(const ControlCommand& command, int number) const;
     static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+    void press_at_cursor();
     static void on_cursor(GLFWwindow* window, double x, double y);
     void take_cursor(double x, double y);
-    void take_wheel();
+    static void on_scroll(GLFWwindow* window, double right, double up);
+    static void on_change(GLFWwindow* window);
     void take_held_keys(double dt_s);
     bool held(int key) const;
+    void seek_at_cursor();
+    /// The size of what is shown, in pixels; its letters follow it.
+    bool fit_to_window();
+    void present();
 
     GlfwLibrary glfw_;
     std::unique_ptr<GLFWwindow, WindowDeleter> window_;
@@ -75,11 +95,19 @@ class OperatorWindow {
     std::optional<UiContext> ui_;
     std::optional<UiRenderer> renderer_;
     std::unique_ptr<Screen> screen_;
+    DrawnDesk drawn_;
+    DeskSwitches switches_;
+    KeyGuard guard_;
+    bool take_runs_ = false;
+    std::bitset<shot_places> kept_shots_;
+
     FlightInput input_;
+    std::optional<double> seek_;
     std::bitset<3> drags_;  ///< by button: it went down on the picture
-    double cursor_x_ = 0, cursor_y_ = 0;
-    bool show_panels_ = true, show_help_ = false;
-    double end_asked_until_s_ = 0;
+    bool drags_time_ = false;
+    double cursor_x_ = 0, cursor_y_ = 0;  ///< in pixels of what is shown
+    bool is_changed_ = true;              ///< by hands, since the desk was drawn
+    MonotonicTime next_desk_{};
 };
 
 }  // namespace vantage

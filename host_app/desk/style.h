@@ -4,39 +4,59 @@
 
 namespace vantage {
 
-/// The look of the operator's panels: dark, so that the picture is the brightest thing on the desk.
+/// The look of the operator's desk: dark, so that the picture is the brightest thing on it, and in
+/// colours that people who see few of them tell apart (M. Okabe and K. Ito, "Color universal
+/// design", 2008), lightened for a dark ground. No colour stands alone: a shape or a word says the
+/// same.
 namespace palette {
-inline const ImVec4 text{0.88f, 0.90f, 0.93f, 1};
-inline const ImVec4 dim{0.55f, 0.59f, 0.65f, 1};
-inline const ImVec4 panel{0.063f, 0.075f, 0.094f, 0.90f};
-inline const ImVec4 line{0.17f, 0.20f, 0.25f, 1};
-inline const ImVec4 accent{0.25f, 0.62f, 0.95f, 1};
-inline const ImVec4 good{0.30f, 0.78f, 0.47f, 1};
-inline const ImVec4 warn{0.96f, 0.72f, 0.22f, 1};
-inline const ImVec4 bad{0.93f, 0.34f, 0.32f, 1};
+inline const ImVec4 text{0.90f, 0.92f, 0.94f, 1};
+inline const ImVec4 dim{0.60f, 0.64f, 0.69f, 1};
+inline const ImVec4 black{0, 0, 0, 1};
+inline const ImVec4 ground{0.027f, 0.031f, 0.039f, 1};
+inline const ImVec4 panel{0.067f, 0.078f, 0.094f, 1};
+inline const ImVec4 line{0.27f, 0.31f, 0.36f, 1};
+inline const ImVec4 accent{0.34f, 0.71f, 0.91f, 1};
+inline const ImVec4 good{0.16f, 0.74f, 0.57f, 1};
+inline const ImVec4 warn{0.95f, 0.80f, 0.25f, 1};
+inline const ImVec4 bad{0.93f, 0.42f, 0.16f, 1};
+inline const ImVec4 on_air{0.95f, 0.28f, 0.24f, 1};
+inline const ImVec4 on_badge{0.03f, 0.03f, 0.04f, 1};
+/// Over a picture that is not of now.
+inline const ImVec4 veil{0.027f, 0.031f, 0.039f, 0.6f};
+// Of the line of time.
+inline const ImVec4 trough{0.13f, 0.15f, 0.18f, 1};
+inline const ImVec4 tick{0.30f, 0.34f, 0.40f, 1};
+inline const ImVec4 between_marks{0.16f, 0.38f, 0.50f, 1};
+// Of the plan.
+inline const ImVec4 field{0.55f, 0.60f, 0.66f, 0.30f};
+inline const ImVec4 corridor{0.16f, 0.74f, 0.57f, 0.13f};
+inline const ImVec4 corridor_edge{0.95f, 0.80f, 0.25f, 0.13f};
 }  // namespace palette
 
 struct UiFonts {
     ImFont* body = nullptr;
     ImFont* strong = nullptr;
-    ImFont* title = nullptr;
 };
 
-/// A Dear ImGui context of its own, current while it lives, with the look and the fonts of Vantage.
-/// Where DejaVu Sans is not installed, the font that comes with the library takes its place.
+/// A Dear ImGui context of its own, current while it lives, with the fonts of Vantage. Where DejaVu
+/// Sans is not installed, the font that comes with the library takes its place.
 class UiContext {
   public:
-    /// body_px: height of the body font, 18 for a picture of 1080 rows.
-    explicit UiContext(float body_px);
+    /// `letter_px`: height of letters.
+    explicit UiContext(float letter_px);
     ~UiContext();
     UiContext(const UiContext&) = delete;
     UiContext& operator=(const UiContext&) = delete;
 
     const UiFonts& fonts() const { return fonts_; }
+    float letter_px() const { return letter_px_; }
+    /// Fonts of before are gone then, and a UiRenderer has to take up the new ones.
+    void set_letter_px(float letter_px);
 
   private:
     ImGuiContext* context_;
     UiFonts fonts_;
+    float letter_px_ = 0;
 };
 
 }  // namespace vantage

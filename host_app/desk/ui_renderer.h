@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include <imgui.h>
 
@@ -9,6 +10,7 @@
 #include "common/gl/program.h"
 #include "common/gl/texture.h"
 #include "common/gl/vertex_array.h"
+#include "host_app/desk/desk_layout.h"
 
 namespace vantage {
 
@@ -27,14 +29,22 @@ class UiRenderer {
     /// Takes the fonts of the current ImGui context to the GPU; they must be loaded by then.
     explicit UiRenderer(const ShaderLibrary& shaders);
 
+    /// After the fonts have changed.
+    void take_fonts();
+
     /// Draws over what the target shows.
     void draw(const ImDrawData& data, const Framebuffer& target);
+    /// The same pixels as an image of Dear ImGui's there gives, without laying out a frame.
+    void draw_picture(const Texture& picture, const DeskRect& rect, const Framebuffer& target);
 
   private:
-    void upload(const ImDrawList& list);
+    void begin(const Framebuffer& target);
+    void end();
+    void upload(std::span<const ImDrawVert> vertices, std::span<const ImDrawIdx> indices);
+    void draw_triangles(GLuint texture, std::size_t first, std::size_t count);
 
     Program program_;
-    Texture glyphs_;
+    std::optional<Texture> glyphs_;
     GlHandle<delete_sampler> filtered_;
     VertexArray vertex_array_;
     std::optional<Buffer> vertices_, indices_;

@@ -33,7 +33,7 @@ struct RigAccount {
     std::optional<ColourHarmoniser::Rig> harmony = {};
 };
 
-/// All that a live session did, for the closing summary and the operator's panel.
+/// All that a live session did, for the closing summary and the operator's desk.
 struct LiveReport {
     PictureFormat format;
     double rate_hz = 0;  ///< that was asked for

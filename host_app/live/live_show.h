@@ -77,6 +77,8 @@ class LiveShow {
     const FlightControls& controls() const { return controls_; }
     /// Null until the stage is known.
     std::shared_ptr<const Corridor> corridor() const { return stage_corridor_.now(); }
+    /// Where the rigs stand; nothing until the stage is known.
+    std::optional<StagePlaces> places() const { return stage_corridor_.places(); }
     ProgrammeState state() const { return programme_.state(); }
     ProgrammeBooks books() const { return programme_.books(); }
     InstantThread::Books instant_books() const { return instants_.books(); }

@@ -41,11 +41,20 @@ void StageCorridor::look(const FrameSet& set) {
     }
     if (!changed) return;
     std::vector<CorridorRig> there;
-    for (const auto& [name, rig] : rigs_)
+    StagePlaces places{{}, *extent_};
+    for (const auto& [name, rig] : rigs_) {
+        places.rigs.push_back({name, rig.rig, rig.is_away});
         if (!rig.is_away) there.push_back(rig.rig);
+    }
     auto corridor = std::make_shared<const Corridor>(std::move(there), *extent_, aspect_);
     const std::lock_guard lock(mutex_);
     now_ = std::move(corridor);
+    places_ = std::move(places);
+}
+
+std::optional<StagePlaces> StageCorridor::places() const {
+    const std::lock_guard lock(mutex_);
+    return places_;
 }
 
 std::shared_ptr<const Corridor> StageCorridor::now() const {

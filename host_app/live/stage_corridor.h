@@ -5,11 +5,23 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/receive/frame_set.h"
 #include "host_app/flight/corridor.h"
 
 namespace vantage {
+
+/// Where the stage's rigs stand, for a plan of it.
+struct StagePlaces {
+    struct Rig {
+        std::string name;
+        CorridorRig rig;
+        bool is_away = false;
+    };
+    std::vector<Rig> rigs;
+    StageExtent extent;
+};
 
 /// The corridor of the rigs that give frames now. A rig that has given none for two seconds is
 /// away, unless this host asked it for none; it belongs to the corridor again with its next frame.
@@ -23,6 +35,8 @@ class StageCorridor {
     void look(const FrameSet& set);
     /// From any thread; null before the first look after begin().
     std::shared_ptr<const Corridor> now() const;
+    /// From any thread; nothing before there is a corridor. Changes with it.
+    std::optional<StagePlaces> places() const;
 
   private:
     struct Rig {
@@ -36,6 +50,7 @@ class StageCorridor {
     std::optional<MonotonicTime> looked_at_;
     mutable std::mutex mutex_;
     std::shared_ptr<const Corridor> now_;
+    std::optional<StagePlaces> places_;
 };
 
 }  // namespace vantage

@@ -49,6 +49,10 @@ void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
         state_.speed = 0;
         go_to(as_pulse(state_.in.value_or(span->oldest)), *span);
     }
+    if (input.to_pulse) {
+        state_.speed = 0;
+        go_to(*input.to_pulse, *span);
+    }
     if (input.pulses != 0) {
         state_.speed = 0;
         go_to(state_.pulse.value_or(as_pulse(shown_pulse)) + input.pulses, *span);

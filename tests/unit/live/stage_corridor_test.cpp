@@ -47,6 +47,18 @@ TEST_F(StageCorridorTest, LosesARigThatIsAwayAndGetsItBack) {
     EXPECT_NE(look(2180ms, {"north", "south"}), one);
 }
 
+TEST_F(StageCorridorTest, SaysWhereTheRigsStandAndWhichIsAway) {
+    EXPECT_FALSE(corridor_.places());
+    corridor_.begin({});
+    look(0ms, {"north", "south"});
+    ASSERT_TRUE(corridor_.places());
+    ASSERT_EQ(corridor_.places()->rigs.size(), 2u);
+    EXPECT_EQ(corridor_.places()->rigs[1].name, "south");
+    EXPECT_FALSE(corridor_.places()->rigs[1].is_away);
+    look(2100ms, {"north"});
+    EXPECT_TRUE(corridor_.places()->rigs[1].is_away);
+}
+
 TEST_F(StageCorridorTest, KeepsARigThatWasAskedForNoFrames) {
     corridor_.begin({});
     const auto both = look(0ms, {"north", "south"});

@@ -263,8 +263,10 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       host_folder.path(), {screen.environment()});
     wait_for(host, first_progress);
     screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // A tenth of the window's width to the right: the stage turns with the hand by 18 degrees, from
-    // where the first of the two rigs stands.
+    // The picture alone, so that it is as wide as the window.
+    screen.hands({"key", "Tab", "sleep", "1"});
+    // A tenth of the picture's width to the right: the stage turns with the hand by 18 degrees,
+    // from where the first of the two rigs stands.
     screen.hands(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
     wait_for(host, "azimuth -30.0");

@@ -45,6 +45,18 @@ TEST_F(TransportTest, GoesFromThePulseThatIsShownAndStaysThere) {
     EXPECT_EQ(transport_.pulse(), 152) << "the stage goes on and the past does not";
 }
 
+TEST_F(TransportTest, GoesToThePulseThatIsAskedForAndStandsThere) {
+    transport_.take({.to_pulse = 131.5}, 155, span_);
+    EXPECT_EQ(transport_.pulse(), 131.5);
+    EXPECT_EQ(transport_.jumps(), 1u);
+    advance(1);
+    EXPECT_EQ(transport_.pulse(), 131.5);
+    play(1);
+    transport_.take({.to_pulse = 90}, 155, span_);
+    EXPECT_EQ(transport_.pulse(), 100) << "the oldest that there is";
+    EXPECT_EQ(transport_.state().speed, 0);
+}
+
 TEST_F(TransportTest, AddsUpPartsOfAPulse) {
     travel(-2, 150);
     for (int i = 0; i < 8; ++i) travel(0.25, 148);

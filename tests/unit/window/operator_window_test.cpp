@@ -30,18 +30,24 @@ class OperatorHands : public testing::Test {
         // Without a window manager nobody else gives it the keyboard.
         screen_->hands(
             {"search", "--sync", "--name", "Vantage", "windowfocus", "mousemove", "320", "240"});
-        look(0);
+        // The picture alone, so that it is as wide as the window.
+        after({"key", "Tab"});
     }
 
-    /// What the window takes in over a few pictures: its user interface takes presses and moves one
-    /// a picture, so that none is missed.
+    /// What the window takes in over a few pictures: events come when the server sends them.
     FlightInput look(double dt_s, int pictures = 6) {
         FlightInput all;
         for (int i = 0; i < pictures; ++i) {
             all.add(window_->poll(dt_s / pictures));
-            window_->show(PanelState());
+            if (const auto pulse = window_->take_seek()) sought_ = pulse;
+            window_->show(state_);
         }
         return all;
+    }
+    void show_the_desk() { after({"key", "Tab"}); }
+    static std::vector<std::string> move_into(const DeskRect& rect, double share = 0.5) {
+        return {"mousemove", std::to_string(cvRound(rect.left + share * rect.width)),
+                std::to_string(cvRound(rect.top + 0.3 * rect.height))};
     }
     FlightInput after(const std::vector<std::string>& commands, double dt_s = 0) {
         screen_->hands(commands);
@@ -50,6 +56,8 @@ class OperatorHands : public testing::Test {
 
     std::optional<VirtualScreen> screen_;
     std::optional<OperatorWindow> window_;
+    DeskState state_;
+    std::optional<double> sought_;
 };
 
 TEST_F(OperatorHands, LeftDragOrbits) {
@@ -133,7 +141,8 @@ TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
 }
 
 TEST_F(OperatorHands, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
-    after({"mousemove", "40", "100"});
+    show_the_desk();
+    after({"mousemove", "40", "10"});
     after({"mousedown", "1"});
     EXPECT_FALSE(after({"mousemove", "200", "240"}).steers());
     after({"mouseup", "1"});
@@ -147,13 +156,66 @@ TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
                     cv::Scalar(255, 255, 255, 255), lit);
         return cv::countNonZero(lit);
     };
+    show_the_desk();
     const int plain = bright();
     EXPECT_GT(plain, 100) << "the panels' words";
     after({"key", "F1"});
     EXPECT_GT(bright(), plain + 500);
     after({"key", "F1"});
+    EXPECT_LT(bright(), plain + 100);
     after({"key", "Tab"});
     EXPECT_LT(bright(), plain / 2);
+}
+
+TEST_F(OperatorHands, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
+    show_the_desk();
+    DeskTime time;
+    time.oldest = 1000;
+    time.newest = 2000;
+    state_.time = time;
+    look(0);
+    const DeskSpots spots = window_->drawn().spots;
+    ASSERT_TRUE(spots.time.has_value());
+    after(move_into(spots.time->rect, 0.25));
+    EXPECT_FALSE(sought_.has_value()) << "the mouse only points";
+    EXPECT_FALSE(after({"mousedown", "1"}).steers());
+    ASSERT_TRUE(sought_.has_value());
+    EXPECT_NEAR(*sought_, 1250, 4);
+    after(move_into(spots.time->rect, 0.75));
+    EXPECT_NEAR(*sought_, 1750, 4);
+    after({"mouseup", "1"});
+    after(move_into(spots.time->rect, 0.5));
+    EXPECT_NEAR(*sought_, 1750, 4) << "the button is up";
+    EXPECT_EQ(after({"click", "4"}).past_steps, 1) << "a notch is a frame";
+    after(move_into(spots.live));
+    EXPECT_TRUE(after({"click", "1"}).to_live);
+}
+
+TEST_F(OperatorHands, AClickOnAShotRecallsIt) {
+    show_the_desk();
+    state_.shots.resize(shot_places);
+    state_.shots[3].name = "kept";
+    look(0);
+    const DeskSpots spots = window_->drawn().spots;
+    ASSERT_EQ(spots.shots.size(), 1u);
+    after(move_into(spots.shots[0].rect));
+    EXPECT_EQ(after({"click", "1"}).recall_shot, 4);
+}
+
+TEST_F(OperatorHands, ATakeThatRunsIsEndedByTheSecondPressOnly) {
+    state_.take.emplace().is_running = true;
+    look(0);
+    EXPECT_FALSE(after({"key", "t"}).toggle_take);
+    EXPECT_TRUE(after({"key", "t"}).toggle_take);
+}
+
+TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {
+    state_.shots.resize(shot_places);
+    state_.shots[2].is_kept = true;
+    look(0);
+    EXPECT_EQ(after({"key", "ctrl+3"}).store_shot, 0);
+    EXPECT_EQ(after({"key", "ctrl+3"}).store_shot, 3);
+    EXPECT_EQ(after({"key", "ctrl+4"}).store_shot, 4) << "nothing is kept there";
 }
 
 TEST_F(OperatorHands, AnotherThreadDrawsIntoItsTextures) {

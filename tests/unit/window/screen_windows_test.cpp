@@ -76,7 +76,7 @@ TEST_F(ScreenWindowsTest, StandsBesideTheOperatorsWindow) {
     windows.follow(feeds);
     // The operator's context is current again.
     window.poll(0);
-    window.show(PanelState());
+    window.show(DeskState());
     EXPECT_FALSE(window.screenshot().empty());
 }
 

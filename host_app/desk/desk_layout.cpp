@@ -1,0 +1,80 @@
+#include "host_app/desk/desk_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_app/desk/shot_places.h"
+
+namespace vantage {
+namespace {
+
+// In ems.
+constexpr float gap = 0.4f, status_height = 2.5f, time_line_height = 2.9f, side_width = 23;
+/// A window of less has room for the programme, its status and its time only.
+constexpr float least_width_with_side = 62, least_height_with_rigs = 32;
+
+/// Of a rig's cell: its caption, and by how much it is wider than its colour picture is high.
+constexpr float caption_height = 1.6f, cell_aspect = 2.2f;
+/// Of the window's height, for the pictures of all rigs.
+constexpr float most_of_height = 0.19f, least_of_height = 0.1f;
+
+float rig_picture_height(float width, float height, float rigs, float rows) {
+    const float columns = std::ceil(rigs / rows);
+    return std::min((width / columns - gap) / cell_aspect, most_of_height * height / rows);
+}
+
+}  // namespace
+
+DeskRect DeskRect::fitted(float aspect) const {
+    const float fitted_width = std::min(width, height / aspect);
+    const float fitted_height = fitted_width * aspect;
+    return {left + 0.5f * (width - fitted_width), top + 0.5f * (height - fitted_height),
+            fitted_width, fitted_height};
+}
+
+float letter_height_px(float width_px, float height_px, float content_scale) {
+    constexpr float rows = 54, columns = 96, least = 9;
+    return std::round(
+        std::max(std::min(height_px / rows, width_px / columns), least * content_scale));
+}
+
+DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect) {
+    const float width = width_px / em_px, height = height_px / em_px;
+    DeskLayout layout;
+    layout.status = {0, 0, width, status_height};
+    float bottom = height;
+    if (rigs > 0 && height >= least_height_with_rigs) {
+        const auto count = static_cast<float>(rigs);
+        float rows = 1;
+        while (rig_picture_height(width, height, count, rows) < least_of_height * height / rows &&
+               rows < 3)
+            ++rows;
+        layout.rig_rows = static_cast<int>(rows);
+        const float all = rows * (rig_picture_height(width, height, count, rows) + caption_height);
+        layout.rigs = {0, bottom - all, width, all};
+        bottom = layout.rigs.top - gap;
+    }
+    layout.time_line = {gap, bottom - time_line_height, width - 2 * gap, time_line_height};
+    bottom = layout.time_line.top - gap;
+    const float top = status_height + gap;
+    const float middle = std::max(bottom - top, 1.0f);
+    float right = width - gap;
+    if (width >= least_width_with_side) {
+        const float shot_height = middle / shot_places - gap;
+        const float shot_width = std::min(shot_height / aspect, 0.11f * width);
+        // The side takes what the picture leaves.
+        const float picture_width =
+            std::min(middle / aspect, right - side_width - shot_width - 3 * gap);
+        const float side_left = 3 * gap + picture_width + shot_width;
+        layout.shots = {2 * gap + picture_width, top, shot_width, middle};
+        layout.side = {side_left, top, right - side_left, middle};
+        right = gap + picture_width;
+    }
+    layout.programme = {gap, top, right - gap, middle};
+    for (DeskRect* part : {&layout.status, &layout.programme, &layout.shots, &layout.side,
+                           &layout.time_line, &layout.rigs})
+        *part = {part->left * em_px, part->top * em_px, part->width * em_px, part->height * em_px};
+    return layout;
+}
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/desk_state.h"
+#include "host_app/desk/pen.h"
+
+namespace vantage {
+
+/// What the mouse can press on the desk.
+struct DeskSpots {
+    struct Numbered {
+        DeskRect rect;
+        int number = 1;  ///< from 1 on
+    };
+    struct Time {
+        DeskRect rect;
+        DeskTime time;
+    };
+    std::vector<Numbered> shots, outputs;
+    std::optional<Time> time;
+    DeskRect live;  ///< empty: there is no live to go back to
+};
+
+// The parts of the desk, each within its rectangle.
+void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state);
+void draw_multiview(const Pen& pen, const DeskRect& rect, int rows, const DeskState& state);
+void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state);
+void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
+void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
+void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
+/// In the middle of the window, over everything else.
+void draw_help(const Pen& pen, float width_px, float height_px);
+
+}  // namespace vantage

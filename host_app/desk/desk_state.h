@@ -1,0 +1,153 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/gl/texture.h"
+#include "common/receive/signal_state.h"
+#include "host_app/flight/corridor.h"
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+
+// All that the operator's desk tells, as values: whoever draws it knows no rig and no programme.
+
+enum class RigState { present, late, missed, disconnected, refused };
+
+struct DeskRig {
+    std::string name;
+    RigState state = RigState::disconnected;
+    double absent_s = 0;    ///< so long it was in no set that was looked at
+    double rate_hz = 0;     ///< frames received a second
+    double latency_ms = 0;  ///< exposure to decoded, median
+    /// Frames that met no set, by the place where they were lost.
+    std::uint64_t lost_at_rig = 0, lost_on_the_way = 0, lost_at_host = 0;
+    const Texture* colour = nullptr;       ///< null: none yet
+    const Texture* depth = nullptr;        ///< colour-mapped; null: none yet
+    double nearest_m = 0, farthest_m = 0;  ///< of the depth picture's colours; 0: not known
+    std::optional<double> temperature_c = {};
+    std::string clock = {};                 ///< a few words; empty: it says nothing
+    std::string calibration = {};           ///< age and residual; empty: it has none
+    std::vector<std::string> worries = {};  ///< what a technician should look after
+
+    std::uint64_t lost() const { return lost_at_rig + lost_on_the_way + lost_at_host; }
+};
+
+/// A step of a frame's way, median.
+struct DeskStep {
+    std::string name;
+    double ms = 0;
+    bool at_rig = false;
+};
+
+/// What the source map's colours say.
+struct DeskSources {
+    struct Row {
+        std::string rig;
+        std::array<unsigned char, 3> rgb{};
+        double share = 0;  ///< of the picture's pixels
+    };
+    std::vector<Row> rows;
+    std::string remark;  ///< why there is no map; empty: there is one
+};
+
+/// The take that is recorded, or what ended it.
+struct DeskTake {
+    bool is_running = false;
+    std::string path;
+    double duration_s = 0, mb_s = 0;
+    std::uint64_t left_out = 0;  ///< frames that came and are not in it
+    std::string failure;
+};
+
+/// An output of the programme.
+struct DeskOutput {
+    std::string name, state;
+    bool is_on = false, is_failed = false;
+    double mbit_s = 0;
+    std::uint64_t queued = 0, left_out = 0;
+    std::string failure;
+};
+
+/// What there is of time: pulses of the replay buffer, or of a take, and where the programme is.
+struct DeskTime {
+    double oldest = 0, newest = 0;  ///< pulses
+    double rate_hz = 30;            ///< of them
+    bool is_of_take = false;
+    std::optional<double> at;  ///< pulse; nothing: live
+    double speed = 0;          ///< unless live
+    std::optional<double> in, out;
+    bool loops = false;
+    double recorded_s = 0;  ///< of the newest, that a running take has
+
+    /// 0..1 along the line.
+    double share_of(double pulse) const;
+    double pulse_at(double share) const;
+};
+
+/// The stage from above.
+struct DeskPlan {
+    struct Rig {
+        std::string name;
+        Eigen::Vector3d eye_m{0, 0, 0}, forward{0, 0, -1};
+        double half_width = 0.46;  ///< of its picture, at a depth of 1
+        bool is_away = false;
+    };
+    std::vector<Rig> rigs;
+    StageExtent extent;
+    /// How much of the camera's picture would be covered if it stood elsewhere, at its elevation
+    /// and with its pivot.
+    struct Field {
+        double azimuth_rad = 0, width_rad = 0, from_m = 0, to_m = 0;  ///< from the pivot
+        CorridorPlace place = CorridorPlace::inside;
+    };
+    std::vector<Field> corridor;
+    Eigen::Vector3d corridor_pivot_m{0, 0, 0};
+    std::vector<Eigen::Vector3d> path_m;  ///< of the camera in the last seconds, oldest first
+    std::vector<Eigen::Vector3d> move_m;  ///< of the planned move
+};
+
+/// A place for a shot.
+struct DeskShot {
+    std::string name;                  ///< empty: nothing is kept here
+    const Texture* picture = nullptr;  ///< null: not seen yet
+    bool is_kept = false;              ///< by somebody; else it is what a rig sees
+};
+
+struct DeskState {
+    const Texture* picture = nullptr;  ///< the virtual view
+    std::string timecode;
+    std::uint64_t pulse = 0;
+    bool waiting = true;  ///< no set has come yet
+    SignalState signal = SignalState::live;
+    bool recording = false;        ///< a film
+    std::optional<DeskTake> take;  ///< nothing: no take is recorded
+    std::vector<DeskOutput> outputs;
+    bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says
+    std::string question;            ///< that a second press of a key answers; empty: none
+    std::optional<double> behind_s;  ///< while in a stage's past: how far
+    std::optional<DeskTime> time;    ///< nothing: there is no past
+    double picture_rate_hz = 0;
+    double latency_ms = 0;            ///< from exposure to this window; 0: not known
+    std::vector<float> latencies_ms;  ///< oldest first
+    std::string synthesiser, renderer;
+    int render_level = 0, prepare_level = 0;  ///< of quality; 0 is the best
+    std::vector<DeskStep> steps;
+    std::vector<DeskRig> rigs;
+    OrbitView view;
+    std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
+    std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
+    std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+    std::string wheel;                    ///< what the jog wheel does; empty: there is none
+    std::optional<DeskSources> sources;   ///< while the source map is asked for
+    std::vector<DeskShot> shots;          ///< 1 and on
+
+    bool is_of_take() const { return time && time->is_of_take; }
+};
+
+}  // namespace vantage

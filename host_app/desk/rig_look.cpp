@@ -1,0 +1,21 @@
+#include "host_app/desk/rig_look.h"
+
+namespace vantage {
+
+RigLook look_of(RigState state) {
+    switch (state) {
+        case RigState::present:
+            return {"live", Mark::good};
+        case RigState::late:
+            return {"late", Mark::care};
+        case RigState::missed:
+            return {"missed", Mark::care};
+        case RigState::refused:
+            return {"refused", Mark::bad};
+        case RigState::disconnected:
+            break;
+    }
+    return {"no link", Mark::bad};
+}
+
+}  // namespace vantage

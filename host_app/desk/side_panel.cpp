@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host_app/desk/desk_parts.h"
+
+namespace vantage {
+namespace {
+
+/// The side's words, from the top down; knows how far they have come.
+struct Column {
+    const Pen& pen;
+    float left, right, y;
+
+    float width() const { return right - left; }
+    void row(const ImVec4& colour, std::string_view words) {
+        pen.text_until(right, left, y, colour, words);
+        y += pen.line();
+    }
+    void wrapped(const ImVec4& colour, std::string_view words) {
+        y += pen.text_wrapped(width(), left, y, colour, words);
+    }
+    void row_of_two(std::string_view name, const ImVec4& colour, std::string_view value) {
+        pen.text_right(right, y, colour, value);
+        pen.text_until(right - pen.width_of(value) - 0.5f * pen.em(), left, y, palette::dim, name);
+        y += pen.line();
+    }
+    void heading(std::string_view words) {
+        y += 0.35f * pen.em();
+        pen.text(left, y, palette::dim, words, true);
+        y += pen.line();
+    }
+};
+
+/// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
+void draw_coverage(Column& column, const Coverage& coverage) {
+    const CorridorPlace place = Corridor::place_of(coverage.share);
+    if (place == CorridorPlace::inside)
+        return column.row(palette::dim, fmt::format("the rigs cover {:.0f} % of the picture",
+                                                    100 * coverage.share));
+    const Mark mark = place == CorridorPlace::edge ? Mark::care : Mark::bad;
+    column.pen.mark(column.left, column.y, mark);
+    const float left = column.left;
+    column.left += 1.2f * column.pen.em();
+    column.wrapped(colour_of(mark), fmt::format("the rigs cover {:.0f} %; most of the rest {}",
+                                                100 * coverage.share, words_of(coverage.loss)));
+    column.left = left;
+}
+
+void draw_camera(Column& column, const DeskState& state) {
+    constexpr double deg = 180 / std::numbers::pi;
+    const OrbitView& view = state.view;
+    column.heading("CAMERA");
+    column.row(palette::text,
+               fmt::format("{:.1f}\u00b0 around, {:.1f}\u00b0 up, {:.2f} m, {:.1f}\u00b0 wide",
+                           view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m,
+                           view.field_of_view_rad * deg));
+    column.row(palette::dim, fmt::format("pivot {:.2f}  {:.2f}  {:.2f} m", view.pivot_m.x(),
+                                         view.pivot_m.y(), view.pivot_m.z()));
+    if (state.coverage) draw_coverage(column, *state.coverage);
+    if (state.move_progress) {
+        const float height = 0.4f * column.pen.em();
+        column.row_of_two("on the planned move; steer to take over", palette::dim,
+                          fmt::format("{:.0f} %", 100 * *state.move_progress));
+        column.pen.fill({column.left, column.y, column.width(), height}, palette::trough);
+        column.pen.fill({column.left, column.y,
+                         static_cast<float>(*state.move_progress) * column.width(), height},
+                        palette::accent);
+        column.y += 2 * height;
+    }
+    if (!state.wheel.empty()) column.wrapped(palette::dim, state.wheel);
+}
+
+void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
+    if (state.outputs.empty() && !state.take) return;
+    column.heading("OUTPUTS");
+    constexpr int first_key = 5, last_key = 12;
+    int number = 1;
+    for (const DeskOutput& output : state.outputs) {
+        const float top = column.y;
+        const int key = first_key + number - 1;
+        const std::string value =
+            output.is_on ? fmt::format("{}, {:.1f} Mbit/s", output.state, output.mbit_s)
+                         : output.state;
+        column.row_of_two(key > last_key ? output.name : fmt::format("F{}  {}", key, output.name),
+                          output.is_failed ? palette::bad
+                          : output.is_on   ? palette::good
+                                           : palette::dim,
+                          value);
+        if (output.left_out > 0)
+            column.row(palette::warn, fmt::format("{} pictures left out", output.left_out));
+        if (!output.failure.empty()) column.wrapped(palette::bad, output.failure);
+        if (spots && key <= last_key)
+            spots->outputs.push_back({{column.left, top, column.width(), column.y - top}, number});
+        ++number;
+    }
+    if (!state.take) return;
+    const DeskTake& take = *state.take;
+    column.row_of_two(take.path, take.is_running ? palette::good : palette::dim,
+                      take.is_running ? fmt::format("{:.1f} MB a second", take.mb_s) : "ended");
+    if (take.left_out > 0)
+        column.row(palette::warn, fmt::format("{} frames left out of the take", take.left_out));
+    if (!take.failure.empty()) column.wrapped(palette::bad, take.failure);
+}
+
+void draw_sources(Column& column, const DeskSources& sources) {
+    column.heading("PIXELS BY RIG");
+    if (!sources.remark.empty()) return column.wrapped(palette::warn, sources.remark);
+    const float em = column.pen.em(), left = column.left;
+    for (const DeskSources::Row& row : sources.rows) {
+        column.pen.fill({left, column.y + 0.1f * em, 0.9f * em, 0.9f * em},
+                        {static_cast<float>(row.rgb[0]) / 255, static_cast<float>(row.rgb[1]) / 255,
+                         static_cast<float>(row.rgb[2]) / 255, 1});
+        column.left = left + 1.3f * em;
+        column.row_of_two(row.rig, palette::text, fmt::format("{:.1f} %", 100 * row.share));
+        column.left = left;
+    }
+}
+
+void draw_worries(Column& column, const DeskState& state) {
+    for (const DeskRig& rig : state.rigs)
+        for (const std::string& worry : rig.worries)
+            column.wrapped(palette::warn, fmt::format("{}: {}", rig.name, worry));
+}
+
+/// One bar of all steps, as long as each takes, and their names under it.
+void draw_way(Column& column, const DeskState& state) {
+    double all_ms = 0;
+    for (const DeskStep& step : state.steps) all_ms += step.ms;
+    if (all_ms <= 0) return;
+    const Pen& pen = column.pen;
+    const float em = pen.em();
+    column.heading("WAY OF A FRAME, ms");
+    float x = column.left;
+    for (const DeskStep& step : state.steps) {
+        const float width = column.width() * static_cast<float>(step.ms / all_ms);
+        pen.fill({x, column.y, std::max(1.0f, width - 1), 0.8f * em},
+                 step.at_rig ? palette::good : palette::accent);
+        x += width;
+    }
+    column.y += 1.1f * em;
+    constexpr std::size_t columns = 3;
+    const float gap = em;
+    const float width = (column.width() - (columns - 1) * gap) / columns;
+    const std::size_t rows = (state.steps.size() + columns - 1) / columns;
+    for (std::size_t i = 0; i < state.steps.size(); ++i) {
+        const DeskStep& step = state.steps[i];
+        const float left = column.left + static_cast<float>(i / rows) * (width + gap);
+        Column cell{pen, left, left + width, column.y + static_cast<float>(i % rows) * pen.line()};
+        // Milliseconds, as the heading says.
+        cell.row_of_two(step.name, step.at_rig ? palette::good : palette::accent,
+                        fmt::format("{:.1f}", step.ms));
+    }
+    column.y += static_cast<float>(rows) * pen.line();
+    if (state.latencies_ms.empty()) return;
+    const float worst = *std::max_element(state.latencies_ms.begin(), state.latencies_ms.end());
+    column.row_of_two("exposure to glass", palette::text,
+                      state.latency_ms > 0
+                          ? fmt::format("{:.0f} ms, at worst {:.0f}", state.latency_ms, worst)
+                          : fmt::format("at worst {:.0f} ms", worst));
+}
+
+/// Most important first: what has no room is cut off at the end. Returns where it ends.
+float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots* spots) {
+    const float pad = 0.6f * pen.em();
+    Column column{pen, rect.left + pad, rect.right() - pad, rect.top};
+    draw_camera(column, state);
+    draw_outputs(column, state, spots);
+    if (state.sources) draw_sources(column, *state.sources);
+    draw_worries(column, state);
+    draw_way(column, state);
+    return column.y + 0.4f * pen.em();
+}
+
+}  // namespace
+
+void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots) {
+    if (rect.is_empty()) return;
+    const float gap = 0.4f * pen.em();
+    const float words_height = draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, nullptr);
+    const float least_plan = std::min(11 * pen.em(), 0.45f * rect.height);
+    const DeskRect plan{rect.left, rect.top, rect.width,
+                        std::max(least_plan, rect.height - words_height - gap)};
+    draw_stage_plan(pen, plan, state);
+    const DeskRect words{rect.left, plan.bottom() + gap, rect.width,
+                         rect.bottom() - plan.bottom() - gap};
+    const Clip clip(pen, words);
+    pen.fill(words, palette::panel);
+    draw_words(pen, words, state, &spots);
+}
+
+}  // namespace vantage

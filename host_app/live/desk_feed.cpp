@@ -1,0 +1,267 @@
+#include "host_app/live/desk_feed.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "common/gl/limits.h"
+#include "host_app/desk/shot_places.h"
+#include "host_app/live/live_report.h"
+#include "host_app/live/rig_words.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds refresh_period{250};
+constexpr std::size_t latency_samples = 240;
+/// Of the camera's path that the plan shows.
+constexpr std::chrono::seconds path_length{10};
+constexpr double least_path_step_m = 0.02, move_step_s = 0.25;
+constexpr double corridor_reach = 1.3;  ///< of the farthest rig's distance from the pivot
+
+RigState state_in(const FrameSet* set, const RigStatus& status) {
+    if (!status.refused.empty()) return RigState::refused;
+    if (!status.connected) return RigState::disconnected;
+    if (!set) return RigState::late;
+    for (const FrameSet::Slot& slot : set->slots) {
+        if (slot.rig != status.rig) continue;
+        if (slot.frame) return RigState::present;
+        if (slot.absence == Absence::missed_by_rig) return RigState::missed;
+        if (slot.absence == Absence::disconnected) return RigState::disconnected;
+    }
+    return RigState::late;
+}
+
+bool is_at_rig(const std::string& step) {
+    return step == "capture" || step == "rectify" || step == "match" || step == "pack";
+}
+
+std::optional<DeskTime> desk_time(const LiveShow& show, const ProgrammeState& programme,
+                                  const std::optional<TakeState>& take) {
+    if (!programme.past) return std::nullopt;
+    DeskTime time;
+    time.oldest = static_cast<double>(programme.past->oldest);
+    time.newest = static_cast<double>(programme.past->newest);
+    time.rate_hz = show.settings().pulse_rate_hz;
+    time.is_of_take = show.settings().take != nullptr;
+    time.at = programme.time.pulse;
+    time.speed = programme.time.speed;
+    if (programme.time.in) time.in = static_cast<double>(*programme.time.in);
+    if (programme.time.out) time.out = static_cast<double>(*programme.time.out);
+    time.loops = programme.time.loops;
+    if (take && take->phase == TakePhase::recording) time.recorded_s = take->duration_s;
+    return time;
+}
+
+std::optional<DeskTake> desk_take(const TakeState& take) {
+    if (take.phase == TakePhase::none && take.failure.empty()) return std::nullopt;
+    DeskTake desk;
+    desk.is_running = take.phase == TakePhase::opening || take.phase == TakePhase::recording;
+    desk.path = std::filesystem::path(take.path).filename().string();
+    desk.duration_s = take.duration_s;
+    desk.mb_s = take.mb_s;
+    for (const TakeState::Rig& rig : take.rigs) desk.left_out += rig.dropped + rig.refused;
+    desk.failure = take.failure;
+    return desk;
+}
+
+DeskOutput desk_output(const OutputState& output) {
+    constexpr double bits_a_megabit = 1e6;
+    return {output.name,
+            words_of(output.phase),
+            output.phase == OutputPhase::on,
+            output.phase == OutputPhase::failed,
+            output.bit_rate_bps / bits_a_megabit,
+            output.queued,
+            output.dropped,
+            output.failure};
+}
+
+DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {
+    return {rig.name, rig.rig.world_from_camera.translation(),
+            rig.rig.world_from_camera.linear().col(2), rig.rig.half_width, rig.is_away};
+}
+
+}  // namespace
+
+DeskFeed::DeskFeed(const FlightPlan& plan) {
+    if (!plan.move) return;
+    for (double s = 0; s <= plan.move->duration_s(); s += move_step_s)
+        move_m_.push_back(plan.move->at(s).eye_m());
+}
+
+DeskRig DeskFeed::rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now) {
+    DeskRig rig;
+    rig.name = status.rig;
+    rig.state = state_in(set, status);
+    if (const auto rate = rig_rates_.find(status.rig); rate != rig_rates_.end())
+        rig.rate_hz = rate->second.per_second();
+    const auto seen = rigs_seen_.try_emplace(status.rig, now).first;
+    if (rig.state == RigState::present) seen->second = now;
+    rig.absent_s = std::chrono::duration<double>(now - seen->second).count();
+    rig.latency_ms = status.latency_ms.p50;
+    rig.lost_at_rig = status.rig_counters.missed + status.rig_counters.late;
+    rig.lost_on_the_way = status.link.send_dropped + status.lost;
+    rig.lost_at_host = status.undecodable + status.late + status.duplicate + status.unsynchronized +
+                       status.out_of_step + status.queue_dropped;
+    if (const RigPictures::Pictures* pictures = rig_pictures_.of(status.rig)) {
+        if (pictures->colour) rig.colour = &*pictures->colour;
+        if (pictures->depth) rig.depth = &*pictures->depth;
+        rig.nearest_m = pictures->range.nearest_m;
+        rig.farthest_m = pictures->range.farthest_m;
+    }
+    if (status.health.temperature_c) rig.temperature_c = *status.health.temperature_c;
+    rig.clock = short_clock_words(status);
+    rig.calibration = calibration_words(status.health, std::chrono::system_clock::now());
+    rig.worries = worries_of(status);
+    return rig;
+}
+
+std::optional<DeskSources> DeskFeed::sources_of(const ProgrammeState& programme) {
+    if (!programme.source_map) return std::nullopt;
+    DeskSources sources;
+    if (!programme.picture || !programme.picture->sources) {
+        sources.remark = fmt::format("The synthesiser {} cannot tell.", programme.synthesiser);
+        return sources;
+    }
+    const SourceMap& map = *programme.picture->sources;
+    for (const NoveltyOverlay::Key& key : map.legend) {
+        const auto share = map.shares.rigs.find(key.rig);
+        sources.rows.push_back({key.rig,
+                                {key.colour[0], key.colour[1], key.colour[2]},
+                                share == map.shares.rigs.end() ? 0.0 : share->second});
+    }
+    const auto* filled = novelty_filled_colour;
+    sources.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, map.shares.filled});
+    const auto* known = novelty_remembered_colour;
+    sources.rows.push_back({"remembered", {known[0], known[1], known[2]}, map.shares.remembered});
+    return sources;
+}
+
+void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
+                       MonotonicTime now) {
+    const LiveReport report = show.report();
+    picture_rate_.add(report.programme.pictures, now);
+    for (const RigAccount& rig : report.rigs)
+        rig_rates_[rig.status.rig].add(rig.status.received, now);
+    if (set) rig_pictures_.take(*set);
+
+    state_.rigs.clear();
+    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig.status, set, now));
+    state_.steps.clear();
+    for (const StepTime& step : step_times(report))
+        state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
+    state_.picture_rate_hz = picture_rate_.per_second();
+    // What never was live is not from an exposure to a picture.
+    const bool is_live = !programme.time.pulse && !programme.time.is_held;
+    state_.latency_ms = latencies_ms_.empty() || !is_live ? 0 : latencies_ms_.back();
+    state_.latencies_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
+    state_.signal = report.signal;
+    state_.sources = sources_of(programme);
+    state_.outputs.clear();
+    state_.recording = false;
+    for (const OutputState& output : report.outputs) {
+        state_.outputs.push_back(desk_output(output));
+        if (!output.film.empty() && output.phase == OutputPhase::on) state_.recording = true;
+    }
+}
+
+void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme,
+                           MonotonicTime now) {
+    const Eigen::Vector3d eye_m = programme.view.eye_m();
+    while (!path_.empty() && now - path_.front().time > path_length) path_.pop_front();
+    if (path_.empty() || (path_.back().eye_m - eye_m).norm() > least_path_step_m)
+        path_.push_back({now, eye_m});
+    const std::optional<StagePlaces> places = show.places();
+    if (!places) return;
+    DeskPlan plan;
+    double reach_m = programme.view.distance_m;
+    for (const StagePlaces::Rig& rig : places->rigs) {
+        plan.rigs.push_back(plan_rig(rig));
+        reach_m = std::max(reach_m, (plan.rigs.back().eye_m - programme.view.pivot_m).norm());
+    }
+    plan.extent = places->extent;
+    corridor_.follow(show.corridor(), programme.view, corridor_reach * reach_m);
+    plan.corridor = corridor_.fields();
+    plan.corridor_pivot_m = corridor_.pivot_m();
+    for (const Placed& placed : path_) plan.path_m.push_back(placed.eye_m);
+    plan.move_m = move_m_;
+    state_.plan = std::move(plan);
+}
+
+void DeskFeed::follow_shots(const LiveShow& show, const ProgrammeState& programme,
+                            MonotonicTime now) {
+    const FlightControls::Shots kept = show.controls().shots();
+    if (programme.picture) shot_pictures_.follow(kept, *programme.picture, now);
+    state_.shots.clear();
+    for (std::size_t number = 1; number <= shot_places; ++number) {
+        DeskShot shot;
+        if (kept[number - 1]) {
+            shot = {"kept", shot_pictures_.of(number), true};
+        } else if (number <= state_.rigs.size()) {
+            const DeskRig& rig = state_.rigs[number - 1];
+            shot = {rig.name, rig.colour, false};
+        }
+        state_.shots.push_back(std::move(shot));
+    }
+}
+
+const Texture* DeskFeed::picture(const ProgrammeState& programme) {
+    if (programme.picture && programme.picture != uploaded_) {
+        uploaded_ = programme.picture;
+        const ColourImage& shown =
+            uploaded_->sources ? uploaded_->sources->picture : uploaded_->picture;
+        if (!picture_ || picture_->size() != shown.size())
+            picture_.emplace(TextureFormat::rgba8, shown.cols, shown.rows, Filter::linear);
+        picture_->upload(shown);
+    }
+    return picture_ ? &*picture_ : nullptr;
+}
+
+void DeskFeed::note_shown(const ProgrammeState& programme) {
+    if (!programme.picture) return;
+    const ReadyInstant& instant = *programme.picture->job.instant;
+    if (!instant.is_live || !instant.exposure || instant.set->trigger_index == latency_of_) return;
+    latency_of_ = instant.set->trigger_index;
+    latencies_ms_.push_back(
+        std::chrono::duration<float, std::milli>(TaiClock::now() - *instant.exposure).count());
+    if (latencies_ms_.size() > latency_samples) latencies_ms_.pop_front();
+}
+
+DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
+                          const std::optional<TakeState>& take, const std::string& question) {
+    const MonotonicTime now = MonotonicClock::now();
+    if (!timecodes_)
+        timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
+    if (renderer_.empty()) renderer_ = GlInfo::query().renderer;
+    const FrameSet* set = programme.picture ? programme.picture->job.instant->set.get() : nullptr;
+    if (!refreshed_ || now - *refreshed_ >= refresh_period) {
+        refreshed_ = now;
+        refresh(show, programme, set, now);
+    }
+    state_.picture = picture(programme);
+    state_.waiting = set == nullptr;
+    if (set) {
+        state_.pulse = set->trigger_index;
+        state_.timecode = timecodes_->of(*set);
+    }
+    state_.question = question;
+    state_.take = take ? desk_take(*take) : std::nullopt;
+    state_.behind_s = programme.behind_s;
+    state_.time = desk_time(show, programme, take);
+    state_.synthesiser = programme.synthesiser;
+    state_.render_level = programme.render_level;
+    state_.prepare_level = programme.prepare_level;
+    state_.renderer = renderer_;
+    state_.view = programme.view;
+    const FlightControls::Lines lines = show.controls().lines();
+    state_.move_progress = lines.move_progress;
+    state_.wheel = lines.wheel;
+    state_.coverage = lines.corridor.now;
+    follow_plan(show, programme, now);
+    follow_shots(show, programme, now);
+    return state_;
+}
+
+}  // namespace vantage

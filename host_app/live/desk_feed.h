@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/rate_meter.h"
+#include "host_app/desk/desk_state.h"
+#include "host_app/live/corridor_fields.h"
+#include "host_app/live/live_show.h"
+#include "host_app/live/rig_pictures.h"
+#include "host_app/live/shot_pictures.h"
+
+namespace vantage {
+
+/// Puts together what the operator's desk tells, from the show's books. Rates, latencies and the
+/// rigs' pictures are looked at a few times a second, so that numbers can be read. Of one context,
+/// which must be current at every call.
+class DeskFeed {
+  public:
+    explicit DeskFeed(const FlightPlan& plan);
+
+    /// The programme's newest picture; null before the first.
+    const Texture* picture(const ProgrammeState& programme);
+    /// To be called when that was shown.
+    void note_shown(const ProgrammeState& programme);
+    /// `take`: nothing: none is recorded here. `question`: that a second press of a key answers;
+    /// empty: none.
+    DeskState state(LiveShow& show, const ProgrammeState& programme,
+                    const std::optional<TakeState>& take, const std::string& question);
+
+  private:
+    void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
+                 MonotonicTime now);
+    static std::optional<DeskSources> sources_of(const ProgrammeState& programme);
+    DeskRig rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now);
+    void follow_plan(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
+    void follow_shots(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
+
+    struct Placed {
+        MonotonicTime time;
+        Eigen::Vector3d eye_m;
+    };
+    std::optional<MonotonicTime> refreshed_;
+    RateMeter picture_rate_;
+    std::map<std::string, RateMeter> rig_rates_;
+    std::map<std::string, MonotonicTime> rigs_seen_;  ///< in a set, last
+    RigPictures rig_pictures_;
+    ShotPictures shot_pictures_;
+    CorridorFields corridor_;
+    std::deque<Placed> path_;
+    std::vector<Eigen::Vector3d> move_m_;
+    std::deque<float> latencies_ms_;  ///< from exposure to this desk's window
+    std::uint64_t latency_of_ = 0;    ///< the pulse of the last of them
+    std::string renderer_;
+    std::optional<Texture> picture_;
+    std::shared_ptr<const MadePicture> uploaded_;
+    std::optional<SetTimecode> timecodes_;  ///< of the stage's pulses
+    DeskState state_;
+};
+
+}  // namespace vantage

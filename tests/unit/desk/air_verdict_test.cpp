@@ -1,0 +1,89 @@
+#include "host_app/desk/air_verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+using Level = AirVerdict::Level;
+
+DeskState good_state() {
+    DeskState state;
+    state.waiting = false;
+    DeskRig north, south;
+    north.name = "north";
+    south.name = "south";
+    north.state = south.state = RigState::present;
+    state.rigs = {north, south};
+    state.coverage = Coverage{.share = 0.97};
+    return state;
+}
+
+TEST(AirVerdictTest, IsReadyWhereNothingIsMissing) {
+    const AirVerdict verdict = air_verdict(good_state());
+    EXPECT_EQ(verdict.level, Level::ready);
+    EXPECT_EQ(verdict.why, "");
+}
+
+TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
+    DeskState state = good_state();
+    state.waiting = true;
+    EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+    state = good_state();
+    state.signal = SignalState::stale;
+    EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+    state.signal = SignalState::no_signal;
+    EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+    EXPECT_NE(air_verdict(state).why, "");
+}
+
+TEST(AirVerdictTest, APictureThatIsHeldMayGoOnAir) {
+    DeskState state = good_state();
+    state.signal = SignalState::hold;
+    EXPECT_EQ(air_verdict(state).level, Level::ready);
+}
+
+TEST(AirVerdictTest, NamesTheRigThatIsMissing) {
+    DeskState state = good_state();
+    state.rigs[1].state = RigState::disconnected;
+    EXPECT_EQ(air_verdict(state).level, Level::ready) << "it was there a moment ago";
+    state.rigs[1].absent_s = 1.5;
+    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).why, "south: no link");
+}
+
+TEST(AirVerdictTest, TellsTheEdgeOfTheCorridorFromItsEnd) {
+    DeskState state = good_state();
+    state.coverage = Coverage{.share = 0.75};
+    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).why, "the rigs cover 75 % of the picture");
+    state.coverage = Coverage{.share = 0.3};
+    EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+}
+
+TEST(AirVerdictTest, TellsOfOutputsTakesAndHeat) {
+    DeskState state = good_state();
+    state.rigs[0].worries = {"83 C, it slows down from 80"};
+    EXPECT_EQ(air_verdict(state).why, "north: 83 C, it slows down from 80");
+    state.take.emplace().failure = "the disk is full";
+    EXPECT_EQ(air_verdict(state).why, "the take has failed");
+    DeskOutput output;
+    output.name = "srt://house:9000";
+    output.is_failed = true;
+    state.outputs = {output};
+    EXPECT_EQ(air_verdict(state).why, "srt://house:9000 has failed");
+    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+}
+
+TEST(AirVerdictTest, OfATakeTheRigsNeedNotBeThere) {
+    DeskState state = good_state();
+    state.signal = SignalState::no_signal;
+    state.time.emplace().is_of_take = true;
+    EXPECT_EQ(air_verdict(state).level, Level::ready);
+    state.rigs[0].state = RigState::late;
+    state.rigs[0].absent_s = 5;
+    EXPECT_EQ(air_verdict(state).why, "north: not in the take");
+}
+
+}  // namespace
+}  // namespace vantage

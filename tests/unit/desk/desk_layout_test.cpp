@@ -1,0 +1,97 @@
+#include "host_app/desk/desk_layout.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+struct Size {
+    float width, height;
+};
+constexpr Size sizes[] = {{640, 360},   {960, 540},   {1280, 720}, {1280, 1024},
+                          {1920, 1080}, {2560, 1080}, {3840, 2160}};
+constexpr float wide = 9.0f / 16;
+
+DeskLayout layout_of(Size size, int rigs = 4, float aspect = wide) {
+    return desk_layout(size.width, size.height, letter_height_px(size.width, size.height, 1), rigs,
+                       aspect);
+}
+std::vector<DeskRect> parts_of(const DeskLayout& layout) {
+    return {layout.status, layout.programme, layout.shots,
+            layout.side,   layout.time_line, layout.rigs};
+}
+bool overlap(const DeskRect& a, const DeskRect& b) {
+    constexpr float slack = 0.5f;
+    return a.left + slack < b.right() && b.left + slack < a.right() && a.top + slack < b.bottom() &&
+           b.top + slack < a.bottom();
+}
+
+TEST(DeskLayoutTest, PartsStandInTheWindowAndNotOverOneAnother) {
+    for (const Size size : sizes)
+        for (const int rigs : {0, 1, 2, 4, 9, 16}) {
+            const std::vector<DeskRect> parts = parts_of(layout_of(size, rigs));
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                if (parts[i].is_empty()) continue;
+                EXPECT_GE(parts[i].left, -0.5f) << size.width << " part " << i;
+                EXPECT_GE(parts[i].top, -0.5f) << size.width << " part " << i;
+                EXPECT_LE(parts[i].right(), size.width + 0.5f) << size.width << " part " << i;
+                EXPECT_LE(parts[i].bottom(), size.height + 0.5f) << size.width << " part " << i;
+                for (std::size_t j = 0; j < i; ++j)
+                    EXPECT_FALSE(!parts[j].is_empty() && overlap(parts[i], parts[j]))
+                        << size.width << "x" << size.height << " of " << rigs << " rigs: " << i
+                        << " and " << j;
+            }
+        }
+}
+
+TEST(DeskLayoutTest, ThePictureIsTheLargestPart) {
+    for (const Size size : sizes) {
+        const DeskLayout layout = layout_of(size);
+        const DeskRect picture = layout.programme.fitted(wide);
+        EXPECT_GT(picture.width, 0.49f * size.width) << size.width;
+        for (const DeskRect& part : {layout.side, layout.shots, layout.rigs, layout.time_line})
+            EXPECT_GT(picture.width * picture.height, part.width * part.height) << size.width;
+    }
+}
+
+TEST(DeskLayoutTest, AllPartsAreThereFromTheSmallestPromisedSizeOn) {
+    for (const Size size : sizes)
+        for (const DeskRect& part : parts_of(layout_of(size)))
+            EXPECT_FALSE(part.is_empty()) << size.width << "x" << size.height;
+}
+
+TEST(DeskLayoutTest, AWindowTooSmallForAllKeepsThePictureItsStatusAndItsTime) {
+    const DeskLayout layout = layout_of({320, 240});
+    EXPECT_TRUE(layout.side.is_empty());
+    EXPECT_TRUE(layout.shots.is_empty());
+    EXPECT_TRUE(layout.rigs.is_empty());
+    EXPECT_FALSE(layout.status.is_empty());
+    EXPECT_FALSE(layout.time_line.is_empty());
+    EXPECT_GT(layout.programme.height, 120);
+}
+
+TEST(DeskLayoutTest, LettersScaleWithTheWindowAndTheDisplayAndStayReadable) {
+    EXPECT_EQ(letter_height_px(1920, 1080, 1), 20);
+    EXPECT_EQ(letter_height_px(3840, 2160, 1), 40);
+    EXPECT_EQ(letter_height_px(640, 360, 1), 9);
+    EXPECT_EQ(letter_height_px(640, 360, 2), 18);
+    EXPECT_LT(letter_height_px(800, 2160, 1), 10) << "a narrow window has room for few letters";
+}
+
+TEST(DeskLayoutTest, ManyRigsStandInRows) {
+    EXPECT_EQ(layout_of({1280, 720}, 4).rig_rows, 1);
+    EXPECT_GT(layout_of({1280, 720}, 12).rig_rows, 1);
+}
+
+TEST(DeskRectTest, FitsTheLargestPictureOfAShapeIntoItsMiddle) {
+    const DeskRect square = DeskRect{10, 20, 200, 100}.fitted(1);
+    EXPECT_EQ(square.left, 60);
+    EXPECT_EQ(square.top, 20);
+    EXPECT_EQ(square.width, 100);
+    EXPECT_EQ(square.height, 100);
+}
+
+}  // namespace
+}  // namespace vantage

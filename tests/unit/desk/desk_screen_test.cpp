@@ -1,0 +1,241 @@
+#include "host_app/desk/desk_screen.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/egl_context.h"
+#include "common/image/image_file.h"
+#include "host_app/desk/ui_renderer.h"
+#include "tests/unit/desk/example_desk.h"
+
+namespace vantage {
+namespace {
+
+const cv::Size usual{1280, 720};
+
+class DeskScreen : public testing::Test {
+  protected:
+    ColourImage draw(cv::Size size = usual) {
+        const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+        ui_.set_letter_px(letter_height_px(width, height, 1));
+        renderer_.take_fonts();
+        ImGui::GetIO().DisplaySize = {width, height};
+        const Texture screen(TextureFormat::rgba8, size.width, size.height);
+        const Framebuffer target({&screen});
+        ImGui::NewFrame();
+        drawn_ = draw_desk(state(), switches_, ui_.fonts());
+        ImGui::Render();
+        renderer_.draw(*ImGui::GetDrawData(), target);
+        ColourImage picture = screen.download();
+        // For looking at it.
+        if (const char* file = std::getenv("VANTAGE_TEST_PICTURE"))
+            write_colour_image(file, picture);
+        return picture;
+    }
+    DeskState& state() { return desk_.state; }
+    DeskLayout layout(cv::Size size = usual) const {
+        const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+        return desk_layout(width, height, letter_height_px(width, height, 1),
+                           static_cast<int>(desk_.state.rigs.size()), 9.0f / 16);
+    }
+    static cv::Rect pixels(const DeskRect& rect) {
+        return {cvCeil(rect.left), cvCeil(rect.top), cvFloor(rect.width) - 1,
+                cvFloor(rect.height) - 1};
+    }
+    static cv::Vec3b at(const ColourImage& screen, float x, float y) {
+        const cv::Vec4b& pixel = screen(cvRound(y), cvRound(x));
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+    static int differing(const ColourImage& a, const ColourImage& b, const DeskRect& region) {
+        ColourImage difference;
+        cv::absdiff(a(pixels(region)), b(pixels(region)), difference);
+        int count = 0;
+        for (const cv::Vec4b& d : difference) count += d[0] + d[1] + d[2] > 60;
+        return count;
+    }
+    static int of_colour(const ColourImage& screen, const DeskRect& region, const cv::Vec3b& rgb) {
+        int count = 0;
+        for (const cv::Vec4b& p : ColourImage(screen(pixels(region))))
+            count +=
+                std::abs(p[0] - rgb[0]) + std::abs(p[1] - rgb[1]) + std::abs(p[2] - rgb[2]) < 9;
+        return count;
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    UiContext ui_{13};
+    UiRenderer renderer_{shaders_};
+    ExampleDesk desk_;
+    DeskSwitches switches_;
+    DrawnDesk drawn_;
+};
+
+TEST_F(DeskScreen, LaysNothingOverThePicture) {
+    for (const cv::Size size : {cv::Size(640, 360), usual, cv::Size(1920, 1080)}) {
+        const ColourImage screen = draw(size);
+        const DeskRect inside = drawn_.picture.shrunk(1);
+        EXPECT_EQ(of_colour(screen, inside, {40, 90, 140}), pixels(inside).area()) << size;
+        EXPECT_FALSE(drawn_.has_overlay);
+    }
+}
+
+TEST_F(DeskScreen, ShowsThePictureAloneWhereTheOperatorWantsThat) {
+    switches_.panels = false;
+    const ColourImage screen = draw();
+    for (const cv::Point p : {cv::Point(1, 1), cv::Point(640, 360), cv::Point(1278, 718)})
+        EXPECT_EQ(at(screen, static_cast<float>(p.x), static_cast<float>(p.y)),
+                  cv::Vec3b(40, 90, 140))
+            << p;
+}
+
+TEST_F(DeskScreen, LetterboxesAPictureOfAnotherShape) {
+    Texture filled(TextureFormat::rgba8, 100, 100);
+    filled.upload(ColourImage(100, 100, cv::Vec4b(200, 0, 0, 255)));
+    state().picture = &filled;
+    switches_.panels = false;
+    const ColourImage screen = draw();
+    EXPECT_EQ(at(screen, 100, 360), cv::Vec3b(0, 0, 0));
+    EXPECT_EQ(at(screen, 640, 360), cv::Vec3b(200, 0, 0));
+    EXPECT_EQ(at(screen, 290, 5), cv::Vec3b(200, 0, 0)) << "from (1280 - 720) / 2 = 280 on";
+    EXPECT_EQ(at(screen, 270, 5), cv::Vec3b(0, 0, 0));
+}
+
+TEST_F(DeskScreen, ANewPictureAloneIsDrawnAsTheWholeDeskWouldDrawIt) {
+    state().shots.clear();
+    ColourImage ramp(180, 320);
+    for (int y = 0; y < ramp.rows; ++y)
+        for (int x = 0; x < ramp.cols; ++x)
+            ramp(y, x) = cv::Vec4b(static_cast<uchar>(x), static_cast<uchar>(y), 77, 0);
+    desk_.picture.upload(ramp);
+    const ColourImage expected = draw();
+    desk_.picture.upload(ColourImage(180, 320, cv::Vec4b(1, 2, 3, 255)));
+    const ColourImage before = draw();
+    Texture screen(TextureFormat::rgba8, usual.width, usual.height);
+    screen.upload(before);
+    desk_.picture.upload(ramp);
+    renderer_.draw_picture(desk_.picture, drawn_.picture, Framebuffer({&screen}));
+    EXPECT_LE(cv::norm(ColourImage(screen.download()), expected, cv::NORM_INF), 1);
+}
+
+TEST_F(DeskScreen, TellsInOneLookWhetherItMayGoOnAir) {
+    const DeskRect status = layout().status;
+    state().rigs.resize(1);
+    const ColourImage ready = draw();
+    state().signal = SignalState::stale;
+    const ColourImage stale = draw();
+    EXPECT_GT(differing(ready, stale, status), 400);
+    state().signal = SignalState::live;
+    state().programme_tally = true;
+    EXPECT_GT(differing(ready, draw(), status), 400);
+}
+
+TEST_F(DeskScreen, TellsTheStateOfARigByItsWordsAndItsPicture) {
+    const DeskRect rigs = layout().rigs;
+    const DeskRect first{rigs.left, rigs.top, rigs.width / 3, rigs.height};
+    const DeskRect rest{rigs.left + rigs.width / 3, rigs.top, 2 * rigs.width / 3, rigs.height};
+    const ColourImage before = draw();
+    EXPECT_GT(of_colour(before, first, {150, 60, 60}), 5000) << "colour";
+    EXPECT_GT(of_colour(before, first, {230, 210, 60}), 2000) << "depth";
+    state().rigs[0].state = RigState::refused;
+    const ColourImage after = draw();
+    EXPECT_EQ(of_colour(after, first, {150, 60, 60}), 0) << "it is veiled";
+    EXPECT_GT(differing(before, after, first), 5000);
+    EXPECT_EQ(differing(before, after, rest), 0);
+}
+
+TEST_F(DeskScreen, ShowsWhatATechnicianShouldLookAfter) {
+    const ColourImage before = draw();
+    state().rigs[0].worries = {"83 C, it slows down from 80"};
+    EXPECT_GT(differing(before, draw(), layout().side), 100);
+    EXPECT_GT(differing(before, draw(), layout().rigs), 50);
+}
+
+TEST_F(DeskScreen, ShowsTheMarksAndThePlaceOnTheTimeLine) {
+    const DeskRect line = layout().time_line;
+    const ColourImage live = draw();
+    ASSERT_TRUE(drawn_.spots.time.has_value());
+    EXPECT_FALSE(drawn_.spots.live.is_empty());
+    state().time->at = 1300;
+    state().time->in = 1225;
+    state().time->out = 1675;
+    const ColourImage past = draw();
+    const DeskRect bar = drawn_.spots.time->rect;
+    const cv::Vec3b between(41, 97, 128);
+    const auto marked = [&](double share) {
+        const DeskRect there{bar.left + static_cast<float>(share) * bar.width - 3, bar.top, 12,
+                             0.5f * bar.height};
+        return of_colour(past, there, between) > 10;
+    };
+    EXPECT_TRUE(marked(0.5));
+    EXPECT_FALSE(marked(0.1));
+    EXPECT_FALSE(marked(0.9));
+    EXPECT_GT(differing(live, past, line), 1000);
+}
+
+TEST_F(DeskScreen, WithoutAPastThereIsNothingToSeekIn) {
+    state().time.reset();
+    draw();
+    EXPECT_FALSE(drawn_.spots.time.has_value());
+    EXPECT_TRUE(drawn_.spots.live.is_empty());
+}
+
+TEST_F(DeskScreen, ShotsThatThereAreCanBePressed) {
+    draw();
+    ASSERT_EQ(drawn_.spots.shots.size(), 2u);
+    EXPECT_EQ(drawn_.spots.shots[0].number, 1);
+    EXPECT_EQ(drawn_.spots.shots[1].number, 4);
+}
+
+TEST_F(DeskScreen, OutputsCanBePressed) {
+    draw();
+    ASSERT_EQ(drawn_.spots.outputs.size(), 3u);
+    EXPECT_EQ(drawn_.spots.outputs[2].number, 3);
+}
+
+TEST_F(DeskScreen, ThePlanFollowsTheCamera) {
+    const ColourImage before = draw();
+    state().view.azimuth_rad = 0.6;
+    const DeskRect side = layout().side;
+    EXPECT_GT(differing(before, draw(), {side.left, side.top, side.width, 0.4f * side.height}),
+              300);
+}
+
+TEST_F(DeskScreen, NamesTheColoursOfTheSourceMap) {
+    const DeskRect side = layout().side;
+    const cv::Vec3b of_north(230, 20, 200), of_filled(255, 0, 255);
+    EXPECT_EQ(of_colour(draw(), side, of_north) + of_colour(draw(), side, of_filled), 0);
+    state().sources = {{{"north", {230, 20, 200}, 0.61}, {"filled", {255, 0, 255}, 0.04}}, ""};
+    EXPECT_GT(of_colour(draw(), side, of_north), 40);
+    EXPECT_GT(of_colour(draw(), side, of_filled), 40);
+    const ColourImage shares = draw();
+    state().sources = {{}, "The synthesiser points cannot tell."};
+    EXPECT_GT(differing(shares, draw(), side), 100);
+}
+
+TEST_F(DeskScreen, OpensTheHelpOverEverythingElse) {
+    const ColourImage before = draw();
+    switches_.help = true;
+    const ColourImage after = draw();
+    EXPECT_TRUE(drawn_.has_overlay);
+    EXPECT_GT(differing(before, after, {440, 200, 400, 300}), 60000);
+}
+
+TEST_F(DeskScreen, AsksBeforeTheEnd) {
+    const ColourImage before = draw();
+    state().question = "Esc again to end the programme";
+    EXPECT_GT(differing(before, draw(), layout().status), 1000);
+}
+
+TEST_F(DeskScreen, DrawsWithNothingToShowAtAnySize) {
+    state() = DeskState();
+    for (const cv::Size size : {cv::Size(320, 240), cv::Size(640, 360), usual}) {
+        const ColourImage screen = draw(size);
+        double most = 0;
+        cv::minMaxLoc(ColourImage(screen.rowRange(0, 22)).reshape(1), nullptr, &most);
+        EXPECT_GT(most, 150) << "it says why: " << size;
+    }
+}
+
+}  // namespace
+}  // namespace vantage

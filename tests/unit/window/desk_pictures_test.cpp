@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "common/image/image_file.h"
+#include "host_app/desk/operator_window.h"
+#include "tests/support/source_folder.h"
+#include "tests/support/virtual_screen.h"
+#include "tests/unit/desk/example_desk.h"
+
+namespace vantage {
+namespace {
+
+/// The desk as a person has looked at it. Where it is to look otherwise, VANTAGE_WRITE_PICTURES in
+/// the environment writes the pictures anew, for another look.
+class DeskPictures : public testing::TestWithParam<cv::Size> {};
+
+TEST_P(DeskPictures, AreThoseThatWereLookedAt) {
+    if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+    const cv::Size size = GetParam();
+    const VirtualScreen screen(size.width, size.height);
+    setenv("DISPLAY", screen.display().c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+    OperatorWindow window("Vantage", size.width, size.height);
+    ExampleDesk desk;
+    window.show(desk.state);
+    const ColourImage shown = window.screenshot();
+    ASSERT_EQ(shown.size(), size);
+    const std::filesystem::path file = source_folder() / "tests/unit/window/pictures" /
+                                       fmt::format("desk_{}x{}.png", size.width, size.height);
+    if (std::getenv("VANTAGE_WRITE_PICTURES")) write_colour_image(file, shown);
+    const ColourImage expected = read_colour_image(file);
+    ASSERT_EQ(expected.size(), size);
+    // Drivers and versions of fonts differ by shades at the edges of letters and lines.
+    constexpr int visible = 60;
+    constexpr double most_differing = 0.01;
+    ColourImage difference;
+    cv::absdiff(shown, expected, difference);
+    const auto differing =
+        std::count_if(difference.begin(), difference.end(),
+                      [](const cv::Vec4b& d) { return d[0] + d[1] + d[2] > visible; });
+    EXPECT_LT(static_cast<double>(differing), most_differing * size.area());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, DeskPictures,
+                         testing::Values(cv::Size(640, 360), cv::Size(1280, 720)),
+                         [](const auto& size) {
+                             return fmt::format("{}x{}", size.param.width, size.param.height);
+                         });
+
+}  // namespace
+}  // namespace vantage
