@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/base/command.h"
+#include "common/base/log.h"
 #include "common/base/time_zone.h"
 #include "common/colour/colour_file.h"
 #include "host_app/commands/show_session.h"
@@ -27,7 +28,13 @@ void live(const LiveOptions& options) {
     StopSignal stop;
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
-    FlightPlan plan = options.show.plan(stage.view);
+    FlightStore flights = options.show.flight_store(options.stage);
+    FlightPlan plan = options.show.plan(stage.view, flights);
+    if (plan.move && plan.move->take_s_at(0))
+        log_warning(
+            "{} says where in a take the camera is when; that is left aside, since the stage "
+            "is live",
+            options.show.path);
     // A flight that nobody steers ends with its move.
     const bool has_hands = options.show.jog.value_or(!options.show.headless);
     if (options.show.headless && plan.move && !plan.move->loops() && !plan.frames &&
@@ -44,9 +51,10 @@ void live(const LiveOptions& options) {
     StageReceiver receiver(stage, StageReceiver::Purpose::film, takes.tap());
     LiveShow show(settings, plan, takes.feed(feed_of(receiver)), deck.get());
     show.add(takes.camera_sink());
-    ShowSession session{options.show, show, plan, deck.get(), &takes, "", [&](StopSignal& signal) {
-                            return show.wait_for_rigs(as_duration(options.wait_s), signal);
-                        }};
+    ShowSession session{
+        options.show, show, plan, deck.get(), flights, &takes, "", [&](StopSignal& signal) {
+            return show.wait_for_rigs(as_duration(options.wait_s), signal);
+        }};
     session.run(stop);
 }
 

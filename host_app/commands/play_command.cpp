@@ -46,22 +46,30 @@ void play(const PlayOptions& options) {
     const TakeShow told = take_show_from(take->facts().show);
     if (is_time_zone(told.timecode_zone)) use_time_zone(told.timecode_zone);
     const auto sets = std::make_shared<const TakeSets>(take);
-    FlightPlan plan = options.show.plan(told.view);
+    FlightStore flights = options.show.flight_store(options.take);
+    FlightPlan plan = options.show.plan(told.view, flights);
     LiveSettings settings = options.show.settings(told.view, take->facts().pulse_rate_hz);
     settings.colours = told.colours;
     settings.take = sets;
     settings.transport = transport_of(options, *take, *sets->span());
     // What nobody steers ends with the take.
     const bool has_hands = options.show.jog.value_or(!options.show.headless);
+    // A flight that says where in the take it is ends by itself.
+    const bool leads = plan.move && plan.move->take_s_at(0);
+    if (leads && options.show.headless && !has_hands && !plan.move->loops() && !plan.frames &&
+        !plan.seconds)
+        plan.seconds = plan.move->duration_s();
     settings.ends_with_take = options.show.headless && !has_hands && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
         fail("what loops or stands has no end: say --frames or --seconds with --headless");
     const std::unique_ptr<JogDeck> deck = options.show.make_deck();
     LiveShow show(settings, plan, feed_of(*take), deck.get());
     ShowSession session{
-        options.show, show, plan, deck.get(), nullptr, options.take, [&](StopSignal& signal) {
-            return show.wait_for_first_set(signal);
-        }};
+        options.show, show,
+        plan,         deck.get(),
+        flights,      nullptr,
+        options.take, [&](StopSignal& signal) {
+            return show.wait_for_first_set(signal); }};
     session.run(stop);
 }
 

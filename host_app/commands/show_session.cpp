@@ -1,6 +1,5 @@
 #include "host_app/commands/show_session.h"
 
-#include <charconv>
 #include <iostream>
 #include <numbers>
 
@@ -8,8 +7,8 @@
 
 #include "common/base/error.h"
 #include "common/base/pulse_grid.h"
-#include "common/gl/limits.h"
 #include "common/image/image_file.h"
+#include "host_app/commands/picture_options.h"
 #include "host_app/control/ports/freed_sink.h"
 #include "host_app/desk/operator_window.h"
 #include "host_app/desk/screen_windows.h"
@@ -22,32 +21,6 @@
 
 namespace vantage {
 namespace {
-
-/// "1280x720", each side 16..4096.
-cv::Size parse_size(const std::string& text) {
-    int width = 0, height = 0, used = 0;
-    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
-        static_cast<std::size_t>(used) != text.size() || width < 16 || height < 16 ||
-        width > PiLimits::max_image_side_px || height > PiLimits::max_image_side_px)
-        fail("--size is WIDTHxHEIGHT with 16 to {} pixels each, such as 1280x720, not '{}'",
-             PiLimits::max_image_side_px, text);
-    return {width, height};
-}
-
-/// "25", "29.97", "30000/1001", within 0.1..240; 29.97 and its like are n * 1000 / 1001.
-double parse_rate(const std::string& text) {
-    constexpr double least_hz = 0.1, most_hz = 240;
-    double pictures = 0, seconds = 1;
-    const char* last = text.data() + text.size();
-    std::from_chars_result read = std::from_chars(text.data(), last, pictures);
-    if (read.ec == std::errc() && read.ptr != last && *read.ptr == '/')
-        read = std::from_chars(read.ptr + 1, last, seconds);
-    const double rate_hz = pictures / seconds;
-    if (read.ec != std::errc() || read.ptr != last || !(rate_hz >= least_hz && rate_hz <= most_hz))
-        fail("--rate is {:g} to {:g} pictures a second, such as 50, 29.97 or 30000/1001, not '{}'",
-             least_hz, most_hz, text);
-    return rate_hz;
-}
 
 OrbitView start_view(const StageConfig::View& view) {
     constexpr double rad = std::numbers::pi / 180;
@@ -94,10 +67,21 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
     return settings;
 }
 
-FlightPlan ShowOptions::plan(const StageConfig::View& view) const {
+FlightStore ShowOptions::flight_store(const std::string& beside) const {
+    return FlightStore(flight.empty() ? flight_file_of(beside) : std::filesystem::path(flight));
+}
+
+FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights) const {
     FlightPlan plan;
+    plan.book = flights.book();
     if (view.is_placed) plan.start = start_view(view);
-    if (!path.empty()) plan.move = Move::load(path);
+    if (!path.empty()) {
+        FlightBook asked = load_flight(path);
+        plan.move = std::move(asked.move);
+        if (plan.move) flights.begin_with_another_move();
+        for (std::size_t i = 0; i < asked.shots.size(); ++i)
+            if (asked.shots[i]) plan.book.shots[i] = std::move(asked.shots[i]);
+    }
     if (frames > 0) plan.frames = frames;
     if (seconds > 0) plan.seconds = seconds;
     for (const std::string& picture : {snapshot, contact_sheet})
@@ -118,7 +102,12 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
                     "that does not loop)")
         ->check(CLI::PositiveNumber);
     command.add_option("--seconds", seconds, "End after this time")->check(CLI::Range(0.01, 1e6));
-    command.add_option("--path", path, "Fly this move (TOML)");
+    command.add_option("--path", path,
+                       "Fly the move of this flight file (TOML), and have its shots");
+    command.add_option(
+        "--flight", flight,
+        "Keep shots and move in this flight file, and have them from there (default: "
+        "NAME.flight.toml beside the stage or the take)");
     command.add_option("--snapshot", snapshot,
                        "Write the last picture (.png, .jpg); of a window, the whole desk");
     std::string kinds;
@@ -198,6 +187,9 @@ void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
                          const std::function<ColourImage()>& last_picture) {
     show.finish();
     if (takes) takes->finish();
+    show.controls().end_recording();
+    keep_flights(show.controls().take_wishes());
+    flights.finish();
     LiveReport report = show.report();
     if (takes && takes->state().takes > 0) report.take = takes->state();
     report.played = played;
@@ -219,9 +211,17 @@ void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
         fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
 }
 
+void ShowSession::keep_flights(const SessionWishes& wishes) {
+    if (wishes.change) flights.keep(*wishes.change);
+    if (!wishes.flight.empty()) flights.simplify(wishes.flight, wishes.limits);
+}
+
 /// What hands asked for beyond the programme itself.
 void ShowSession::follow_wishes(OutputSwitch& outputs, ControlRoom& room, MonotonicTime now) {
     const SessionWishes wishes = show.controls().take_wishes();
+    keep_flights(wishes);
+    if (std::optional<Move> move = flights.follow(now))
+        show.controls().keep_flight(*std::move(move));
     if (takes && wishes.toggle_take) takes->toggle();
     for (const int number : wishes.outputs) outputs.press(number, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, now);

@@ -11,6 +11,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
 #include "host_app/commands/stereoscopic_options.h"
+#include "host_app/flight/flight_store.h"
 #include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
 #include "host_app/takes/take_desk.h"
@@ -19,7 +20,8 @@ namespace vantage {
 
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
-    std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder, rate;
+    std::string path, flight, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder,
+        rate;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
@@ -33,7 +35,10 @@ struct ShowOptions {
 
     /// Throw Error for what cannot be.
     LiveSettings settings(const StageConfig::View& view, double pulse_rate_hz) const;
-    FlightPlan plan(const StageConfig::View& view) const;
+    /// `flights`: what is kept of shots and moves.
+    FlightPlan plan(const StageConfig::View& view, FlightStore& flights) const;
+    /// `beside`: the stage or the take. Throws Error as load_flight().
+    FlightStore flight_store(const std::string& beside) const;
     std::unique_ptr<JogDeck> make_deck() const;
 };
 
@@ -43,6 +48,7 @@ struct ShowSession {
     LiveShow& show;
     const FlightPlan& plan;
     const JogDeck* deck;
+    FlightStore& flights;
     TakeDesk* takes;     ///< null: nothing can be recorded
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.
@@ -53,6 +59,7 @@ struct ShowSession {
   private:
     void run_headless(StopSignal& stop, ControlRoom& room);
     void run_in_window(StopSignal& stop, ControlRoom& room);
+    void keep_flights(const SessionWishes& wishes);
     void follow_wishes(class OutputSwitch& outputs, ControlRoom& room, MonotonicTime now);
     void finish(ControlRoom& room, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);

@@ -12,6 +12,7 @@
 #include "common/base/timecode.h"
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
+#include "host_app/commands/film_options.h"
 #include "host_app/commands/take_time.h"
 #include "host_app/exports/take_export.h"
 #include "host_app/takes/take_show.h"
@@ -23,6 +24,7 @@ struct TakeOptions {
     std::string take, from, to, output, form;
     std::uint64_t every = 1;
     std::vector<std::string> takes;
+    FilmOptions film;
     bool json = false;
 };
 
@@ -209,14 +211,21 @@ void cut(const TakeOptions& options) {
 }
 
 void export_take(const TakeOptions& options) {
+    const bool is_film = options.form == "film";
     const ExportFormat* format =
-        options.form == "camera" ? nullptr : &find_export_format(options.form);
+        options.form == "camera" || is_film ? nullptr : &find_export_format(options.form);
+    if (!is_film && options.film.is_any())
+        fail("--path, --rate, --size, --synth and --stereoscopic are of --as film");
+    if (is_film && options.every != 1) fail("--every says nothing of a film; --rate does");
     const TakeReader take(options.take);
     use_zone_of(take);
     const TakePart part = part_of(take, options);
     const ExportBooks books =
-        format ? export_moments(take, *format, part, options.output, progress_of(options.output))
-               : export_camera(take, part, options.output);
+        is_film
+            ? options.film.write(options.take, part, !options.from.empty() || !options.to.empty(),
+                                 options.output, progress_of(options.output))
+        : format ? export_moments(take, *format, part, options.output, progress_of(options.output))
+                 : export_camera(take, part, options.output);
     if (options.json)
         std::cout << nlohmann::ordered_json{{"path", options.output},
                                             {"as", options.form},
@@ -228,7 +237,9 @@ void export_take(const TakeOptions& options) {
     else
         std::cout << fmt::format(
             "{}: {} {}{}{}\n", options.output, books.written,
-            format ? "moments" : "ticks of the camera",
+            is_film  ? "pictures"
+            : format ? "moments"
+                     : "ticks of the camera",
             books.there > 0 ? fmt::format(", {} were there", books.there) : "",
             books.damaged > 0 ? fmt::format(", {} damaged frames left out", books.damaged) : "");
 }
@@ -291,7 +302,10 @@ CommandEntry take_command_entry() {
                 "What a take holds for other programs; what was broken off goes on where it was",
                 export_take);
         add_take(export_command);
-        std::string forms = "camera: the flight, as CSV and FreeD";
+        std::string forms =
+            "camera: the flight, as CSV and FreeD; film: a flight over the take (.mkv, .mp4), "
+            "every "
+            "picture at the best level, however long that takes";
         for (const ExportFormat& format : export_formats())
             forms += fmt::format("; {}: {}", format.name, format.words);
         export_command->add_option("--as", options->form, forms)->required();
@@ -301,8 +315,10 @@ CommandEntry take_command_entry() {
                          "Of so many pulses one; of the camera, of so many ticks")
             ->check(CLI::Range(1, 1'000'000))
             ->capture_default_str();
-        export_command->add_option("-o,--output", options->output, "The folder it goes to")
+        export_command
+            ->add_option("-o,--output", options->output, "The folder, or the film, it goes to")
             ->required();
+        options->film.add_to(*export_command);
     }};
 }
 

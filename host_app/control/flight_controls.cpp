@@ -4,18 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "common/base/log.h"
+
 namespace vantage {
 namespace {
 
 /// Nobody presses more between two looks of the session.
 constexpr std::size_t most_waiting_outputs = 64;
-
-OrbitView orbit_of(const CameraState& camera, double near_azimuth_rad) {
-    const Eigen::Vector3d eye = camera.world_from_camera.translation();
-    const Eigen::Vector3d forward = camera.world_from_camera.linear().col(2);
-    return view_from_eye(eye, eye + camera.focus_m * forward, camera.field_of_view_rad,
-                         near_azimuth_rad);
-}
+constexpr double longest_flight_s = 600;
 
 }  // namespace
 
@@ -47,9 +43,17 @@ FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_vie
       deck_(deck),
       rig_view_(std::move(rig_view)),
       framing_(std::move(framing)),
-      corridor_now_(std::move(corridor)) {}
+      corridor_now_(std::move(corridor)) {
+    helm_.keep(settings_.plan.book);
+    shots_ = settings_.plan.book.shots;
+}
 
-PilotStep FlightControls::step(double time_s) {
+void FlightControls::keep_flight(Move move) {
+    const std::lock_guard lock(mutex_);
+    kept_flight_ = std::move(move);
+}
+
+PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) {
     const double dt_s = time_s - last_s_;
     last_s_ = time_s;
     if (framing_) {
@@ -59,6 +63,11 @@ PilotStep FlightControls::step(double time_s) {
             framing_ = {};
         }
     }
+    if (const auto kept = [&] {
+            const std::lock_guard lock(mutex_);
+            return std::exchange(kept_flight_, std::nullopt);
+        }())
+        helm_.keep_flight(*kept);
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight) helm_.keep_within(corridor);
     auto [hands, since] = hands_.take();
@@ -85,36 +94,63 @@ PilotStep FlightControls::step(double time_s) {
                  .cue = hands.cue};
     if (helm_.wheel_mode() == WheelMode::past)
         step.time.pulses += hands.wheel_steps + hands.shuttle_s * settings_.pulse_rate_hz;
-    fly(hands, dt_s, step);
+    const auto take_s_of = [&](double pulse) {
+        return (pulse - *settings_.take_begin) / settings_.pulse_rate_hz;
+    };
+    const std::optional<double> take_s =
+        settings_.take_begin && past_pulse ? std::optional(take_s_of(*past_pulse)) : std::nullopt;
+    {
+        const std::lock_guard lock(mutex_);
+        step.time.to_pulse = std::exchange(seek_, std::nullopt);
+    }
+    fly(hands, dt_s, take_s, step);
+    record(hands, step, time_s, take_s);
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
-    step.time.to_pulse = std::exchange(seek_, std::nullopt);
     wishes_.toggle_take ^= hands.toggle_take;
+    if (auto change = helm_.take_change()) {
+        shots_ = change->book.shots;
+        change->is_of_move |= wishes_.change && wishes_.change->is_of_move;
+        wishes_.change = std::move(change);
+    }
+    if (!is_recording_ && !flight_.empty()) {
+        wishes_.flight = std::exchange(flight_, {});
+        wishes_.limits = helm_.limits();
+    }
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
-    lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(), name_of(helm_.wheel_mode()),
-              is_tracked_, wheel_line(), corridor_books_};
+    lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(),
+              name_of(helm_.wheel_mode()),
+              is_tracked_,
+              wheel_line(),
+              corridor_books_,
+              is_recording_,
+              helm_.keyframes()};
     return step;
 }
 
-void FlightControls::fly(const FlightInput& hands, double dt_s, PilotStep& step) {
+void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<double> take_s,
+                         PilotStep& step) {
     if (hands.toggle_tracking) may_track_ = !may_track_;
     const bool wheel_steers = hands.turns_wheel() && helm_.wheel_mode() != WheelMode::past;
     if (hands.steers() || hands.toggle_move || wheel_steers) may_track_ = false;
     const std::optional<CameraState> tracked =
         may_track_ ? tracked_.newest(MonotonicClock::now()) : std::nullopt;
     // Before the hands, so that they steer on from there.
-    if (tracked) helm_.stand_at(orbit_of(*tracked, helm_.view().azimuth_rad));
+    if (tracked) helm_.stand_at(*tracked);
     if (tracked.has_value() != is_tracked_) {
         is_tracked_ = tracked.has_value();
         glide_.begin();
     }
-    if (hands.store_shot > 0) {
-        const std::lock_guard lock(mutex_);
-        shots_.at(static_cast<std::size_t>(hands.store_shot - 1)) = helm_.view();
+    if (settings_.take_begin && helm_.move_take_s()) {
+        // The move says what time it is; who holds time holds the move.
+        if (std::exchange(step.time.toggle_hold, false)) helm_.toggle_pause();
+        if (step.time.is_any()) helm_.leave_move();
     }
-    helm_.take(hands, rig_view_);
+    helm_.take(hands, rig_view_, take_s);
     helm_.advance(dt_s);
+    if (const std::optional<double> led = helm_.move_take_s(); led && settings_.take_begin)
+        step.time.at_pulse = *settings_.take_begin + *led * settings_.pulse_rate_hz;
     step.view = helm_.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
@@ -130,9 +166,33 @@ FlightControls::Shots FlightControls::shots() const {
     return shots_;
 }
 
+void FlightControls::record(const FlightInput& hands, const PilotStep& step, double time_s,
+                            std::optional<double> take_s) {
+    if (hands.toggle_recording) is_recording_ = !is_recording_;
+    if (!is_recording_) return;
+    const OrbitView view =
+        step.camera ? orbit_view_of(*step.camera, flight_.empty() ? step.view.azimuth_rad
+                                                                  : flight_.back().view.azimuth_rad)
+                    : step.view;
+    if (flight_.empty() || time_s > flight_.back().time_s)
+        flight_.push_back({time_s, view, take_s});
+    if (time_s - flight_.front().time_s > longest_flight_s) {
+        log_warning("the flight that is recorded ends here: {:.0f} s are the most",
+                    longest_flight_s);
+        is_recording_ = false;
+    }
+}
+
 SessionWishes FlightControls::take_wishes() {
     const std::lock_guard lock(mutex_);
     return std::exchange(wishes_, {});
+}
+
+void FlightControls::end_recording() {
+    const std::lock_guard lock(mutex_);
+    if (flight_.empty()) return;
+    wishes_.flight = std::exchange(flight_, {});
+    wishes_.limits = helm_.limits();
 }
 
 void FlightControls::note_coverage(const Corridor* corridor, const CameraState& camera,

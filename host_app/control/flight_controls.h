@@ -13,6 +13,7 @@
 #include "host_app/control/tracked_camera.h"
 #include "host_app/flight/corridor_books.h"
 #include "host_app/flight/flight_plan.h"
+#include "host_app/flight/flight_recording.h"
 #include "host_app/flight/helm.h"
 #include "host_app/flight/pilot.h"
 #include "host_app/flight/stage_framing.h"
@@ -41,7 +42,10 @@ class HandsBox {
 /// What hands ask of the session and not of the programme, on its way to the session's thread.
 struct SessionWishes {
     bool toggle_take = false;
-    std::vector<int> outputs;  ///< pressed, 1 and on, in their order
+    std::vector<int> outputs;                 ///< pressed, 1 and on, in their order
+    std::optional<Helm::Change> change = {};  ///< of shots and move, by hand
+    FlightRecording flight = {};              ///< that was recorded; empty: none
+    FlightLimits limits = {};                 ///< that it was flown in
 };
 
 /// All hands on the virtual camera: mouse and keyboard where there is a window, and the jog wheels
@@ -53,6 +57,8 @@ class FlightControls final : public Pilot {
         double pulse_rate_hz = 30;
         bool has_past = false;     ///< there is a past to go through
         bool free_flight = false;  ///< hands may leave the corridor
+        std::optional<double> take_begin =
+            {};  ///< the pulse at which the take that is shown begins
     };
     /// What rig 1, 2, ... sees, for shots that nobody has stored; empty: no such rig.
     using RigView = std::function<std::optional<OrbitView>(int number)>;
@@ -69,17 +75,23 @@ class FlightControls final : public Pilot {
     /// One that speaks flies, until a hand steers.
     TrackedCamera& tracked() { return tracked_; }
     /// Throws what the deck throws.
-    PilotStep step(double time_s) override;
+    PilotStep step(double time_s, std::optional<double> past_pulse) override;
+
+    /// A flight that was recorded: the move from the next step on. From any thread.
+    void keep_flight(Move move);
 
     /// To this pulse of the past, and stand there; from any thread. Of several the last counts.
     void seek(double pulse);
 
     /// What hands have kept as shots 1, 2, ...; from any thread.
-    using Shots = std::array<std::optional<OrbitView>, 9>;
+    using Shots = std::array<std::optional<Shot>, most_shots>;
     Shots shots() const;
 
     /// Those of the steps since the last call; from any thread.
     SessionWishes take_wishes();
+
+    /// After the last step: what is recorded is among the wishes.
+    void end_recording();
 
     /// For the desk, from any thread.
     struct Lines {
@@ -88,13 +100,18 @@ class FlightControls final : public Pilot {
         bool is_tracked = false;              ///< a tracked camera flies
         std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
         CorridorBooks corridor;
+        bool is_recording = false;  ///< a flight
+        std::size_t keyframes = 0;  ///< of the move
     };
     Lines lines() const;
 
   private:
     std::string wheel_line() const;
     /// Whoever flies, tracked camera or helm.
-    void fly(const FlightInput& hands, double dt_s, PilotStep& step);
+    void fly(const FlightInput& hands, double dt_s, std::optional<double> take_s, PilotStep& step);
+    /// Keeps the step's camera while a flight is recorded.
+    void record(const FlightInput& hands, const PilotStep& step, double time_s,
+                std::optional<double> take_s);
     void note_coverage(const Corridor* corridor, const CameraState& camera, double dt_s);
 
     Settings settings_;
@@ -111,11 +128,14 @@ class FlightControls final : public Pilot {
     bool may_track_ = true;  ///< no hand has taken over
     bool is_tracked_ = false;
     double last_s_ = 0;
+    bool is_recording_ = false;
+    FlightRecording flight_;
     mutable std::mutex mutex_;
     Lines lines_;
     SessionWishes wishes_;
     std::optional<double> seek_;
     Shots shots_;
+    std::optional<Move> kept_flight_;  ///< on its way to the helm
 };
 
 }  // namespace vantage

@@ -126,6 +126,7 @@ struct DeskState {
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
     bool recording = false;        ///< a film
+    bool recording_flight = false;
     std::optional<DeskTake> take;  ///< nothing: no take is recorded
     std::vector<DeskOutput> outputs;
     bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says

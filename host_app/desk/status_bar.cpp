@@ -62,6 +62,7 @@ float draw_time(const Pen& pen, float x, float y, float height, const DeskState&
 
 float draw_recordings(const Pen& pen, float x, float y, float height, const DeskState& state) {
     if (state.recording) x = pen.badge(x, y, height, "REC FILM", palette::bad);
+    if (state.recording_flight) x = pen.badge(x, y, height, "REC FLIGHT", palette::bad);
     if (!state.take) return x;
     if (!state.take->is_running) return pen.badge(x, y, height, "TAKE ENDED", palette::warn);
     const auto seconds = static_cast<int>(state.take->duration_s);

@@ -83,7 +83,7 @@ const ExportFormat& find_export_format(const std::string& name) {
         if (format.name == name) return format;
         names += std::string(", ") + format.name;
     }
-    fail("a take is not exported as '{}'; there are camera{}", name, names);
+    fail("a take is not exported as '{}'; there are camera, film{}", name, names);
 }
 
 ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,

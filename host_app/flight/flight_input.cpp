@@ -17,6 +17,12 @@ void FlightInput::add(const FlightInput& other) {
     toggle_novelty ^= other.toggle_novelty;
     toggle_take ^= other.toggle_take;
     toggle_tracking ^= other.toggle_tracking;
+    toggle_recording ^= other.toggle_recording;
+    add_keyframe |= other.add_keyframe;
+    set_keyframe |= other.set_keyframe;
+    remove_keyframe |= other.remove_keyframe;
+    keyframe_jump += other.keyframe_jump;
+    retime_s += other.retime_s;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
@@ -43,15 +49,18 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
            both(&FlightInput::mark_in) || both(&FlightInput::mark_out) ||
            both(&FlightInput::clear_marks) || both(&FlightInput::cue) ||
            both(&FlightInput::recall_shot) || both(&FlightInput::store_shot) ||
-           both(&FlightInput::toggle_output);
+           both(&FlightInput::toggle_output) || both(&FlightInput::toggle_recording) ||
+           both(&FlightInput::add_keyframe) || both(&FlightInput::set_keyframe) ||
+           both(&FlightInput::remove_keyframe);
 }
 
 FlightInput FlightInput::turns() const {
     FlightInput turns;
-    for (const auto what : {&FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
-                            &FlightInput::pan_right_widths, &FlightInput::pan_up_widths,
-                            &FlightInput::dolly, &FlightInput::zoom, &FlightInput::wheel_steps,
-                            &FlightInput::shuttle_s, &FlightInput::past_steps})
+    for (const auto what :
+         {&FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
+          &FlightInput::pan_right_widths, &FlightInput::pan_up_widths, &FlightInput::dolly,
+          &FlightInput::zoom, &FlightInput::wheel_steps, &FlightInput::shuttle_s,
+          &FlightInput::past_steps, &FlightInput::retime_s})
         turns.*what = this->*what;
     return turns;
 }

@@ -12,6 +12,10 @@ struct FlightInput {
     bool toggle_tracking = false;
     bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
+    bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
+    bool toggle_recording = false;        ///< of a flight
+    int keyframe_jump = 0;                ///< to the next keyframes of the move, either way
+    double retime_s = 0;                  ///< of the keyframe at which the move stands
     int speed_steps = 0;                  ///< to faster or slower playing of the past
     int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
     int toggle_output = 0;                ///< 1..8; 0: none
@@ -30,12 +34,17 @@ struct FlightInput {
         return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
                pan_up_widths != 0 || dolly != 0 || zoom != 0 || reset || recall_shot != 0;
     }
+    /// True if the move itself is to be changed.
+    bool edits_move() const {
+        return add_keyframe || set_keyframe || remove_keyframe || retime_s != 0;
+    }
     /// True if there is anything in it.
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
                next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
                toggle_tracking || toggle_take || toggle_output != 0 || mark_in || mark_out ||
-               clear_marks || toggle_loop || cue || speed_steps != 0;
+               clear_marks || toggle_loop || cue || speed_steps != 0 || edits_move() ||
+               toggle_recording || keyframe_jump != 0;
     }
     /// Whether the same thing is commanded in both, so that one of them would be lost in add().
     bool commands_twice(const FlightInput& other) const;

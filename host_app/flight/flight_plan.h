@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host_app/flight/move.h"
+#include "host_app/flight/flight_book.h"
 
 namespace vantage {
 
@@ -12,6 +12,7 @@ struct FlightPlan {
     /// Nothing: where the stage's rigs say.
     std::optional<OrbitView> start;
     std::optional<Move> move;             ///< in a window it plays until the operator takes over
+    FlightBook book{};                    ///< shots, and a move for when there is none yet
     std::optional<std::uint64_t> frames;  ///< pictures after which the session ends by itself
     std::optional<double> seconds;        ///< time after which it does
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "host_app/flight/flight_book.h"
 #include "host_app/flight/flight_input.h"
-#include "host_app/flight/move.h"
 #include "host_app/flight/orbit_camera.h"
 
 namespace vantage {
@@ -29,11 +29,22 @@ class Helm {
     /// through.
     Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false);
 
+    /// Shots, and a move for when there is none yet, which is flown when hands say so.
+    void keep(const FlightBook& book);
+    /// A flight that was recorded: the move from now on.
+    void keep_flight(Move move);
+    /// Shots and move, where hands changed one of them since the last call.
+    struct Change {
+        FlightBook book;
+        bool is_of_move = false;
+    };
+    std::optional<Change> take_change();
+
     /// From now on within these limits and, unless it is nothing, as if it had begun at `start`.
     void settle(const FlightLimits& limits, const std::optional<OrbitView>& start);
 
     /// From now on it stands there, until somebody flies on.
-    void stand_at(const OrbitView& view);
+    void stand_at(const CameraState& camera);
 
     /// From now on hands fly within this corridor; null: anywhere. A planned move is not held up.
     void keep_within(std::shared_ptr<const Corridor> corridor) {
@@ -41,23 +52,46 @@ class Helm {
         camera_.keep_within(std::move(corridor));
     }
 
+    /// On a move: stops it there, or plays on.
+    void toggle_pause();
+    /// Where the camera is on a move it stays there, in hand.
+    void leave_move();
+
     /// `rig_view` gives what rig 1, 2, ... sees, for shots that nobody has stored; empty: no such
-    /// rig.
+    /// rig. `take_s`: of a take, where it is shown, for keyframes.
     void take(const FlightInput& input,
-              const std::function<std::optional<OrbitView>(int number)>& rig_view);
+              const std::function<std::optional<OrbitView>(int number)>& rig_view,
+              std::optional<double> take_s = {});
     /// Lets dt_s seconds pass. Precondition: dt_s >= 0.
     void advance(double dt_s);
 
     OrbitView view() const;
     /// 0..1 along the move, while the camera is on it.
     std::optional<double> move_progress() const;
+    /// Where in its take the move is, while the camera is on it; nothing: it says nothing of a
+    /// take.
+    std::optional<double> move_take_s() const;
     WheelMode wheel_mode() const { return mode_; }
+    const FlightLimits& limits() const { return limits_; }
+    std::size_t keyframes() const { return move_ ? move_->keyframes().size() : 0; }
 
   private:
+    /// On its way to a shot.
+    struct ShotFlight {
+        OrbitView from, to;
+        double duration_s, gone_s = 0;
+        Easing easing;
+    };
+    std::optional<Shot>& shot(int number);
+    void fly_to(const OrbitView& view, double duration_s, Easing easing);
+    void edit_move(const FlightInput& input, std::optional<double> take_s);
+    void jump_keyframes(int count);
+    /// Where on the move, within its duration.
+    double place_s() const;
+    void set_move(std::optional<Move> move);
     void take_wheel(const FlightInput& input);
     void next_mode();
     void join_move();
-    void leave_move();
     /// Along the move by so many seconds, either way.
     void travel(double seconds);
 
@@ -67,7 +101,9 @@ class Helm {
     FlightLimits limits_;
     bool has_past_;
     WheelMode mode_ = WheelMode::orbit;
-    std::array<std::optional<OrbitView>, 9> shots_;
+    std::array<std::optional<Shot>, most_shots> shots_;
+    std::optional<ShotFlight> shot_flight_;
+    bool is_changed_ = false, is_move_changed_ = false;  ///< since take_change()
 
     std::optional<Move> move_;
     bool on_move_ = false, playing_ = false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host_app/flight/pan_tilt_roll.h"
+
 namespace vantage {
 
 Eigen::Vector3d OrbitView::eye_m() const {
@@ -14,7 +16,12 @@ Eigen::Vector3d OrbitView::eye_m() const {
                                                   horizontal * std::cos(azimuth_rad));
 }
 
-Pose OrbitView::world_from_camera() const { return look_at(eye_m(), pivot_m); }
+Pose OrbitView::world_from_camera() const {
+    Pose pose = Pose::Identity();
+    pose.linear() = turned({-azimuth_rad, -elevation_rad, roll_rad});
+    pose.translation() = eye_m();
+    return pose;
+}
 
 OrbitView view_from_eye(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& target_m,
                         double field_of_view_rad, double near_azimuth_rad) {
@@ -26,6 +33,18 @@ OrbitView view_from_eye(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& tar
     view.elevation_rad = std::asin(std::clamp(arm.y() / arm.norm(), -1.0, 1.0));
     view.azimuth_rad = nearest_turn(std::atan2(arm.x(), arm.z()), near_azimuth_rad);
     view.field_of_view_rad = field_of_view_rad;
+    return view;
+}
+
+OrbitView orbit_view_of(const CameraState& camera, double near_azimuth_rad) {
+    const PanTiltRoll turn = pan_tilt_roll_of(camera.world_from_camera);
+    OrbitView view;
+    view.distance_m = camera.focus_m;
+    view.azimuth_rad = nearest_turn(-turn.pan_rad, near_azimuth_rad);
+    view.elevation_rad = -turn.tilt_rad;
+    view.roll_rad = turn.roll_rad;
+    view.field_of_view_rad = camera.field_of_view_rad;
+    view.pivot_m = camera.world_from_camera * Eigen::Vector3d(0, 0, camera.focus_m);
     return view;
 }
 
@@ -47,6 +66,35 @@ OrbitView constrained(OrbitView view, const FlightLimits& limits) {
     const double lowest = std::max(std::asin(floor_sine), -limits.max_elevation_rad);
     view.elevation_rad = std::clamp(view.elevation_rad, lowest, limits.max_elevation_rad);
     return view;
+}
+
+OrbitView taken_over(const CameraState& camera, const FlightLimits& limits,
+                     double near_azimuth_rad) {
+    const Eigen::Vector3d eye = camera.world_from_camera.translation();
+    const Eigen::Vector3d forward = camera.world_from_camera.linear().col(2);
+    CameraState near = camera;
+    near.focus_m = std::clamp(camera.focus_m, limits.min_distance_m, limits.max_distance_m);
+    const auto keep_within = [&](int axis, double least, double most) {
+        const double way_m = (forward[axis] < 0 ? least : most) - eye[axis];
+        if (forward[axis] != 0) near.focus_m = std::min(near.focus_m, way_m / forward[axis]);
+    };
+    keep_within(0, -limits.max_pivot_offset_m, limits.max_pivot_offset_m);
+    keep_within(1, limits.min_eye_height_m, limits.max_pivot_offset_m);
+    keep_within(2, -limits.max_pivot_offset_m, limits.max_pivot_offset_m);
+    near.focus_m = std::max(near.focus_m, limits.min_distance_m);
+    return constrained(orbit_view_of(near, near_azimuth_rad), limits);
+}
+
+bool is_same_shot(const OrbitView& a, const OrbitView& b) {
+    constexpr double same = 1e-6;
+    const auto is_same_angle = [&](double one, double other) {
+        return std::abs(nearest_turn(one, other) - other) < same;
+    };
+    return (a.pivot_m - b.pivot_m).norm() < same && is_same_angle(a.azimuth_rad, b.azimuth_rad) &&
+           is_same_angle(a.roll_rad, b.roll_rad) &&
+           std::abs(a.elevation_rad - b.elevation_rad) < same &&
+           std::abs(a.distance_m - b.distance_m) < same &&
+           std::abs(a.field_of_view_rad - b.field_of_view_rad) < same;
 }
 
 }  // namespace vantage

@@ -15,6 +15,7 @@ struct OrbitView {
     double elevation_rad = 0;  ///< of the camera above the pivot's horizon
     double distance_m = 4.5;
     double field_of_view_rad = 0.785;  ///< horizontal
+    double roll_rad = 0;  ///< about the line of sight, clockwise as seen from behind the camera
 
     Eigen::Vector3d eye_m() const;
     Pose world_from_camera() const;
@@ -26,6 +27,9 @@ struct OrbitView {
 /// target.
 OrbitView view_from_eye(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& target_m,
                         double field_of_view_rad, double near_azimuth_rad = 0);
+
+/// The view of a camera whose pivot is its focus; any camera is one. The azimuth as above.
+OrbitView orbit_view_of(const CameraState& camera, double near_azimuth_rad = 0);
 
 /// The same angle as `angle`, moved by whole turns to within half a turn of `near`.
 double nearest_turn(double angle_rad, double near_rad);
@@ -46,5 +50,13 @@ struct FlightLimits {
 /// The nearest allowed view: values are clamped, and the elevation is raised until the camera is
 /// above the floor.
 OrbitView constrained(OrbitView view, const FlightLimits& limits);
+
+/// A view for hands that take over from this camera: the same picture, with its pivot on the line
+/// of sight as near to the focus as the limits allow; constrained where no such view is allowed.
+OrbitView taken_over(const CameraState& camera, const FlightLimits& limits,
+                     double near_azimuth_rad = 0);
+
+/// The same picture, whole turns aside.
+bool is_same_shot(const OrbitView& a, const OrbitView& b);
 
 }  // namespace vantage

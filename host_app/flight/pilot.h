@@ -23,8 +23,9 @@ struct PilotStep {
 class Pilot {
   public:
     virtual ~Pilot() = default;
-    /// The camera at `time_s` after the start of the programme; times grow.
-    virtual PilotStep step(double time_s) = 0;
+    /// The camera at `time_s` after the start of the programme; times grow. `past_pulse`: where in
+    /// the past, or in a take, the programme is.
+    virtual PilotStep step(double time_s, std::optional<double> past_pulse) = 0;
 };
 
 }  // namespace vantage

@@ -197,8 +197,9 @@ void DeskFeed::follow_shots(const LiveShow& show, const ProgrammeState& programm
     state_.shots.clear();
     for (std::size_t number = 1; number <= shot_places; ++number) {
         DeskShot shot;
-        if (kept[number - 1]) {
-            shot = {"kept", shot_pictures_.of(number), true};
+        if (const std::optional<Shot>& own = kept[number - 1]) {
+            const bool is_named = own->name != fmt::format("shot {}", number);
+            shot = {is_named ? own->name : "kept", shot_pictures_.of(number), true};
         } else if (number <= state_.rigs.size()) {
             const DeskRig& rig = state_.rigs[number - 1];
             shot = {rig.name, rig.colour, false};
@@ -256,6 +257,7 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.renderer = renderer_;
     state_.view = programme.view;
     const FlightControls::Lines lines = show.controls().lines();
+    state_.recording_flight = lines.is_recording;
     state_.move_progress = lines.move_progress;
     state_.wheel = lines.wheel;
     state_.coverage = lines.corridor.now;

@@ -59,6 +59,13 @@ std::string checked_renderer(ContextGroup& contexts) {
     return info.renderer;
 }
 
+/// The pulse at which a take begins.
+std::optional<double> begin_of(const PastSets* take) {
+    if (!take) return std::nullopt;
+    const std::optional<PastSets::Span> span = take->span();
+    return span ? std::optional(static_cast<double>(span->oldest)) : std::nullopt;
+}
+
 const LiveSettings& checked(const LiveSettings& settings) {
     const SynthesiserEntry entry = find_synthesiser(settings.synthesiser);
     if (settings.source_map) NoveltyOverlay::require(entry.tells_origins, entry.name);
@@ -94,7 +101,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
           {plan, settings.pulse_rate_hz, settings.replay_bytes > 0 || settings.take,
-           settings.free_flight},
+           settings.free_flight, begin_of(settings.take.get())},
           deck, [this](int number) { return rig_view(number); }, [this] { return framing(); },
           [this] { return corridor_now(); }),
       outputs_(output_settings(settings)),

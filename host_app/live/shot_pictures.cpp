@@ -27,9 +27,9 @@ void ShotPictures::follow(const FlightControls::Shots& shots, const MadePicture&
             places_[i].reset();
             continue;
         }
-        const CameraState camera = shots[i]->camera();
+        const CameraState camera = shots[i]->view.camera();
         if (!places_[i] || !is_same_view(places_[i]->view.camera(), camera))
-            places_[i].emplace(Place{*shots[i], {}, {}});
+            places_[i].emplace(Place{shots[i]->view, {}, {}});
         Place& place = *places_[i];
         if (!is_same_view(picture.job.camera, camera) ||
             (place.picture && now - place.taken < taken_again_after))

@@ -54,7 +54,7 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       entry_(find_synthesiser(settings_.synthesiser)),
       source_map_(settings_.source_map) {
     // The first instant is prepared for where the camera begins.
-    view_ = pilot_.step(0).view;
+    view_ = pilot_.step(0, transport_.pulse()).view;
     camera_ = view_.camera();
     wish_for_instant(MonotonicClock::now());
     instants_.prepare_for(entry_.name, entry_.make_preparer);
@@ -152,7 +152,7 @@ void Programme::run() {
 }
 
 bool Programme::look(double time_s, MonotonicTime now) {
-    const PilotStep step = pilot_.step(time_s);
+    const PilotStep step = pilot_.step(time_s, transport_.pulse());
     if (step.hand && !hand_) hand_ = step.hand;
     instant_ = instants_.newest();
     const std::optional<PastSets::Span> span = instants_.past_span();

@@ -11,6 +11,9 @@ namespace {
 constexpr std::array speeds{-2.0, -1.0, -0.75, -0.5, -0.33, -0.25, -0.1, 0.0,
                             0.1,  0.25, 0.33,  0.5,  0.75,  1.0,   2.0};
 
+/// A flight that leads further than so many pulses in a tick leads to elsewhere.
+constexpr double longest_lead = 25;
+
 double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
 
 }  // namespace
@@ -44,7 +47,12 @@ void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
         state_.out = shown_pulse;
         if (state_.in && *state_.in >= shown_pulse) state_.in.reset();
     }
+    is_led_ = is_of_take_ && input.at_pulse && span;
     if (!span) return;
+    if (is_led_) {
+        lead(*input.at_pulse, *span);
+        return;
+    }
     if (input.cue) {
         state_.speed = 0;
         go_to(as_pulse(state_.in.value_or(span->oldest)), *span);
@@ -61,6 +69,14 @@ void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
         if (!state_.pulse) go_to(as_pulse(shown_pulse), *span);
         change_speed(input.speed_steps);
     }
+}
+
+void Transport::lead(double pulse, const PastSets::Span& span) {
+    const double there = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
+    const double way = there - state_.pulse.value_or(there);
+    is_led_on_ = way != 0;
+    if (std::abs(way) > longest_lead) ++jumps_;
+    state_.pulse = there;
 }
 
 void Transport::toggle_hold() {
@@ -112,7 +128,7 @@ void Transport::arrive(double at, double again_at) {
 
 void Transport::advance(double dt_s, double pulse_rate_hz,
                         const std::optional<PastSets::Span>& span) {
-    if (!span || !state_.pulse) return;
+    if (!span || !state_.pulse || is_led_) return;
     const double oldest = as_pulse(span->oldest), newest = as_pulse(span->newest);
     const double before = *state_.pulse;
     if (state_.speed == 0) return;

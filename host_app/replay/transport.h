@@ -41,7 +41,9 @@ class Transport {
     bool is_live() const { return !state_.pulse && !state_.is_held; }
     bool is_held() const { return state_.is_held; }
     /// What is shown changes by itself.
-    bool is_moving() const { return is_live() || (state_.pulse && state_.speed != 0); }
+    bool is_moving() const {
+        return is_live() || (is_led_ ? is_led_on_ : state_.pulse && state_.speed != 0);
+    }
     /// It played to an end and stopped there.
     bool is_at_end() const { return is_at_end_; }
     /// In the past: the pulse.
@@ -51,6 +53,7 @@ class Transport {
     std::uint64_t jumps() const { return jumps_; }
 
   private:
+    void lead(double pulse, const PastSets::Span& span);
     void toggle_hold();
     void to_live();
     void go_to(double pulse, const PastSets::Span& span);
@@ -59,6 +62,7 @@ class Transport {
 
     TransportState state_;
     bool is_of_take_ = false, is_at_end_ = false;
+    bool is_led_ = false, is_led_on_ = false;  ///< by a flight; and it went on since the last tick
     double last_speed_ = 1;
     std::uint64_t jumps_ = 0;
 };

@@ -12,6 +12,8 @@ struct TransportInput {
     bool toggle_hold = false, to_live = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false;
     bool cue = false;  ///< to the in mark
+    /// Of a take: where a flight says that time is. Nothing: time is its own.
+    std::optional<double> at_pulse{};
 
     bool is_any() const {
         return to_pulse || pulses != 0 || speed_steps != 0 || toggle_hold || to_live || cue;

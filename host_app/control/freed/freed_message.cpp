@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
@@ -42,29 +40,6 @@ std::byte checksum_of(std::span<const std::byte> message) {
 }
 
 }  // namespace
-
-PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera) {
-    const Eigen::Vector3d right = world_from_camera.linear().col(0);
-    const Eigen::Vector3d forward = world_from_camera.linear().col(2);
-    PanTiltRoll turn;
-    turn.pan_rad = std::atan2(forward.x(), -forward.z());
-    turn.tilt_rad = std::asin(std::clamp(forward.y(), -1.0, 1.0));
-    const Eigen::Vector3d level(std::cos(turn.pan_rad), 0, std::sin(turn.pan_rad));
-    turn.roll_rad = std::atan2(-right.dot(level.cross(forward)), right.dot(level));
-    return turn;
-}
-
-Eigen::Matrix3d turned(const PanTiltRoll& turn) {
-    const Eigen::Vector3d forward(std::sin(turn.pan_rad) * std::cos(turn.tilt_rad),
-                                  std::sin(turn.tilt_rad),
-                                  -std::cos(turn.pan_rad) * std::cos(turn.tilt_rad));
-    const Eigen::Vector3d level(std::cos(turn.pan_rad), 0, std::sin(turn.pan_rad));
-    const Eigen::Vector3d right =
-        std::cos(turn.roll_rad) * level - std::sin(turn.roll_rad) * level.cross(forward);
-    Eigen::Matrix3d rotation;
-    rotation << right, forward.cross(right), forward;
-    return rotation;
-}
 
 std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera) {
     const PanTiltRoll turn = pan_tilt_roll_of(camera.world_from_camera);

@@ -7,18 +7,9 @@
 #include <span>
 
 #include "host_app/flight/camera_state.h"
+#include "host_app/flight/pan_tilt_roll.h"
 
 namespace vantage {
-
-/// Which way a camera looks, as operators say it: about the stage's vertical, to the right; up;
-/// clockwise as seen from behind it.
-struct PanTiltRoll {
-    double pan_rad = 0, tilt_rad = 0, roll_rad = 0;
-};
-/// Pan 0 looks along the stage's -z.
-PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera);
-/// The rotation that looks so.
-Eigen::Matrix3d turned(const PanTiltRoll& turn);
 
 /// A camera in a FreeD message of type D1 (Radamec, 1997): x is the stage's x, y its -z, height its
 /// y.

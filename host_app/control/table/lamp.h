@@ -22,6 +22,8 @@ struct ShowLamps {
     bool tracked = false;  ///< a tracked camera flies
     bool source_map = false;
     double move = -1;      ///< 0..1 along the planned move; -1: not on it
+    double keyframes = 0;  ///< that the move has
+    bool record = false;   ///< a flight is recorded
     double coverage = -1;  ///< 0..1; -1: not known
     std::string wheel_mode, synthesiser, timecode;
     double render_level = 0, prepare_level = 0;

@@ -57,6 +57,72 @@ TEST(HandsBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
     EXPECT_FALSE(box.take().since);
 }
 
+FlightPlan frozen_flight() {
+    OrbitView end;
+    end.azimuth_rad = 1;
+    FlightPlan plan;
+    plan.move = Move({{0, OrbitView{}, Easing::linear, 2.0},
+                      {1, end, Easing::linear, 2.0},
+                      {2, end, Easing::linear, 4.0}},
+                     false);
+    return plan;
+}
+
+TEST(FlightControlsInATake, AFlightSaysWhatTimeItIs) {
+    FlightControls controls(
+        {.plan = frozen_flight(), .pulse_rate_hz = 25, .has_past = true, .take_begin = 1000},
+        nullptr, [](int) { return std::nullopt; });
+    EXPECT_EQ(controls.step(0, 1000).time.at_pulse, 1050);
+    EXPECT_EQ(controls.step(0.5, 1050).time.at_pulse, 1050) << "frozen";
+    EXPECT_NEAR(*controls.step(1.5, 1050).time.at_pulse, 1075, 1e-9);
+    // Who holds time holds the flight; who turns it takes it over.
+    controls.hands().put({.toggle_freeze = true}, {});
+    const PilotStep held = controls.step(1.6, 1075);
+    EXPECT_FALSE(held.time.toggle_hold);
+    EXPECT_NEAR(*held.time.at_pulse, 1075, 1e-9);
+    EXPECT_NEAR(*controls.step(1.9, 1075).time.at_pulse, 1075, 1e-9);
+    controls.hands().put({.past_steps = 1}, {});
+    EXPECT_FALSE(controls.step(2, 1075).time.at_pulse);
+}
+
+TEST(FlightControlsInATake, ALiveStageIsNotLed) {
+    FlightControls controls({.plan = frozen_flight(), .pulse_rate_hz = 25, .has_past = true},
+                            nullptr, [](int) { return std::nullopt; });
+    EXPECT_FALSE(controls.step(0.5, {}).time.at_pulse);
+}
+
+TEST(FlightControlsRecording, KeepsEveryStepWithItsTimeInTheTake) {
+    FlightControls controls({.plan = {}, .pulse_rate_hz = 25, .has_past = true, .take_begin = 1000},
+                            nullptr, [](int) { return std::nullopt; });
+    controls.hands().put({.toggle_recording = true}, {});
+    for (int i = 0; i < 10; ++i) {
+        controls.hands().put({.orbit_azimuth_rad = 0.1}, {});
+        controls.step(5 + 0.02 * i, 1000 + i);
+        EXPECT_TRUE(controls.lines().is_recording);
+    }
+    EXPECT_TRUE(controls.take_wishes().flight.empty()) << "it goes on";
+    controls.hands().put({.toggle_recording = true}, {});
+    controls.step(5.2, 1010);
+    const FlightRecording flight = controls.take_wishes().flight;
+    ASSERT_EQ(flight.size(), 10u);
+    EXPECT_EQ(flight[0].time_s, 5);
+    EXPECT_NEAR(*flight[9].take_s, 9 / 25.0, 1e-12);
+    EXPECT_GT(flight[9].view.azimuth_rad, flight[1].view.azimuth_rad);
+    EXPECT_TRUE(controls.take_wishes().flight.empty()) << "once";
+    controls.keep_flight(Move({{0, OrbitView{}}, {1, OrbitView{}}}, false));
+    controls.step(5.3, 1010);
+    EXPECT_EQ(controls.lines().keyframes, 2u);
+}
+
+TEST(FlightControlsRecording, EndsWithTheShow) {
+    FlightControls controls({.plan = {}, .pulse_rate_hz = 25}, nullptr,
+                            [](int) { return std::nullopt; });
+    controls.hands().put({.toggle_recording = true}, {});
+    controls.step(0.1, {});
+    controls.end_recording();
+    EXPECT_EQ(controls.take_wishes().flight.size(), 1u);
+}
+
 /// A wheel in a pretended socket, and the steps that come of turning it.
 class FlightControlsTest : public testing::Test {
   protected:
@@ -118,7 +184,7 @@ class FlightControlsTest : public testing::Test {
     /// The next one, so long after the one before.
     PilotStep step(double after_s = 0.02) {
         time_s_ += after_s;
-        const PilotStep step = controls_.step(time_s_);
+        const PilotStep step = controls_.step(time_s_, std::nullopt);
         azimuth_rad_ = step.view.azimuth_rad;
         return step;
     }
@@ -250,9 +316,9 @@ TEST(FlightControlsWithoutADeck, FlyThePlannedMove) {
     end.azimuth_rad = 0.4;
     plan.move = Move({{0, *plan.start, Easing::linear}, {2, end, Easing::linear}}, false);
     FlightControls controls({.plan = plan}, nullptr, [](int) { return std::nullopt; });
-    EXPECT_NEAR(controls.step(1).view.azimuth_rad, 0.2, 1e-9);
+    EXPECT_NEAR(controls.step(1, std::nullopt).view.azimuth_rad, 0.2, 1e-9);
     EXPECT_NEAR(*controls.lines().move_progress, 0.5, 1e-9);
-    EXPECT_NEAR(controls.step(3).view.azimuth_rad, 0.4, 1e-9);
+    EXPECT_NEAR(controls.step(3, std::nullopt).view.azimuth_rad, 0.4, 1e-9);
     EXPECT_EQ(controls.lines().wheel, "");
 }
 
@@ -267,7 +333,7 @@ FlightControls::Lines lines_after_a_turn(bool free_flight, double turn_deg) {
     EXPECT_FALSE(controls.lines().corridor.now) << "before the first step";
     for (int i = 1; i <= 500; ++i) {
         controls.hands().put({.orbit_azimuth_rad = turn_deg / 500 * M_PI / 180}, {});
-        controls.step(0.02 * i);
+        controls.step(0.02 * i, std::nullopt);
     }
     return controls.lines();
 }
@@ -303,7 +369,7 @@ TEST_F(FlightControlsTest, TellsWhichShotsAreKept) {
     controls_.hands().put({.store_shot = 3}, MonotonicTime{1h});
     const OrbitView view = controls_.step(0.2).view;
     ASSERT_TRUE(controls_.shots()[2]);
-    EXPECT_TRUE(is_same_view(controls_.shots()[2]->camera(), view.camera()));
+    EXPECT_TRUE(is_same_view(controls_.shots()[2]->view.camera(), view.camera()));
     EXPECT_FALSE(controls_.shots()[0]);
 }
 

@@ -268,7 +268,7 @@ TEST_F(TakeExportTest, MixesWithNothingElse) {
     refused("ply", "flight", "holds another export already");
     std::ofstream(path("other")) << "mine";
     refused("views", "", "holds other files");
-    refused("fbx", "new", "there are camera, ply, glb, training, views");
+    refused("fbx", "new", "there are camera, film, ply, glb, training, views");
     EXPECT_NE(thrown_sentence([&] {
                   export_moments(take_, find_export_format("ply"), {5, 6, 1}, path("new"));
               }).find("no frame is in that part"),

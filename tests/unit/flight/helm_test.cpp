@@ -190,6 +190,112 @@ TEST_F(HelmTest, FliesToShotsStoredElseToWhatARigSees) {
     EXPECT_NEAR(helm.view().azimuth_rad, 0.2, 1e-6) << "nobody stored it and there is no rig 5";
 }
 
+TEST_F(HelmTest, FliesToAShotInItsTimeAndRestsThere) {
+    Helm helm(looking(0), {});
+    FlightBook book;
+    book.shots[3] = Shot{"left", looking(1), 4, Easing::linear};
+    book.shots[4] = Shot{"there", looking(-1), 0, Easing::ease};
+    helm.keep(book);
+    FlightInput recall;
+    recall.recall_shot = 4;
+    helm.take(recall, no_rig);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, 0.25, 1e-9);
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().azimuth_rad, 1, 1e-9);
+    recall.recall_shot = 5;
+    helm.take(recall, no_rig);
+    EXPECT_NEAR(helm.view().azimuth_rad, -1, 1e-9) << "at once";
+    EXPECT_FALSE(helm.take_change()) << "nothing was stored";
+}
+
+TEST_F(HelmTest, FliesToAFarShotNoFasterThanTheLimits) {
+    Helm helm(looking(0), {});
+    FlightBook book;
+    book.shots[0] = Shot{"behind", looking(3), 0.1, Easing::ease};
+    helm.keep(book);
+    FlightInput recall;
+    recall.recall_shot = 1;
+    helm.take(recall, no_rig);
+    double last = 0;
+    for (int i = 0; i < 200; ++i) {
+        helm.advance(0.02);
+        EXPECT_LE(helm.view().azimuth_rad - last, 0.02 * FlightLimits().max_turn_rad_s + 1e-9);
+        last = helm.view().azimuth_rad;
+    }
+    EXPECT_NEAR(last, 3, 1e-9);
+}
+
+TEST_F(HelmTest, AHandEndsTheFlightToAShotWhereItIs) {
+    Helm helm(looking(0), {});
+    FlightInput store, drag, recall;
+    store.store_shot = 1;
+    helm.take(store, no_rig);
+    drag.orbit_azimuth_rad = 1;
+    helm.take(drag, no_rig);
+    pass(helm, 3);
+    recall.recall_shot = 1;
+    helm.take(recall, no_rig);
+    pass(helm, 0.4);
+    const double here = helm.view().azimuth_rad;
+    drag.orbit_azimuth_rad = 1e-6;
+    helm.take(drag, no_rig);
+    pass(helm, 1);
+    EXPECT_NEAR(helm.view().azimuth_rad, here, 1e-3);
+}
+
+TEST_F(HelmTest, MakesAMoveOfViewsAndTellsOfIt) {
+    Helm helm(looking(0), {});
+    FlightInput put, drag, play;
+    put.add_keyframe = true;
+    helm.take(put, no_rig);
+    drag.orbit_azimuth_rad = 1;
+    helm.take(drag, no_rig);
+    pass(helm, 3);
+    helm.take(put, no_rig);
+    const std::optional<Helm::Change> change = helm.take_change();
+    ASSERT_TRUE(change);
+    EXPECT_TRUE(change->is_of_move);
+    ASSERT_EQ(change->book.move->keyframes().size(), 2u);
+    EXPECT_NEAR(change->book.move->keyframes()[1].view.azimuth_rad, 1, 1e-9);
+    EXPECT_FALSE(helm.take_change()) << "once";
+    EXPECT_EQ(helm.keyframes(), 2u);
+    play.toggle_move = true;
+    helm.take(play, no_rig);
+    EXPECT_NEAR(helm.view().azimuth_rad, 0, 1e-9) << "from its start";
+    pass(helm, 3.1);
+    EXPECT_NEAR(helm.view().azimuth_rad, 1, 1e-9);
+}
+
+TEST_F(HelmTest, ChangesTheKeyframeWhereTheWheelHoldsTheMove) {
+    Helm helm(looking(0), straight_move());
+    helm.take(steps(-1), no_rig);
+    FlightInput jump, put, drag, later, out;
+    jump.keyframe_jump = 1;
+    helm.take(jump, no_rig);
+    pass(helm, 3);
+    EXPECT_NEAR(*helm.move_progress(), 1, 1e-6);
+    drag.orbit_elevation_rad = 0.3;
+    helm.take(drag, no_rig);
+    pass(helm, 3);
+    put.set_keyframe = true;
+    helm.take(put, no_rig);
+    EXPECT_NEAR(helm.take_change()->book.move->keyframes()[1].view.elevation_rad, 0.3, 1e-6);
+    helm.take(jump, no_rig);
+    pass(helm, 2);
+    later.retime_s = -2;
+    helm.take(later, no_rig);
+    EXPECT_NEAR(helm.take_change()->book.move->duration_s(), 8, 1e-9);
+    EXPECT_NEAR(helm.view().azimuth_rad, 10, 1e-6) << "it stands at the keyframe that it retimes";
+    out.remove_keyframe = true;
+    helm.take(out, no_rig);
+    helm.take(out, no_rig);
+    EXPECT_FALSE(helm.take_change()->book.move);
+    EXPECT_FALSE(helm.move_progress());
+    pass(helm, 1);
+    EXPECT_EQ(helm.wheel_mode(), WheelMode::orbit);
+}
+
 TEST(FlightInput, TwoHandsOnOneSwitchUndoEachOther) {
     FlightInput a, b;
     a.toggle_freeze = b.toggle_freeze = true;

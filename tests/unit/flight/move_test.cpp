@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host_app/flight/pan_tilt_roll.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -115,6 +116,62 @@ TEST(Move, StaysAboveTheFloorWhereTheCurveSwingsBelowIt) {
         EXPECT_GE(move.at(t).eye_m().y(), FlightLimits().min_eye_height_m - 1e-12) << t;
 }
 
+OrbitView free_view(const Eigen::Vector3d& eye_m, double pan_rad, double tilt_rad,
+                    double roll_rad) {
+    CameraState camera;
+    camera.world_from_camera.linear() = turned({pan_rad, tilt_rad, roll_rad});
+    camera.world_from_camera.translation() = eye_m;
+    return orbit_view_of(camera);
+}
+
+Move free_move(Easing easing) {
+    return {{{0, free_view({0, 1, 4}, 0, 0, 0), easing},
+             {1, free_view({1, 2, 4}, 0.6, -1.2, 0.2), easing},
+             {3, free_view({4, 2, 0}, 1.9, -M_PI / 2, -0.4), easing},
+             {4, free_view({4, 1, -1}, 3.0, 0.4, 0), easing}},
+            false,
+            {},
+            MovePath::free};
+}
+
+TEST(FreeMove, PassesThroughEveryKeyframeAlsoStraightDown) {
+    for (const Easing easing : {Easing::smooth, Easing::linear, Easing::ease, Easing::cut}) {
+        const Move move = free_move(easing);
+        for (const MoveKeyframe& keyframe : move.keyframes())
+            EXPECT_TRUE(move.at(keyframe.time_s)
+                            .world_from_camera()
+                            .isApprox(keyframe.view.world_from_camera(), 1e-6))
+                << keyframe.time_s;
+    }
+}
+
+TEST(FreeMove, MovesAndTurnsWithoutAJerkOfSpeed) {
+    const Move move = free_move(Easing::smooth);
+    constexpr double h = 1e-4;
+    const auto speeds = [&](double time_s) {
+        const Pose a = move.at(time_s).world_from_camera();
+        const Pose b = move.at(time_s + h).world_from_camera();
+        const Eigen::AngleAxisd turn(a.linear().transpose() * b.linear());
+        return std::pair<Eigen::Vector3d, Eigen::Vector3d>((b.translation() - a.translation()) / h,
+                                                           turn.angle() / h * turn.axis());
+    };
+    for (double t = 0; t < 4 - 3 * h; t += 0.01) {
+        const auto [way, turn] = speeds(t);
+        const auto [next_way, next_turn] = speeds(t + h);
+        EXPECT_LT((next_way - way).norm(), 0.01) << t;
+        EXPECT_LT((next_turn - turn).norm(), 0.02) << t;
+    }
+    EXPECT_LT(speeds(0).second.norm(), 0.01) << "from rest";
+}
+
+TEST(FreeMove, TurnsAtConstantSpeedWhenLinear) {
+    const Move move({{0, free_view({0, 1, 4}, 0, 0, 0), Easing::linear},
+                     {1, free_view({2, 1, 4}, 1, 0, 0), Easing::linear}},
+                    false, {}, MovePath::free);
+    EXPECT_TRUE(move.at(0.25).world_from_camera().isApprox(
+        free_view({0.5, 1, 4}, 0.25, 0, 0).world_from_camera(), 1e-9));
+}
+
 class MoveFile : public testing::Test {
   protected:
     std::filesystem::path write(const std::string& text) {
@@ -181,7 +238,6 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
     const struct {
         std::string text, line, reason;
     } cases[] = {
-        {head + first, ":", "2 to 1000 keyframes"},
         {head + first + "azimut_deg = 3\n" + second, ":4:", "azimuth_deg"},
         {head + first + "azimuth_deg = \"left\"\n" + second, ":4:", "number"},
         {head + first + second + "easing = \"bounce\"\n", ":6:", "bounce"},
@@ -191,7 +247,7 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
         {head + first + "eye_m = [1, 2, 3]\nazimuth_deg = 4\n" + second, ":5:", "eye_m"},
         {head + first + "target_m = [1, 2, 3]\n" + second, ":", "eye_m"},
         {head + first + "eye_m = [0, 1, 0]\n" + second, ":4:", "looks at"},
-        {head + first + "distance_m = 0.1\n" + second, ":4:", "0.3"},
+        {head + first + "distance_m = 0.01\n" + second, ":4:", "0.02"},
         {head + "loop = true\n" + first + "azimuth_deg = 5\n" + second + "azimuth_deg = 6\n",
          ":2:", "first"},
         {"version = 2\n" + first + second, ":1:", "version"},

@@ -31,7 +31,7 @@ class ShotPicturesTest : public testing::Test {
 };
 
 TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
-    shots_[3] = OrbitView{};
+    shots_[3] = Shot{.name = "wide"};
     pictures_.follow(shots_, made(aside(), 50), start_);
     EXPECT_EQ(pictures_.of(4), nullptr) << "the camera was not there yet";
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
@@ -44,7 +44,7 @@ TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
 }
 
 TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
-    shots_[0] = OrbitView{};
+    shots_[0] = Shot{.name = "wide"};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 100ms);
     EXPECT_EQ(red_of(*pictures_.of(1)), 90);
@@ -53,9 +53,9 @@ TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
 }
 
 TEST_F(ShotPicturesTest, GoWithTheirShot) {
-    shots_[0] = OrbitView{};
+    shots_[0] = Shot{.name = "wide"};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
-    shots_[0] = aside();
+    shots_[0] = Shot{.name = "wide", .view = aside()};
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 3s);
     EXPECT_EQ(pictures_.of(1), nullptr) << "another view is kept there now";
 }

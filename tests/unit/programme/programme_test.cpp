@@ -28,7 +28,7 @@ class ScriptedPilot final : public Pilot {
         next_.view.field_of_view_rad = 1.0;
     }
 
-    PilotStep step(double /*time_s*/) override {
+    PilotStep step(double /*time_s*/, std::optional<double> /*past_pulse*/) override {
         const std::lock_guard lock(mutex_);
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;

@@ -192,5 +192,35 @@ TEST_F(TransportTest, AMarkBeyondTheOtherTakesItAway) {
     EXPECT_EQ(transport_.state().out, 120u);
 }
 
+TEST_F(TransportTest, IsLedThroughATakeByAFlightAndGoesOnByItselfAfterIt) {
+    transport_ = Transport::of_take(110, 1);
+    const auto lead = [&](std::optional<double> pulse) {
+        transport_.take({.at_pulse = pulse}, 110, span_);
+        advance(0.04);
+    };
+    lead(120.5);
+    EXPECT_EQ(transport_.pulse(), 120.5);
+    EXPECT_TRUE(transport_.is_moving());
+    const std::uint64_t jumps = transport_.jumps();
+    lead(120.5);
+    EXPECT_EQ(transport_.pulse(), 120.5);
+    EXPECT_FALSE(transport_.is_moving()) << "what stands is worth the best picture";
+    lead(119);
+    EXPECT_EQ(transport_.pulse(), 119);
+    EXPECT_EQ(transport_.jumps(), jumps);
+    lead(159);
+    EXPECT_EQ(transport_.jumps(), jumps + 1) << "elsewhere";
+    lead(1000);
+    EXPECT_EQ(transport_.pulse(), 160) << "not beyond the take";
+    lead(120);
+    lead({});
+    EXPECT_EQ(transport_.pulse(), 121);
+}
+
+TEST_F(TransportTest, IsNotLedOnALiveStage) {
+    transport_.take({.at_pulse = 120}, 155, span_);
+    EXPECT_TRUE(transport_.is_live());
+}
+
 }  // namespace
 }  // namespace vantage

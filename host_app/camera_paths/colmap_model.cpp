@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "host_app/camera_paths/camera_path_file.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t most_bytes = 1 << 28;
+
+struct Lens {
+    double field_of_view_rad;
+    cv::Size size_px;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = read_file(file, most_bytes);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::filesystem::path cameras_beside(const std::filesystem::path& images) {
+    return images.parent_path() / "cameras.txt";
+}
+
+std::map<int, Lens> lenses_of(const std::string& text, const std::filesystem::path& file) {
+    std::map<int, Lens> lenses;
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        if (line.empty() || line[0] == '#') continue;
+        std::istringstream words(line);
+        int id = 0;
+        std::string model;
+        Lens lens{};
+        double f_px = 0;
+        if (!(words >> id >> model >> lens.size_px.width >> lens.size_px.height >> f_px) ||
+            lens.size_px.width < 1 || lens.size_px.height < 1 || !(f_px > 0))
+            fail("{}:{}: this is no camera of COLMAP", file.string(), number);
+        if (model != "PINHOLE" && model != "SIMPLE_PINHOLE")
+            fail(
+                "{}:{}: a camera of the model {} is not flown, only PINHOLE and SIMPLE_PINHOLE; "
+                "COLMAP's image_undistorter makes those",
+                file.string(), number, model);
+        lens.field_of_view_rad = 2 * std::atan(0.5 * lens.size_px.width / f_px);
+        lenses[id] = lens;
+    }
+    return lenses;
+}
+
+void write(const CameraPath& path, const std::filesystem::path& file) {
+    if (std::filesystem::exists(cameras_beside(file)))
+        fail("{} is there already: give images.txt a folder of its own",
+             cameras_beside(file).string());
+    // A line a lens, and the pictures that were taken with it.
+    std::vector<double> angles_rad;
+    std::string cameras = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n",
+                images = "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n";
+    for (std::size_t i = 0; i < path.cameras.size(); ++i) {
+        const CameraState& camera = path.cameras[i];
+        if (angles_rad.empty() || angles_rad.back() != camera.field_of_view_rad) {
+            angles_rad.push_back(camera.field_of_view_rad);
+            const double f_px = camera.K(path.size_px.width, path.size_px.height)(0, 0);
+            cameras += fmt::format("{} PINHOLE {} {} {:.12g} {:.12g} {} {}\n", angles_rad.size(),
+                                   path.size_px.width, path.size_px.height, f_px, f_px,
+                                   0.5 * path.size_px.width, 0.5 * path.size_px.height);
+        }
+        const Pose camera_from_world = camera.world_from_camera.inverse();
+        const Eigen::Quaterniond q(camera_from_world.linear());
+        const Eigen::Vector3d t = camera_from_world.translation();
+        // The line of its features is empty.
+        images += fmt::format(
+            "{} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {} {:06}.png\n\n", i + 1,
+            q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), angles_rad.size(), i);
+    }
+    write_file_atomically(cameras_beside(file), std::as_bytes(std::span(cameras)));
+    write_file_atomically(file, std::as_bytes(std::span(images)));
+}
+
+}  // namespace
+
+CameraPath colmap_path_of(const std::string& images, const std::string& cameras,
+                          const std::filesystem::path& file, const CameraPathSettings& settings) {
+    const std::map<int, Lens> lenses = lenses_of(cameras, cameras_beside(file));
+    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    std::vector<std::pair<std::string, CameraState>> named;
+    std::istringstream lines(images);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        if (line.empty() || line[0] == '#') continue;
+        std::istringstream words(line);
+        int id = 0, lens = 0;
+        Eigen::Quaterniond q;
+        Eigen::Vector3d t;
+        std::string name;
+        if (!(words >> id >> q.w() >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >> lens >>
+              name) ||
+            !q.coeffs().allFinite() || !t.allFinite() || !(q.norm() > 0.5 && q.norm() < 2))
+            fail("{}:{}: this is no image of COLMAP", file.string(), number);
+        const auto found = lenses.find(lens);
+        if (found == lenses.end())
+            fail("{}:{}: is of camera {}, which is not in cameras.txt beside it", file.string(),
+                 number, lens);
+        Pose camera_from_world = Pose::Identity();
+        camera_from_world.linear() = q.normalized().toRotationMatrix();
+        camera_from_world.translation() = t;
+        path.size_px = found->second.size_px;
+        named.emplace_back(
+            name,
+            CameraState{
+                camera_from_world.inverse(),
+                checked_field_of_view(
+                    settings.field_of_view_rad.value_or(found->second.field_of_view_rad), file),
+                settings.focus_m});
+        // Its features.
+        std::getline(lines, line);
+        ++number;
+    }
+    require_cameras(named.size(), file);
+    std::stable_sort(named.begin(), named.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [name, camera] : named) path.cameras.push_back(camera);
+    return path;
+}
+
+CameraPathForm colmap_form() {
+    return {"colmap", "images.txt, COLMAP's, with cameras.txt beside it",
+            [](const std::filesystem::path& file) { return file.filename() == "images.txt"; },
+            [](const std::filesystem::path& file, const CameraPathSettings& settings) {
+                return colmap_path_of(text_of(file), text_of(cameras_beside(file)), file, settings);
+            },
+            write};
+}
+
+}  // namespace vantage

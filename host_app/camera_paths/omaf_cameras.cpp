@@ -1,0 +1,125 @@
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "host_app/camera_paths/camera_path_file.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t most_bytes = 1 << 28;
+constexpr double deg = 180 / std::numbers::pi;
+
+/// OMAF's axes are x forward, y left, z up, of the world as of cameras.
+Eigen::Matrix3d omaf_from_stage() {
+    Eigen::Matrix3d axes;
+    axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+    return axes;
+}
+Eigen::Matrix3d omaf_from_opencv() {
+    Eigen::Matrix3d axes;
+    axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    return axes;
+}
+
+/// Yaw, pitch and roll in degrees: about z, then y, then x.
+Eigen::Vector3d euler_deg(const Eigen::Matrix3d& r) {
+    const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
+    constexpr double least_cosine = 1e-7;
+    if (std::hypot(r(0, 0), r(1, 0)) < least_cosine)
+        return deg * Eigen::Vector3d(std::atan2(-r(0, 1), r(1, 1)), pitch, 0);
+    return deg * Eigen::Vector3d(std::atan2(r(1, 0), r(0, 0)), pitch, std::atan2(r(2, 1), r(2, 2)));
+}
+
+Eigen::Matrix3d turned_by(const Eigen::Vector3d& euler_deg) {
+    const Eigen::Vector3d angles = euler_deg / deg;
+    return (Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitX()))
+        .toRotationMatrix();
+}
+
+Eigen::Vector3d vector_of(const nlohmann::json& json, const char* key) {
+    Eigen::Vector3d vector;
+    for (std::size_t i = 0; i < 3; ++i)
+        vector[static_cast<Eigen::Index>(i)] = json.at(key).at(i).get<double>();
+    return vector;
+}
+
+void write(const CameraPath& path, const std::filesystem::path& file) {
+    nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < path.cameras.size(); ++i) {
+        const CameraState& camera = path.cameras[i];
+        const auto numbers = [](const Eigen::Vector3d& v) {
+            return nlohmann::ordered_json{v[0], v[1], v[2]};
+        };
+        const double f_px = camera.K(path.size_px.width, path.size_px.height)(0, 0);
+        cameras.push_back(
+            {{"Name", fmt::format("p{:06}", i)},
+             {"Projection", "Perspective"},
+             {"Position", numbers(omaf_from_stage() * camera.world_from_camera.translation())},
+             {"Rotation", numbers(euler_deg(omaf_from_stage() * camera.world_from_camera.linear() *
+                                            omaf_from_opencv().transpose()))},
+             {"Resolution", {path.size_px.width, path.size_px.height}},
+             {"Focal", {f_px, f_px}},
+             {"Principle_point", {0.5 * path.size_px.width, 0.5 * path.size_px.height}}});
+    }
+    const nlohmann::ordered_json json{
+        {"Version", "4.0"}, {"Fps", path.rate_hz}, {"cameras", cameras}};
+    const std::string text = json.dump(1) + '\n';
+    write_file_atomically(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+CameraPath omaf_path_of(const std::string& text, const std::filesystem::path& file,
+                        const CameraPathSettings& settings) {
+    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    try {
+        const nlohmann::json json = nlohmann::json::parse(text);
+        require_cameras(json.at("cameras").size(), file);
+        for (const nlohmann::json& camera : json.at("cameras")) {
+            if (camera.at("Projection").get<std::string>() != "Perspective")
+                fail("{}: the camera {} is {}, and only Perspective is flown", file.string(),
+                     camera.at("Name").get<std::string>(),
+                     camera.at("Projection").get<std::string>());
+            CameraState state;
+            state.world_from_camera.linear() = omaf_from_stage().transpose() *
+                                               turned_by(vector_of(camera, "Rotation")) *
+                                               omaf_from_opencv();
+            state.world_from_camera.translation() =
+                omaf_from_stage().transpose() * vector_of(camera, "Position");
+            if (!state.world_from_camera.matrix().allFinite())
+                fail("{}: a camera has no place", file.string());
+            path.size_px = {camera.at("Resolution").at(0).get<int>(),
+                            camera.at("Resolution").at(1).get<int>()};
+            const double f_px = camera.at("Focal").at(0).get<double>();
+            state.field_of_view_rad = checked_field_of_view(
+                settings.field_of_view_rad.value_or(2 * std::atan(0.5 * path.size_px.width / f_px)),
+                file);
+            state.focus_m = settings.focus_m;
+            path.cameras.push_back(state);
+        }
+    } catch (const nlohmann::json::exception& error) {
+        fail("{} has no cameras as an MPEG view set has them: {}", file.string(), error.what());
+    }
+    return path;
+}
+
+CameraPathForm omaf_form() {
+    return {"omaf", "NAME.json, the cameras of an MPEG view set",
+            [](const std::filesystem::path& file) { return file.extension() == ".json"; },
+            [](const std::filesystem::path& file, const CameraPathSettings& settings) {
+                const std::vector<std::byte> bytes = read_file(file, most_bytes);
+                return omaf_path_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                    file, settings);
+            },
+            write};
+}
+
+}  // namespace vantage

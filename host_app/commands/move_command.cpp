@@ -1,0 +1,115 @@
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/base/atomic_file.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/output_path.h"
+#include "common/base/print_result.h"
+#include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/commands/picture_options.h"
+#include "host_app/flight/flight_book.h"
+
+namespace vantage {
+namespace {
+
+constexpr double rad = std::numbers::pi / 180;
+
+struct MoveOptions {
+    std::string from, to, rate = "25", size = "1920x1080";
+    double tolerance_mm = 10, tolerance_deg = 0.1, focus_m = 4.5, field_of_view_deg = 0;
+    bool json = false;
+};
+
+bool is_flight_file(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
+void convert(const MoveOptions& options) {
+    const std::filesystem::path from = options.from, to = options.to;
+    const double rate_hz = parse_rate(options.rate);
+    const cv::Size size_px = parse_size(options.size);
+    require_writable_output(to, {from});
+    if (std::filesystem::exists(to)) fail("{} is there already: give another name", to.string());
+    if (is_flight_file(from) && is_flight_file(to))
+        fail("{} and {} are flight files both: there is nothing to convert", from.string(),
+             to.string());
+    nlohmann::ordered_json result{{"path", to.string()}};
+    CameraPath path;
+    if (is_flight_file(from)) {
+        path = sampled(Move::load(from), rate_hz, size_px);
+    } else {
+        CameraPathSettings settings{rate_hz, size_px, options.focus_m};
+        if (options.field_of_view_deg > 0)
+            settings.field_of_view_rad = options.field_of_view_deg * rad;
+        path = form_of(from).read(from, settings);
+    }
+    result["cameras"] = path.cameras.size();
+    result["duration_s"] = static_cast<double>(path.cameras.size() - 1) / path.rate_hz;
+    if (is_flight_file(to)) {
+        constexpr double mm = 1000;
+        const FlightTolerance tolerance{options.tolerance_mm / mm, options.tolerance_deg * rad};
+        const SimplifiedFlight flight = move_along(path, tolerance);
+        FlightBook book;
+        book.lowest_m = flight.move.limits().min_eye_height_m;
+        book.move = flight.move;
+        const std::string text = to_toml(book);
+        write_file_atomically(to, std::as_bytes(std::span(text)));
+        result["keyframes"] = flight.move.keyframes().size();
+        result["worst_mm"] = flight.worst * options.tolerance_mm;
+        result["worst_deg"] = flight.worst * options.tolerance_deg;
+    } else {
+        form_of(to).write(path, to);
+    }
+    print_result(result, options.json);
+}
+
+}  // namespace
+
+CommandEntry move_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<MoveOptions>();
+        CLI::App* move = program.add_subcommand("move", "Moves of the virtual camera");
+        move->require_subcommand(1);
+        CLI::App* command = move->add_subcommand(
+            "convert", "A move as other programs have it, and what they have as a move");
+        std::string forms = "NAME.toml, a flight file";
+        for (const CameraPathForm& form : camera_path_forms()) forms += "; " + form.words;
+        command->add_option("FROM", options->from, forms)->required();
+        command->add_option("-o,--output", options->to, "Likewise; it must not be there yet")
+            ->required();
+        command->add_option("--rate", options->rate, "Cameras a second, outside flight files")
+            ->capture_default_str();
+        command
+            ->add_option(
+                "--size", options->size,
+                "Of the pictures, WIDTHxHEIGHT, where the form says it and a move does not")
+            ->capture_default_str();
+        command
+            ->add_option("--tolerance-mm", options->tolerance_mm,
+                         "What a move may be off the cameras that it is made of")
+            ->check(CLI::Range(0.01, 1000.0))
+            ->capture_default_str();
+        command
+            ->add_option("--tolerance-deg", options->tolerance_deg,
+                         "Likewise, of the turn and of the lens")
+            ->check(CLI::Range(0.001, 10.0))
+            ->capture_default_str();
+        command
+            ->add_option("--focus-m", options->focus_m,
+                         "Distance of the pivot, where the form says none")
+            ->check(CLI::Range(0.05, 100.0))
+            ->capture_default_str();
+        command
+            ->add_option("--fov", options->field_of_view_deg,
+                         "Horizontal field of view in degrees, in place of what the file says")
+            ->check(CLI::Range(5.0, 114.0));
+        command->add_flag("--json", options->json, "Write the result as one JSON object");
+        command->callback([options] { convert(*options); });
+    }};
+}
+
+}  // namespace vantage
