@@ -72,7 +72,8 @@ echo 'somebody ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/somebody"
 echo bare >"$root/etc/hostname"
 echo '127.0.0.1 localhost bare' >"$root/etc/hosts"
 mkdir -p "$root/home/somebody/.cache/ccache" "$root/mnt/data"
-[ ! -d "$cache" ] || cp -r "$cache/." "$root/home/somebody/.cache/ccache/"
+# A build beside this one may write there, and a file vanish between its listing and its copy.
+[ ! -d "$cache" ] || cp -r "$cache/." "$root/home/somebody/.cache/ccache/" 2>/dev/null || true
 chroot "$root" chown -R somebody: "${folder%/*}" /home/somebody
 [ -d "$data" ] || data=
 

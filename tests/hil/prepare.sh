@@ -9,6 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 work=${1:?prepare.sh WORK}
 mkdir -p "$work"
 cd "$work"
+exec 9>lock && flock 9 # both tests boot what is made here
 
 skip() {
   if [ -n "${VANTAGE_HIL_REQUIRED:-}" ]; then
