@@ -26,10 +26,10 @@ std::string glfw_reason() {
     return reason;
 }
 
-/// The desk takes no more than a tenth of the time, is drawn no oftener than anybody can read, and
-/// no more seldom than it must.
-constexpr int desk_share = 10;
-constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{500};
+/// By itself the desk takes no more than a tenth of the time, and a third while hands change it; it
+/// is drawn no oftener than anybody can read, and no more seldom than it must.
+constexpr int idle_times = 9, idle_times_in_hand = 2;
+constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000};
 
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
@@ -254,7 +254,7 @@ FlightInput OperatorWindow::poll(double dt_s) {
 std::optional<double> OperatorWindow::take_seek() { return std::exchange(seek_, std::nullopt); }
 
 bool OperatorWindow::is_desk_due(MonotonicTime now) const {
-    return is_changed_ || drawn_.has_overlay || now >= next_desk_;
+    return now >= (is_changed_ ? next_desk_in_hand_ : next_desk_);
 }
 
 bool OperatorWindow::fit_to_window() {
@@ -290,12 +290,13 @@ void OperatorWindow::show(DeskState state) {
     renderer_->draw(*ImGui::GetDrawData(), screen_->target);
     present();
     const MonotonicTime end = MonotonicClock::now();
-    next_desk_ = end + std::clamp<std::chrono::nanoseconds>(desk_share * (end - start),
+    next_desk_ = end + std::clamp<std::chrono::nanoseconds>(idle_times * (end - start),
                                                             least_desk_period, most_desk_period);
+    next_desk_in_hand_ = std::min(next_desk_, end + idle_times_in_hand * (end - start));
 }
 
 void OperatorWindow::show_picture(const Texture& picture) {
-    if (!screen_ || drawn_.picture.is_empty()) return;
+    if (!screen_ || drawn_.picture.is_empty() || drawn_.has_overlay) return;
     renderer_->draw_picture(picture, drawn_.picture, screen_->target);
     present();
 }

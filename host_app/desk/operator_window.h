@@ -54,6 +54,7 @@ class OperatorWindow {
     /// Draws the whole desk and shows it. Whether parts and help show is the window's.
     void show(DeskState state);
     /// Of the desk that was shown last only the programme's picture is a new one, of the same size.
+    /// Under the help it waits for the next show().
     void show_picture(const Texture& picture);
 
     /// Where the parts of what was shown last are.
@@ -107,7 +108,7 @@ class OperatorWindow {
     bool drags_time_ = false;
     double cursor_x_ = 0, cursor_y_ = 0;  ///< in pixels of what is shown
     bool is_changed_ = true;              ///< by hands, since the desk was drawn
-    MonotonicTime next_desk_{};
+    MonotonicTime next_desk_{}, next_desk_in_hand_{};
 };
 
 }  // namespace vantage

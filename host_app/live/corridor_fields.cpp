@@ -7,7 +7,7 @@ namespace vantage {
 namespace {
 
 constexpr int sectors = 36, rings = 6;
-constexpr std::size_t fields_at_once = 24;
+constexpr std::size_t fields_at_once = 45;
 
 bool is_like(const OrbitView& a, const OrbitView& b) {
     constexpr double near_m = 0.05, near_rad = 0.03;

@@ -261,7 +261,8 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    wait_for(host, first_progress);
+    // Where the first rig stands: once the stage is known, and not before.
+    wait_for(host, "azimuth -12.0");
     screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
     // The picture alone, so that it is as wide as the window.
     screen.hands({"key", "Tab", "sleep", "1"});
