@@ -2,16 +2,18 @@
 # Plays the demo stage: four rigs, each a process of its own, and the host, over authenticated sockets on loopback.
 #   tools/demo.sh [--headless] [--seconds N] [--json] [--files LEFT RIGHT]
 #                 [--rigs-only]    starts the rigs, says so on stdout and waits to be ended: another host may use them
+#                 [--keep FOLDER]  the rigs keep takes of their own there
 #                 [--rig CALIB.yaml LEFT RIGHT [--disparities N] [--rate HZ]]
 # Keys, configurations and logs go to out/demo/, results to out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-headless=false rigs_only=false seconds=12 json=() left= right= calibration= disparities= asked_hz=
+headless=false rigs_only=false seconds=12 json=() left= right= calibration= disparities= asked_hz= keep=
 while [ $# -gt 0 ]; do
   case "$1" in
     --headless) headless=true; shift ;;
     --rigs-only) rigs_only=true; shift ;;
+    --keep) keep=$(realpath -m "$2"); shift 2 ;;
     --seconds) seconds=$2; shift 2 ;;
     --json) json=(--json); shift ;;
     --files) left=$2 right=$3; shift 3 ;;
@@ -77,6 +79,7 @@ authorized_hosts = "authorized_hosts"
 
 $(cat)
 END
+  [ -z "$keep" ] || printf '\n[keep]\nfolder = "%s"\n' "$keep" >>"$demo/$1.toml"
   "$bin/vantage-rig" keys new "$demo/$1.key" >/dev/null
   cat >>"$demo/stage.toml" <<END
 

@@ -21,7 +21,7 @@ constexpr std::chrono::seconds refusal_retry_period{2};
 constexpr std::chrono::milliseconds first_reconnect_wait{100};
 constexpr std::chrono::milliseconds longest_reconnect_wait{1000};
 constexpr int send_high_water_mark = 8;
-constexpr std::size_t frame_parts = 3;
+constexpr std::size_t frame_parts = 3, kept_parts = 4;
 
 std::vector<std::byte> copy_of(const zmq::message_t& part) {
     const std::span<const std::byte> bytes = bytes_of(part);
@@ -112,7 +112,8 @@ std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
 }
 
 bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery) {
-    if (parts.size() != 1 && parts.size() != 1 + frame_parts)
+    const bool is_kept = parts.size() == 1 + kept_parts;
+    if (parts.size() != 1 && parts.size() != 1 + frame_parts && !is_kept)
         fail("a message of {} parts came from rig {}", parts.size(), rig_.name);
     RigMessage message = decode_rig_message(bytes_of(parts.front()));
     if (message.refusal.empty() && message.rig != rig_.name)
@@ -124,7 +125,9 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
         gone_ = true;
         return false;
     }
-    const bool with_frame = parts.size() > 1;
+    if (is_kept && (!told_.fetch || !message.fetch || message.fetch->id != told_.fetch->id))
+        fail("a frame that rig {} keeps came, and nobody asked for it", rig_.name);
+    const bool with_frame = parts.size() == 1 + frame_parts;
     account_.hear(message, with_frame);
     view_.heard = now;
     gone_ = false;
@@ -136,15 +139,25 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.since_start = message.rig_counters;
     view_.sync = message.sync;
     view_.health = message.health;
-    if (!with_frame) return false;
+    view_.fetch = message.fetch;
+    if (parts.size() == 1) return false;
     delivery.message = std::move(message);
+    delivery.arrival = now;
+    delivery.arrival_tai = TaiClock::now();
+    if (is_kept) {
+        auto kept = std::make_shared<KeptParts>();
+        kept->head = copy_of(parts[1]);
+        kept->record = copy_of(parts[2]);
+        kept->colour = copy_of(parts[3]);
+        kept->depth = copy_of(parts[4]);
+        delivery.kept = std::move(kept);
+        return true;
+    }
     auto frame = std::make_shared<PackedFrame>();
     frame->header = copy_of(parts[1]);
     frame->colour = copy_of(parts[2]);
     frame->disparity = copy_of(parts[3]);
     delivery.frame = std::move(frame);
-    delivery.arrival = now;
-    delivery.arrival_tai = TaiClock::now();
     return true;
 }
 
@@ -212,6 +225,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     message.rate_divisor = wish.rate_divisor;
     message.first_pulse = wish.first_pulse;
     message.raw_pairs = wish.raw_pairs;
+    message.fetch = wish.fetch;
     if (now < next_heartbeat_ && message == told_) return;
     // Not taken while the rig is away; then the heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

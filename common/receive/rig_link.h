@@ -11,6 +11,7 @@
 #include "common/receive/link_account.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/frame_codec.h"
+#include "common/wire/kept_parts.h"
 #include "common/wire/link_message.h"
 
 namespace vantage {
@@ -20,10 +21,11 @@ namespace vantage {
 /// socket() and monitor().
 class RigLink {
   public:
-    /// A frame as it came, not decoded yet.
+    /// A frame as it came, not decoded yet: a live one, or one that this host fetches.
     struct Delivery {
         RigMessage message;
-        std::shared_ptr<const PackedFrame> frame;
+        std::shared_ptr<const PackedFrame> frame;  ///< null: `kept` is it
+        std::shared_ptr<const KeptParts> kept;
         MonotonicTime arrival{};
         TaiTime arrival_tai{};
     };
@@ -35,6 +37,7 @@ class RigLink {
         std::uint64_t unhandled = 0;    ///< frames that came and are not decoded yet
         std::uint64_t first_pulse = 0;  ///< of the take; 0: not announced yet
         bool raw_pairs = false;
+        std::optional<FetchWish> fetch = {};
         bool operator==(const Wish&) const = default;
     };
 
@@ -51,6 +54,7 @@ class RigLink {
         RigCounters since_start;   ///< as the rig says, since its daemon started
         RigSync sync;
         RigHealth health;
+        std::optional<FetchState> fetch;
     };
 
     /// Frames under way or waiting to be decoded.

@@ -16,6 +16,7 @@ void check_printable(std::string_view what, std::string_view text) {
         if (static_cast<unsigned char>(c) < ' ') fail("a {} with control characters came", what);
 }
 
+/// Of a refusal, and of what is wrong with a fetch.
 constexpr std::size_t max_refusal_chars = 512;
 constexpr std::size_t max_date_chars = 40;
 
@@ -50,6 +51,23 @@ RigHealth from_wire(const wire::Health& in) {
     return health;
 }
 
+FetchWish from_wire(const wire::Fetch& in) {
+    if (in.id() == 0) fail("a fetch without id came");
+    if (in.to_pulse() > max_trigger_index || in.from_pulse() >= in.to_pulse())
+        fail("a fetch of the pulses from {} to before {} came, which are none up to {}",
+             in.from_pulse(), in.to_pulse(), max_trigger_index);
+    return {in.id(), in.from_pulse(), in.to_pulse(), in.granted()};
+}
+
+FetchState from_wire(const wire::Fetched& in) {
+    if (in.id() == 0) fail("an answer to a fetch without id came");
+    if (in.trouble().size() > max_refusal_chars)
+        fail("a trouble of {} characters is beyond the limit of {}", in.trouble().size(),
+             max_refusal_chars);
+    check_printable("trouble", in.trouble());
+    return {in.id(), in.sent(), in.over(), in.trouble()};
+}
+
 }  // namespace
 
 std::vector<std::byte> encode(const HostMessage& message) {
@@ -63,6 +81,13 @@ std::vector<std::byte> encode(const HostMessage& message) {
     out.set_rate_divisor(message.rate_divisor);
     out.set_first_pulse(message.first_pulse);
     out.set_raw_pairs(message.raw_pairs);
+    if (message.fetch) {
+        wire::Fetch& fetch = *out.mutable_fetch();
+        fetch.set_id(message.fetch->id);
+        fetch.set_from_pulse(message.fetch->from_pulse);
+        fetch.set_to_pulse(message.fetch->to_pulse);
+        fetch.set_granted(message.fetch->granted);
+    }
     return serialise(out);
 }
 
@@ -78,8 +103,10 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
         fail("a rate divisor of {} is outside 1..{}", in.rate_divisor(), max_rate_divisor);
     if (in.first_pulse() > max_trigger_index)
         fail("a first pulse of {} is beyond {}", in.first_pulse(), max_trigger_index);
-    return {in.host_id(),   in.link(),         in.handled(),     in.credit_window(),
-            in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
+    HostMessage message{in.host_id(),   in.link(),         in.handled(),     in.credit_window(),
+                        in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
+    if (in.has_fetch()) message.fetch = from_wire(in.fetch());
+    return message;
 }
 
 std::vector<std::byte> encode(const RigMessage& message) {
@@ -95,6 +122,13 @@ std::vector<std::byte> encode(const RigMessage& message) {
     to_wire(message.rig_counters, *out.mutable_counters());
     to_wire(message.sync, *out.mutable_sync());
     to_wire(message.health, *out.mutable_health());
+    if (message.fetch) {
+        wire::Fetched& fetch = *out.mutable_fetched();
+        fetch.set_id(message.fetch->id);
+        fetch.set_sent(message.fetch->sent);
+        fetch.set_over(message.fetch->is_over);
+        fetch.set_trouble(message.fetch->trouble.substr(0, max_refusal_chars));
+    }
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
     return serialise(out);
 }
@@ -117,6 +151,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.rig_counters = from_wire(in.counters());
     message.sync = from_wire(in.sync());
     message.health = from_wire(in.health());
+    if (in.has_fetched()) message.fetch = from_wire(in.fetched());
     message.refusal = in.refusal();
     return message;
 }

@@ -12,6 +12,25 @@
 
 namespace vantage {
 
+/// What a host fetches of the rig's own take: the frames of these pulses.
+struct FetchWish {
+    std::uint64_t id = 0;                        ///< random, not 0; another one begins anew
+    std::uint64_t from_pulse = 0, to_pulse = 0;  ///< `to_pulse` is the first that is left out
+    std::uint64_t granted = 0;                   ///< frames that may be sent for this id in all
+
+    bool operator==(const FetchWish&) const = default;
+};
+
+/// How the rig stands to it.
+struct FetchState {
+    std::uint64_t id = 0;
+    std::uint64_t sent = 0;
+    bool is_over = false;  ///< all that the rig keeps of these pulses is sent
+    std::string trouble;   ///< a sentence, when it cannot be served; else empty
+
+    bool operator==(const FetchState&) const = default;
+};
+
 /// What a host tells a rig: its complete wish, sent again on every change and as heartbeat.
 struct HostMessage {
     std::uint64_t host_id = 0;        ///< random per receiver, not 0
@@ -22,6 +41,7 @@ struct HostMessage {
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; only pulses whose index it divides
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
     bool raw_pairs = false;          ///< what the sensors saw instead of views
+    std::optional<FetchWish> fetch = {};
 
     bool operator==(const HostMessage&) const = default;
 };
@@ -38,7 +58,8 @@ struct RigHealth {
     bool operator==(const RigHealth&) const = default;
 };
 
-/// What a rig tells a host: alone as heartbeat or refusal, and before each frame.
+/// What a rig tells a host: alone as heartbeat or refusal, and before each frame, also one that is
+/// fetched.
 struct RigMessage {
     std::string rig;
     std::uint64_t session = 0;
@@ -47,6 +68,7 @@ struct RigMessage {
     RigCounters rig_counters;
     RigSync sync;
     RigHealth health;
+    std::optional<FetchState> fetch;
     std::string refusal;  ///< a sentence, when the rig does not serve this host; else empty
 };
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -8,15 +10,28 @@
 
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
+#include "common/base/log.h"
 #include "common/base/stop_signal.h"
 #include "common/base/time_zone.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
 #include "common/wire/status_report.h"
+#include "host_app/commands/take_time.h"
 #include "host_app/live/live_report.h"
+#include "host_app/takes/clock_time.h"
+#include "host_app/takes/kept_fetch.h"
 
 namespace vantage {
 namespace {
+
+struct FetchOptions {
+    std::string stage, from, to, take;
+    std::vector<std::string> rigs;
+    std::filesystem::path folder = "fetched";
+    double mb_s = 20, wait_s = 10;
+    bool json = false;
+};
 
 struct Options {
     std::string stage;
@@ -103,6 +118,94 @@ void run(const Options& options) {
     if (troubled > 0) fail("{} of {} rigs cannot serve{}", troubled, status.rigs.size(), troubles);
 }
 
+/// What --from and --to say, and what of a take lacks.
+void plan(const FetchOptions& options, const StageConfig& stage, KeptFetch& fetch) {
+    if (options.take.empty()) {
+        if (options.from.empty() || options.to.empty())
+            fail("--from and --to say what is fetched; or --gaps-of names the take that has gaps");
+        const ClockSpan span = clock_span(options.from, options.to, std::time(nullptr));
+        const PulseGrid pulses(stage.rate_hz);
+        // Both are read here, so that what is wrong with them is said before anything is asked.
+        constexpr int no_offset_s = 0;
+        (void)pulse_of(span.to, pulses, no_offset_s);
+        (void)pulse_of(span.from, pulses, no_offset_s);
+        fetch.range = [span, pulses](int tai_offset_s) {
+            return PulseRange{pulse_of(span.from, pulses, tai_offset_s),
+                              pulse_of(span.to, pulses, tai_offset_s)};
+        };
+        return;
+    }
+    fetch.take = std::make_shared<const TakeReader>(options.take);
+    if (fetch.take->facts().pulse_rate_hz != stage.rate_hz)
+        fail("{} is of {:g} pulses a second and the stage of {:g}", options.take,
+             fetch.take->facts().pulse_rate_hz, stage.rate_hz);
+    const PulseSpan span = pulse_span_of(*fetch.take);
+    const PulseRange range{
+        options.from.empty() ? span.first
+                             : pulse_of(*fetch.take, options.from, span.first, span.last),
+        options.to.empty() ? span.last + 1
+                           : pulse_of(*fetch.take, options.to, span.first, span.last)};
+    if (range.pulses() == 0) fail("--from {} is not before --to {}", options.from, options.to);
+    fetch.range = [range](int) { return range; };
+}
+
+nlohmann::ordered_json to_json(const FetchBooks& books) {
+    nlohmann::ordered_json json{{"name", books.rig},          {"wanted", books.wanted},
+                                {"frames", books.frames},     {"bytes", books.bytes},
+                                {"not_kept", books.not_kept}, {"were_there", books.there}};
+    if (!books.trouble.empty()) json["trouble"] = books.trouble;
+    json["files"] = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& file : books.files) json["files"].push_back(file.string());
+    return json;
+}
+
+void tell_progress(const std::vector<FetchBooks>& all) {
+    for (const FetchBooks& books : all)
+        if (books.wanted > 0 && !books.is_done)
+            log_info("{}: {} of {} pulses ({} %), {:.1f} MB", books.rig, books.seen, books.wanted,
+                     100 * books.seen / books.wanted, static_cast<double>(books.bytes) / 1e6);
+}
+
+void fetch_kept(const FetchOptions& options) {
+    const StageConfig stage = load_stage_config(options.stage);
+    if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
+    KeptFetch fetch;
+    plan(options, stage, fetch);
+    fetch.rigs = options.rigs;
+    fetch.folder = options.folder;
+    constexpr double bytes_a_mb = 1e6;
+    fetch.bytes_s = bytes_a_mb * options.mb_s;
+    fetch.patience = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(options.wait_s));
+    make_folder(options.folder);
+    StopSignal stop;
+    const std::vector<FetchBooks> all = fetch.run(
+        stage, [&] { return stop.requested(); }, tell_progress);
+    if (options.json) {
+        nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
+        for (const FetchBooks& books : all) rigs.push_back(to_json(books));
+        std::cout
+            << nlohmann::ordered_json{{"folder", options.folder.string()}, {"rigs", rigs}}.dump()
+            << '\n';
+    } else {
+        for (const FetchBooks& books : all) {
+            std::cout << fmt::format("{}: {} frames, {:.1f} MB", books.rig, books.frames,
+                                     static_cast<double>(books.bytes) / 1e6);
+            if (books.not_kept > 0)
+                std::cout << fmt::format("; {} pulses the rig has not kept either", books.not_kept);
+            std::cout << '\n';
+            for (const std::filesystem::path& file : books.files)
+                std::cout << "    " << file.string() << '\n';
+        }
+    }
+    std::string troubles;
+    for (const FetchBooks& books : all)
+        if (!books.trouble.empty()) troubles += (troubles.empty() ? "" : "; ") + books.trouble;
+    if (!troubles.empty()) fail("{}", troubles);
+    if (std::any_of(all.begin(), all.end(), [](const auto& books) { return !books.is_done; }))
+        fail("ended before all was there; the same command goes on from here");
+}
+
 }  // namespace
 
 CommandEntry rigs_command_entry() {
@@ -120,6 +223,35 @@ CommandEntry rigs_command_entry() {
             ->check(CLI::Range(0.1, 3600.0));
         status->add_flag("--json", options->json, "Print it as JSON");
         status->callback([options] { run(*options); });
+
+        auto fetched = std::make_shared<FetchOptions>();
+        CLI::App* fetch = rigs->add_subcommand(
+            "fetch",
+            "Brings what the rigs keep on their own disks ([keep]) to this host, beside what is "
+            "live; what was broken off goes on where it was, and vantage take join makes one take "
+            "of it");
+        fetch->add_option("--stage", fetched->stage, "stage.toml (see hw_config/stage.toml)")
+            ->required();
+        fetch->add_option("--from", fetched->from,
+                          "By the stage's clock on the wall: 20:15:00, 20:15:00:12 (time code), "
+                          "2026-11-22T20:15:00; with --gaps-of as in vantage take cut");
+        fetch->add_option("--to", fetched->to, "The first that is left out, likewise");
+        fetch->add_option("--gaps-of", fetched->take,
+                          "Only what this take of the stage lacks (default: of all its time)");
+        fetch->add_option("--rig", fetched->rigs,
+                          "Only this rig; may be given again (default: all)");
+        fetch->add_option("-o,--output", fetched->folder, "The folder it goes to")
+            ->capture_default_str();
+        fetch
+            ->add_option("--mb-s", fetched->mb_s,
+                         "Megabytes a second from all rigs together, so that live goes on")
+            ->check(CLI::Range(0.01, 10'000.0))
+            ->capture_default_str();
+        fetch->add_option("--wait", fetched->wait_s, "Seconds to wait for a rig that is silent")
+            ->check(CLI::Range(0.1, 86'400.0))
+            ->capture_default_str();
+        fetch->add_flag("--json", fetched->json, "Print it as JSON");
+        fetch->callback([fetched] { fetch_kept(*fetched); });
     }};
 }
 

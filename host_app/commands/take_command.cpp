@@ -34,21 +34,6 @@ void use_zone_of(const TakeReader& take) {
     if (!zone.empty() && is_time_zone(zone)) use_time_zone(zone);
 }
 
-struct Span {
-    std::uint64_t first = 0, last = 0;  ///< pulses
-};
-
-Span span_of(const TakeReader& take) {
-    Span span{~std::uint64_t{0}, 0};
-    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
-        if (take.frames(rig).empty()) continue;
-        span.first = std::min(span.first, take.frames(rig).front().pulse);
-        span.last = std::max(span.last, take.frames(rig).back().pulse);
-    }
-    if (span.first > span.last) fail("{} holds no frame", take.path().string());
-    return span;
-}
-
 std::string codec_text(const TakePictures& pictures) {
     switch (pictures.codec) {
         case TakePictures::Codec::none:
@@ -191,7 +176,7 @@ void tell(const TakeCopy& copy, const TakeOptions& options) {
 
 /// What --from and --to say.
 TakePart part_of(const TakeReader& take, const TakeOptions& options) {
-    const Span span = span_of(take);
+    const PulseSpan span = pulse_span_of(take);
     TakePart part;
     part.from =
         options.from.empty() ? span.first : pulse_of(take, options.from, span.first, span.last);

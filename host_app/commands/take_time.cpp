@@ -1,5 +1,6 @@
 #include "host_app/commands/take_time.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
@@ -7,6 +8,17 @@
 #include "common/base/timecode.h"
 
 namespace vantage {
+
+PulseSpan pulse_span_of(const TakeReader& take) {
+    PulseSpan span{~std::uint64_t{0}, 0};
+    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
+        if (take.frames(rig).empty()) continue;
+        span.first = std::min(span.first, take.frames(rig).front().pulse);
+        span.last = std::max(span.last, take.frames(rig).back().pulse);
+    }
+    if (span.first > span.last) fail("{} holds no frame", take.path().string());
+    return span;
+}
 
 std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uint64_t first,
                        std::uint64_t last) {

@@ -125,7 +125,7 @@ struct DeskState {
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
-    bool recording = false;        ///< a film
+    bool recording = false;  ///< a film
     bool recording_flight = false;
     std::optional<DeskTake> take;  ///< nothing: no take is recorded
     std::vector<DeskOutput> outputs;

@@ -7,7 +7,6 @@
 #include "common/base/log.h"
 #include "common/base/output_path.h"
 #include "common/base/version.h"
-#include "common/colour/colour_file.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
@@ -19,19 +18,17 @@ TakeRecorder::Settings recorder_settings(const StageConfig& stage,
                                          const std::filesystem::path& stage_file,
                                          std::chrono::nanoseconds pre_roll) {
     TakeRecorder::Settings settings;
-    TakeShow show{stage.timecode_zone, stage.view, {}};
     settings.attachments.push_back(
         {"stage.toml", "application/toml", read_file(stage_file, most_attached_bytes)});
     for (const StageConfig::Rig& rig : stage.rigs) {
         settings.rigs.push_back(rig.name);
         if (rig.colour.empty()) continue;
-        show.colours[rig.name] = load_colour(rig.colour);
         settings.attachments.push_back({rig.name + ".colour.toml", "application/toml",
                                         read_file(rig.colour, most_attached_bytes)});
     }
     settings.pulse_rate_hz = stage.rate_hz;
     settings.program = fmt::format("vantage {}", version());
-    settings.show = to_json(show);
+    settings.show = to_json(take_show_of(stage));
     settings.pre_roll = pre_roll;
     return settings;
 }

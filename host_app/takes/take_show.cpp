@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/colour/colour_file.h"
 
 namespace vantage {
 namespace {
@@ -15,6 +16,13 @@ double within(const nlohmann::ordered_json& json, const char* key, double least,
 }
 
 }  // namespace
+
+TakeShow take_show_of(const StageConfig& stage) {
+    TakeShow show{stage.timecode_zone, stage.view, {}};
+    for (const StageConfig::Rig& rig : stage.rigs)
+        if (!rig.colour.empty()) show.colours[rig.name] = load_colour(rig.colour);
+    return show;
+}
 
 nlohmann::ordered_json to_json(const TakeShow& show) {
     const StageConfig::View& view = show.view;

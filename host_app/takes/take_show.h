@@ -18,6 +18,8 @@ struct TakeShow {
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
 };
 
+/// Loads the rigs' colour files. Throws Error if one cannot be.
+TakeShow take_show_of(const StageConfig& stage);
 nlohmann::ordered_json to_json(const TakeShow& show);
 /// Throws Error if it is not what to_json wrote.
 TakeShow take_show_from(const nlohmann::ordered_json& json);

@@ -35,7 +35,8 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
                          {"offered", host.counters.offered},
                          {"sent", host.counters.sent},
                          {"send_dropped", host.counters.send_dropped},
-                         {"thinned", host.counters.thinned}});
+                         {"thinned", host.counters.thinned},
+                         {"fetched", host.fetched}});
     nlohmann::ordered_json source = nlohmann::ordered_json::object();
     for (const SourceCounter& counter : status.source_counters)
         source[counter.name] = counter.count;
@@ -44,6 +45,8 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
     summary.update({{"source", source},
                     {"sync", to_json(status.sync)},
                     {"hosts", hosts},
+                    {"refused_messages", status.publisher.malformed},
+                    {"refused_fetches", status.publisher.refused_fetches},
                     {"capture_ms", to_json(status.capture_ms)},
                     {"rectify_ms", to_json(status.rectify_ms)},
                     {"match_ms", to_json(status.match_ms)},

@@ -20,6 +20,7 @@
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
 #include "rig_firmware/daemon/heartbeat.h"
+#include "rig_firmware/keep/kept_reader.h"
 #include "rig_firmware/keep/take_keeper.h"
 #include "rig_firmware/trigger/rig_trigger.h"
 
@@ -84,6 +85,11 @@ struct RigDaemon::Impl {
                      ? nullptr
                      : std::make_unique<TakeKeeper>(rig_config.keep, rig_config.name,
                                                     rig_config.source.rate_hz)) {
+        if (keeper)
+            publisher.serve_kept(
+                [reader = std::make_shared<KeptReader>(config.keep.folder, config.name,
+                                                       config.source.rate_hz)](
+                    std::uint64_t from, std::uint64_t to) { return reader->first_of(from, to); });
         // Hosts may be there already; what this rig is to do they learn before what it does.
         RigSync first;
         first.rate_hz = config.source.rate_hz;

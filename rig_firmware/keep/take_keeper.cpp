@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/output_path.h"
 #include "common/base/version.h"
+#include "common/take/kept_files.h"
 
 namespace vantage {
 namespace {
@@ -31,39 +32,6 @@ TakeRecorder::Settings recorder_settings(const std::string& rig, double rate_hz)
     return settings;
 }
 
-/// "north-20261122T201500Z.mkv": in the order of time by name.
-std::string name_for_now(const std::string& rig) {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[40];
-    std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &parts);
-    return fmt::format("{}-{}.mkv", rig, text);
-}
-
-struct KeptFile {
-    std::filesystem::path path;
-    std::filesystem::file_time_type written;
-    std::uint64_t bytes = 0;
-};
-
-/// The rig's files, the oldest first.
-std::vector<KeptFile> kept_files(const std::filesystem::path& folder, const std::string& rig) {
-    std::vector<KeptFile> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with(rig + "-") || entry.path().extension() != ".mkv") continue;
-        const auto written = entry.last_write_time(error);
-        const std::uint64_t bytes = error ? 0 : entry.file_size(error);
-        if (!error) files.push_back({entry.path(), written, bytes});
-    }
-    std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {
-        return std::tie(a.written, a.path) < std::tie(b.written, b.path);
-    });
-    return files;
-}
-
 }  // namespace
 
 TakeKeeper::TakeKeeper(const RigConfig::Keep& config, std::string rig, double rate_hz)
@@ -73,7 +41,7 @@ TakeKeeper::TakeKeeper(const RigConfig::Keep& config, std::string rig, double ra
     if (error)
         fail("the folder {} of [keep] cannot be made: {}", config_.folder.string(),
              error.message());
-    require_writable_output(config_.folder / name_for_now(rig_), {});
+    require_writable_output(config_.folder / kept_file_name(rig_, std::time(nullptr)), {});
     drop_oldest(false);
     begin();
     thread_ = std::thread([this] { run(); });
@@ -94,7 +62,9 @@ void TakeKeeper::offer(const std::shared_ptr<const PackedFrame>& frame) {
     recorder_.offer(ArrivedFrame{0, frame, {}, MonotonicClock::now(), TaiClock::now()});
 }
 
-void TakeKeeper::begin() { recorder_.begin(free_path(config_.folder / name_for_now(rig_))); }
+void TakeKeeper::begin() {
+    recorder_.begin(free_path(config_.folder / kept_file_name(rig_, std::time(nullptr))));
+}
 
 void TakeKeeper::run() {
     const std::chrono::duration<double, std::ratio<60>> length(config_.minutes);

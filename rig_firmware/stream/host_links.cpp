@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/wire/limits.h"
 #include "common/wire/random_id.h"
 
 namespace vantage {
@@ -72,6 +73,62 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
         link->credit_limit = std::min(message.handled, link->counters.sent) + message.credit_window;
     else
         link->heartbeat_due = true;
+    hear_fetch(*link, message.fetch);
+}
+
+void HostLinks::hear_fetch(Link& link, const std::optional<FetchWish>& wish) {
+    if (!wish) {
+        link.fetch.reset();
+        return;
+    }
+    if (!link.fetch || link.fetch->wish.id != wish->id) {
+        link.fetch = Fetch{*wish, wish->from_pulse, 0, false, false, {}, {}};
+        if (!keeps_) {
+            ++refused_fetches_;
+            link.fetch->trouble = fmt::format(
+                "rig {} keeps no take of its own: set folder in [keep] of its rig.toml", rig_);
+            link.heartbeat_due = true;
+        }
+    }
+    link.fetch->wish.granted = std::min(wish->granted, link.fetch->sent + max_credit_window);
+}
+
+std::optional<HostLinks::FetchJob> HostLinks::next_fetch() {
+    // In turn: the first one behind the last that was served.
+    const auto last = std::find_if(links_.begin(), links_.end(),
+                                   [&](const Link& link) { return link.id == last_served_; });
+    const auto behind =
+        static_cast<std::size_t>(last == links_.end() ? 0 : last - links_.begin() + 1);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        Link& link = links_[(behind + i) % links_.size()];
+        if (!link.attached || !link.fetch) continue;
+        Fetch& fetch = *link.fetch;
+        if (fetch.is_looked_up || fetch.is_searched || !fetch.trouble.empty() ||
+            fetch.sent + fetch.ready.size() >= fetch.wish.granted)
+            continue;
+        fetch.is_looked_up = true;
+        last_served_ = link.id;
+        return FetchJob{link.id, fetch.wish.id, fetch.next_pulse, fetch.wish.to_pulse};
+    }
+    return std::nullopt;
+}
+
+void HostLinks::fetched(const FetchJob& job, std::shared_ptr<const KeptParts> kept,
+                        std::string trouble) {
+    for (Link& link : links_) {
+        if (link.id != job.link || !link.fetch || link.fetch->wish.id != job.fetch) continue;
+        Fetch& fetch = *link.fetch;
+        fetch.is_looked_up = false;
+        fetch.trouble = std::move(trouble);
+        if (kept) {
+            fetch.next_pulse = kept->pulse + 1;
+            fetch.is_searched = fetch.next_pulse >= fetch.wish.to_pulse;
+            fetch.ready.push_back(std::move(kept));
+        } else {
+            fetch.is_searched = fetch.trouble.empty();
+            link.heartbeat_due = true;
+        }
+    }
 }
 
 void HostLinks::refuse(const Route& route, std::string sentence) {
@@ -109,6 +166,13 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
             ++link.counters.sent;
             all.push_back({link.route, message_to(link), std::move(frame)});
         }
+        while (link.fetch && !link.fetch->ready.empty()) {
+            std::shared_ptr<const KeptParts> kept = std::move(link.fetch->ready.front());
+            link.fetch->ready.pop_front();
+            ++link.fetch->sent;
+            ++link.fetched;
+            all.push_back({link.route, message_to(link), nullptr, std::move(kept)});
+        }
     }
     return all;
 }
@@ -140,7 +204,8 @@ RigCounters HostLinks::rig_counters() const { return rig_counters_; }
 std::vector<HostLinks::HostStatus> HostLinks::hosts() const {
     std::vector<HostStatus> all;
     for (const Link& link : links_)
-        all.push_back({link.host_key, link.attached, link.counters, link.queue.size()});
+        all.push_back(
+            {link.host_key, link.attached, link.counters, link.queue.size(), link.fetched});
     return all;
 }
 
@@ -168,6 +233,7 @@ HostLinks::Link* HostLinks::take_on(const std::string& host_key, std::uint64_t h
 
 void HostLinks::let_go(Link& link) {
     link.attached = false;
+    link.fetch.reset();
     while (!link.queue.empty()) drop_oldest(link);
 }
 
@@ -186,6 +252,9 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.rig_counters = rig_counters_;
     message.sync = sync_;
     message.health = health_;
+    if (link.fetch)
+        message.fetch = FetchState{link.fetch->wish.id, link.fetch->sent, link.fetch->is_over(),
+                                   link.fetch->trouble};
     return message;
 }
 

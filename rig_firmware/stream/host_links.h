@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/base/time.h"
 #include "common/wire/frame_codec.h"
+#include "common/wire/kept_parts.h"
 #include "common/wire/link_message.h"
 
 namespace vantage {
@@ -28,7 +30,8 @@ class HostLinks {
     struct Outgoing {
         Route route;
         RigMessage message;
-        std::shared_ptr<const PackedFrame> frame;  ///< null: a heartbeat or refusal
+        std::shared_ptr<const PackedFrame> frame;  ///< null, as `kept`: a heartbeat or refusal
+        std::shared_ptr<const KeptParts> kept = nullptr;  ///< one that the host fetches
     };
 
     struct HostStatus {
@@ -36,6 +39,13 @@ class HostLinks {
         bool attached = false;
         LinkCounters counters;
         std::size_t queued = 0;
+        std::uint64_t fetched = 0;  ///< frames of the rig's own take that it was sent
+    };
+
+    /// The next frame that a host fetches: of these pulses the first that is kept.
+    struct FetchJob {
+        std::uint64_t link = 0, fetch = 0;
+        std::uint64_t from_pulse = 0, to_pulse = 0;
     };
 
     /// Hosts at a time, and remembered ones among them.
@@ -53,6 +63,18 @@ class HostLinks {
     /// raw pairs.
     void serve_raw_pairs_only(std::string reason) { no_views_ = std::move(reason); }
     bool serves_raw_pairs_only() const { return !no_views_.empty(); }
+
+    /// From now on hosts may fetch what this rig keeps; before, they are told that it keeps
+    /// nothing.
+    void serve_kept() { keeps_ = true; }
+    /// The job of the host whose turn it is, of those that have credit for one; nothing if none
+    /// has. It is done with fetched().
+    std::optional<FetchJob> next_fetch();
+    /// Null: none of the job's pulses is kept. `trouble`: a sentence, where that cannot be found
+    /// out. For a host that wants something else by now it is forgotten.
+    void fetched(const FetchJob& job, std::shared_ptr<const KeptParts> kept, std::string trouble);
+    /// Fetches that were refused since this rig keeps nothing.
+    std::uint64_t refused_fetches() const { return refused_fetches_; }
 
     /// A raw pair of a rig that has nothing else was not packed, since nobody asks for it.
     void pass_over() { ++rig_counters_.published; }
@@ -91,6 +113,16 @@ class HostLinks {
     std::vector<HostStatus> hosts() const;
 
   private:
+    struct Fetch {
+        FetchWish wish;
+        std::uint64_t next_pulse = 0;  ///< all before it are sent, ready, or not kept
+        std::uint64_t sent = 0;
+        bool is_looked_up = false;  ///< a job is under way
+        bool is_searched = false;   ///< nothing of the wish is kept from next_pulse on
+        std::string trouble;
+        std::deque<std::shared_ptr<const KeptParts>> ready;
+        bool is_over() const { return is_searched && ready.empty(); }
+    };
     struct Link {
         Route route;
         std::string host_key;
@@ -105,12 +137,15 @@ class HostLinks {
         LinkCounters counters;
         MonotonicTime heard{};
         std::deque<std::shared_ptr<const PackedFrame>> queue;
+        std::optional<Fetch> fetch;
+        std::uint64_t fetched = 0;
     };
 
     Link* find(const std::string& host_key, std::uint64_t host_id);
     Link* take_on(const std::string& host_key, std::uint64_t host_id);
     void let_go(Link& link);
     void drop_oldest(Link& link);
+    void hear_fetch(Link& link, const std::optional<FetchWish>& wish);
     RigMessage message_to(const Link& link) const;
 
     std::string rig_;
@@ -120,6 +155,9 @@ class HostLinks {
     RigCounters rig_counters_;
     RigSync sync_;
     RigHealth health_;
+    bool keeps_ = false;
+    std::uint64_t refused_fetches_ = 0;
+    std::uint64_t last_served_ = 0;  ///< the link whose job was the last
     std::vector<Link> links_;
     std::vector<Outgoing> refusals_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
 #include <exception>
 #include <iterator>
 #include <mutex>
@@ -13,6 +14,10 @@
 #include <utility>
 #include <zmq.hpp>
 #include <zmq_addon.hpp>
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -36,6 +41,8 @@ constexpr int messages_per_turn = 64;
 constexpr std::chrono::seconds handshake_limit{5};
 /// Between lines about messages that are no host's.
 constexpr std::chrono::seconds complaint_period{10};
+/// Of the thread that reads what hosts fetch.
+constexpr int fetch_nice = 10;
 
 /// The key a message came under, as HostAdmission let it in; empty without keys.
 std::string host_key_of(zmq::message_t& part) {
@@ -64,7 +71,9 @@ struct Publisher::Impl {
     ~Impl() {
         stopping = true;
         wake.notify();
+        fetch_wanted.notify_all();
         io_thread.join();
+        if (fetch_thread.joinable()) fetch_thread.join();
     }
 
     void bind(const RigConfig::Stream& config) {
@@ -148,6 +157,7 @@ struct Publisher::Impl {
             const std::lock_guard lock(mutex);
             links.hear(route, host_key_of(parts[1]), message, now);
             if (message.first_pulse != 0) announced_pulse = message.first_pulse;
+            if (message.fetch) fetch_wanted.notify_all();
         } catch (const Error& error) {
             if (const auto times = complaints.count(1, now))
                 log_warning("messages that are no host's were refused: {}; the last, from {}: {}",
@@ -184,6 +194,12 @@ struct Publisher::Impl {
             parts.emplace_back(outgoing.frame->colour);
             parts.emplace_back(outgoing.frame->disparity);
         }
+        if (outgoing.kept) {
+            parts.emplace_back(outgoing.kept->head);
+            parts.emplace_back(outgoing.kept->record);
+            parts.emplace_back(outgoing.kept->colour);
+            parts.emplace_back(outgoing.kept->depth);
+        }
         try {
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 const auto more =
@@ -196,6 +212,34 @@ struct Publisher::Impl {
         } catch (const zmq::error_t& error) {
             if (error.num() == EHOSTUNREACH) return false;
             throw;
+        }
+    }
+
+    /// What hosts fetch comes behind all else that this computer does.
+    void look_up_kept() {
+        ::pthread_setname_np(::pthread_self(), "fetch");
+        ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), fetch_nice);
+        while (!stopping) {
+            std::optional<HostLinks::FetchJob> job;
+            {
+                std::unique_lock lock(mutex);
+                fetch_wanted.wait_for(lock, heartbeat_period,
+                                      [&] { return stopping || (job = links.next_fetch()); });
+            }
+            if (!job) continue;
+            std::shared_ptr<const KeptParts> kept;
+            std::string trouble;
+            try {
+                kept = kept_lookup(job->from_pulse, job->to_pulse);
+            } catch (const std::exception& error) {
+                trouble = fmt::format("rig {}: {}", rig, error.what());
+                log_warning("{}", trouble);
+            }
+            {
+                const std::lock_guard lock(mutex);
+                links.fetched(*job, std::move(kept), std::move(trouble));
+            }
+            wake.notify();
         }
     }
 
@@ -218,7 +262,9 @@ struct Publisher::Impl {
     WakeEvent wake;
     MonotonicTime next_heartbeat{};
     std::atomic<bool> stopping = false;
-    std::thread io_thread;
+    KeptLookup kept_lookup;
+    std::condition_variable fetch_wanted;
+    std::thread io_thread, fetch_thread;
 };
 
 Publisher::Publisher(const RigConfig::Stream& config, std::string rig_name)
@@ -263,6 +309,15 @@ void Publisher::serve_raw_pairs_only(std::string reason) {
     impl_->links.serve_raw_pairs_only(std::move(reason));
 }
 
+void Publisher::serve_kept(KeptLookup lookup) {
+    impl_->kept_lookup = std::move(lookup);
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->links.serve_kept();
+    }
+    impl_->fetch_thread = std::thread([this] { impl_->look_up_kept(); });
+}
+
 void Publisher::report(const RigCounters& counters) {
     const std::lock_guard lock(impl_->mutex);
     impl_->links.set_rig_counters(counters);
@@ -282,7 +337,8 @@ std::uint64_t Publisher::announced_pulse() const { return impl_->announced_pulse
 
 PublisherStatus Publisher::status() const {
     const std::lock_guard lock(impl_->mutex);
-    return {impl_->links.rig_counters(), impl_->links.hosts(), impl_->malformed};
+    return {impl_->links.rig_counters(), impl_->links.hosts(), impl_->malformed,
+            impl_->links.refused_fetches()};
 }
 
 std::uint64_t Publisher::session() const { return impl_->session; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,8 +15,14 @@ namespace vantage {
 struct PublisherStatus {
     RigCounters counters;  ///< the daemon's last, with `published` and `send_dropped`
     std::vector<HostLinks::HostStatus> hosts;
-    std::uint64_t malformed = 0;  ///< messages that were no host's
+    std::uint64_t malformed = 0;        ///< messages that were no host's
+    std::uint64_t refused_fetches = 0;  ///< of hosts, where this rig keeps nothing
 };
+
+/// The first frame that is kept of the pulses `from` to before `to`; null if none is. May take its
+/// time: it is called on a thread that has nothing else to do.
+using KeptLookup =
+    std::function<std::shared_ptr<const KeptParts>(std::uint64_t from, std::uint64_t to)>;
 
 /// Offers a rig's frames to any number of hosts. Each is sent frames as fast as it takes them and
 /// no faster: a slow one loses its oldest waiting frames, which are counted, and holds up neither
@@ -40,6 +47,9 @@ class Publisher {
     /// The rig has no views: hosts that ask for them are refused with this reason, and publish() is
     /// given raw pairs only.
     void serve_raw_pairs_only(std::string reason);
+
+    /// From now on hosts may fetch what this rig keeps. Once.
+    void serve_kept(KeptLookup lookup);
 
     /// Tells hosts the daemon's counts (captured, missed, late) also while no frame is published.
     /// Any thread.

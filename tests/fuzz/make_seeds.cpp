@@ -10,6 +10,7 @@
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
 #include "common/take/frame_storage.h"
+#include "common/take/kept_frame.h"
 #include "common/wire/colour_codec.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/disparity_codec.h"
@@ -80,12 +81,17 @@ void write_pictures(const Seeds& seeds) {
 
 void write_messages(const Seeds& seeds) {
     seeds.write("link_message", "host", encode(HostMessage{1, 2, 3, 4, true, 5, 6}));
+    HostMessage fetching{1, 2, 3, 4, false, 5, 6};
+    fetching.fetch = {7, 8, 9, 10};
+    seeds.write("link_message", "fetch", encode(fetching));
     RigMessage message;
     message.rig = "rig-a";
     message.session = 1;
     message.link = 2;
     message.counters = {10, 5, 3, 2};
     seeds.write("link_message", "rig", encode(message));
+    message.fetch = {7, 1, true, "a trouble"};
+    seeds.write("link_message", "fetched", encode(message));
     message.refusal = "no";
     seeds.write("link_message", "refusal", encode(message));
 }
@@ -245,6 +251,24 @@ void write_calibration(const Seeds& seeds) {
                      {"2026-01-01", "seed", 0.2, 0.1, 12});
 }
 
+/// As kept_frame_fuzz takes it apart.
+void write_kept_frame(const Seeds& seeds) {
+    RigFrame frame = seed_frame();
+    const PackedFrame packed = FrameEncoder(85).encode(frame);
+    KeptFrame kept{take_rig_of(decode_frame_head(packed.header)), 25, 37, {}};
+    kept.frame = FrameStorer(kept.rig).store(packed);
+    kept.frame.colour = kept.frame.depth = {std::byte{1}};
+    kept.frame.record.colour_crc = kept.frame.record.depth_crc = crc32(kept.frame.colour);
+    const KeptParts parts = encode(kept);
+    const std::string record(reinterpret_cast<const char*>(parts.record.data()),
+                             parts.record.size());
+    std::string input{static_cast<char>(parts.head.size() & 0xff),
+                      static_cast<char>(parts.head.size() >> 8)};
+    input.append(reinterpret_cast<const char*>(parts.head.data()), parts.head.size());
+    input += record.substr(0, record.rfind(",\"crc32\":\""));
+    seeds.write("kept_frame", "whole", input);
+}
+
 void write_takes(const Seeds& seeds) {
     for (const int quality : {0, 85}) {
         RigFrame frame = seed_frame();
@@ -296,6 +320,7 @@ int main(int argc, char** argv) {
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);
+        vantage::write_kept_frame(seeds);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "make_seeds: " << error.what() << '\n';

@@ -1,9 +1,12 @@
 #include "rig_firmware/stream/host_links.h"
 
 #include <chrono>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "common/wire/limits.h"
 
 namespace vantage {
 namespace {
@@ -272,6 +275,98 @@ TEST_F(HostLinksTest, ARigWithoutViewsSaysSoToHostsThatWantThemAndServesRawPairs
     links_.offer(frame_of(1, true));
     links_.pass_over();
     EXPECT_EQ(links_.rig_counters().published, 2u);
+}
+
+/// A host that fetches, and what the rig's reader answers.
+class HostLinksFetchTest : public HostLinksTest {
+  protected:
+    void ask(std::uint64_t host_id, FetchWish wish) {
+        HostMessage message;
+        message.host_id = host_id;
+        message.streaming = false;
+        message.fetch = wish;
+        links_.hear(fmt::format("r{}", host_id), "key", message, now_);
+    }
+    void answer(const HostLinks::FetchJob& job, std::uint64_t pulse) {
+        auto kept = std::make_shared<KeptParts>();
+        kept->pulse = pulse;
+        links_.fetched(job, kept, "");
+    }
+    /// What is sent now: of each message the pulse that it brings, and how the fetch stands.
+    std::vector<std::pair<std::uint64_t, FetchState>> sent() {
+        std::vector<std::pair<std::uint64_t, FetchState>> all;
+        for (const auto& outgoing : links_.take())
+            if (outgoing.message.fetch)
+                all.emplace_back(outgoing.kept ? outgoing.kept->pulse : 0, *outgoing.message.fetch);
+        return all;
+    }
+};
+
+TEST_F(HostLinksFetchTest, SendsNoMoreThanIsGrantedAndSaysWhenNothingIsLeft) {
+    links_.serve_kept();
+    ask(5, {7, 100, 110, 0});
+    EXPECT_FALSE(links_.next_fetch());
+    ask(5, {7, 100, 110, 1});
+    auto job = links_.next_fetch();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->from_pulse, 100u);
+    EXPECT_EQ(job->to_pulse, 110u);
+    EXPECT_FALSE(links_.next_fetch()) << "one job at a time";
+    answer(*job, 103);
+    EXPECT_FALSE(links_.next_fetch()) << "credit is used up";
+    ask(5, {7, 100, 110, 2});
+    job = links_.next_fetch();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->from_pulse, 104u);
+    links_.fetched(*job, nullptr, "");
+    const auto all = sent();
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all.back(), (std::pair<std::uint64_t, FetchState>{103, {7, 1, true, ""}}));
+    EXPECT_FALSE(links_.next_fetch());
+    EXPECT_EQ(links_.hosts()[0].fetched, 1u);
+}
+
+TEST_F(HostLinksFetchTest, AnotherIdBeginsAnewAndWhatWasUnderWayIsForgotten) {
+    links_.serve_kept();
+    ask(5, {7, 100, 110, 4});
+    const auto job = links_.next_fetch();
+    ask(5, {8, 200, 210, 4});
+    answer(*job, 100);
+    for (const auto& [pulse, state] : sent()) EXPECT_EQ(pulse, 0u);
+    EXPECT_EQ(links_.next_fetch()->from_pulse, 200u);
+}
+
+TEST_F(HostLinksFetchTest, HostsAreServedInTurnAndCreditIsBounded) {
+    links_.serve_kept();
+    ask(5, {7, 0, 1000, ~std::uint64_t{0}});
+    ask(6, {9, 0, 1000, ~std::uint64_t{0}});
+    std::map<std::uint64_t, int> jobs;
+    for (int i = 0; i < 100; ++i) {
+        const auto job = links_.next_fetch();
+        if (!job) break;
+        ++jobs[job->fetch];
+        answer(*job, job->from_pulse);
+    }
+    EXPECT_EQ(jobs[7], static_cast<int>(max_credit_window)) << "whatever it grants";
+    EXPECT_EQ(jobs[9], static_cast<int>(max_credit_window));
+}
+
+TEST_F(HostLinksFetchTest, ARigThatKeepsNothingRefusesAndCounts) {
+    ask(5, {7, 100, 110, 4});
+    EXPECT_FALSE(links_.next_fetch());
+    const auto all = sent();
+    ASSERT_FALSE(all.empty());
+    EXPECT_NE(all.back().second.trouble, "");
+    EXPECT_EQ(links_.refused_fetches(), 1u);
+    ask(5, {7, 100, 110, 5});
+    EXPECT_EQ(links_.refused_fetches(), 1u) << "the same wish again";
+}
+
+TEST_F(HostLinksFetchTest, AHostThatIsGoneIsLookedUpNothingFor) {
+    links_.serve_kept();
+    ask(5, {7, 100, 110, 4});
+    links_.expire(now_ + 10s);
+    EXPECT_FALSE(links_.next_fetch());
 }
 
 }  // namespace

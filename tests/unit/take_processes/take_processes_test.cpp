@@ -183,6 +183,55 @@ TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {
     EXPECT_GE(compared, 3u);
 }
 
+TEST_F(TakeProcesses, GapsOfTheHostsTakeAreFetchedFromTheRigs) {
+    run(live({"--frames", "5", "--take", file("one.mkv")}));
+    run(live({"--frames", "5", "--take", file("two.mkv")}));
+    run({"take", "join", file("one.mkv"), file("two.mkv"), "-o", file("gaps.mkv"), "--json"});
+    ASSERT_FALSE(check_take(TakeReader(file("gaps.mkv"))).is_whole())
+        << "between the hosts' takes was nobody";
+    // Beside a host that films; the rigs go on.
+    ChildProgram host(VANTAGE_PROGRAM, live({"--frames", "1000"}), folder_.path());
+    const std::vector<std::string> fetch{
+        "rigs",           "fetch", "--stage",       file("stage.toml"), "--gaps-of",
+        file("gaps.mkv"), "-o",    file("fetched"), "--wait",           "60",
+        "--json"};
+    const nlohmann::json fetched = run(fetch);
+    std::vector<std::string> join{"take", "join", file("gaps.mkv")};
+    for (const auto& rig : fetched["rigs"]) {
+        EXPECT_GE(rig["frames"], 1) << rig;
+        for (const auto& path : rig["files"]) join.push_back(path);
+    }
+    join.insert(join.end(), {"-o", file("whole.mkv"), "--json"});
+    EXPECT_EQ(run(join)["twice"], 0) << "only what was lacking came";
+    for (const auto& rig : run(fetch)["rigs"]) EXPECT_EQ(rig["frames"], 0) << "all is here";
+    host.send_signal(SIGTERM);
+    for (const auto& rig : rigs_) {
+        rig->send_signal(SIGTERM);
+        EXPECT_EQ(rig->wait().status, 0) << rig->err();
+    }
+    // Against what the rigs kept, byte for byte: nothing lacks that they have.
+    const TakeReader whole(file("whole.mkv"));
+    std::size_t compared = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(file("kept"))) {
+        const TakeReader kept(entry.path());
+        const std::size_t rig = kept.facts().rigs[0].name == "left" ? 0 : 1;
+        const auto& there = whole.frames(rig);
+        for (const TakeReader::Frame& frame : kept.frames(0)) {
+            if (frame.pulse < there.front().pulse || frame.pulse > there.back().pulse) continue;
+            const auto found = std::find_if(
+                there.begin(), there.end(),
+                [&](const TakeReader::Frame& each) { return each.pulse == frame.pulse; });
+            ASSERT_NE(found, there.end()) << "pulse " << frame.pulse;
+            const StoredFrame a = whole.load(rig, *found), b = kept.load(0, frame);
+            EXPECT_EQ(a.colour, b.colour);
+            EXPECT_EQ(a.depth, b.depth);
+            EXPECT_EQ(a.record.header, b.record.header);
+            ++compared;
+        }
+    }
+    EXPECT_GE(compared, 10u);
+}
+
 TEST_F(TakeProcesses, ATakeThatCannotBeBegunIsToldBeforeAnythingIsFlown) {
     std::ofstream(file("take.mkv")) << "somebody's";
     const ProgramResult result =

@@ -29,7 +29,9 @@ std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
 }
 
 TEST(LinkMessage, HostMessageComesBackWhole) {
-    const HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
+    HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
+    EXPECT_EQ(decode_host_message(encode(sent)), sent);
+    sent.fetch = {21, 22, 23, 24};
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
 }
 
@@ -54,7 +56,10 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     EXPECT_EQ(got.rig_counters, sent.rig_counters);
     EXPECT_EQ(got.sync, sent.sync);
     EXPECT_EQ(got.health, sent.health);
+    EXPECT_EQ(got.fetch, std::nullopt);
     EXPECT_EQ(got.refusal, "");
+    sent.fetch = {21, 22, true, "a trouble"};
+    EXPECT_EQ(decode_rig_message(encode(sent)).fetch, sent.fetch);
 }
 
 TEST(LinkMessage, ARefusalNeedsNoLinkAndIsCutToItsLimit) {
@@ -83,6 +88,18 @@ TEST(LinkMessage, HostileHostMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.clear_rate_divisor(); }), HasSubstr("rate divisor"));
     EXPECT_THAT(refusal([](auto& m) { m.set_rate_divisor(max_rate_divisor + 1); }),
                 HasSubstr("rate divisor"));
+    const auto fetch = [&](std::uint64_t id, std::uint64_t from, std::uint64_t to) {
+        return refusal([&](auto& m) {
+            m.mutable_fetch()->set_id(id);
+            m.mutable_fetch()->set_from_pulse(from);
+            m.mutable_fetch()->set_to_pulse(to);
+        });
+    };
+    EXPECT_EQ(fetch(1, 5, 6), "");
+    EXPECT_THAT(fetch(0, 5, 6), HasSubstr("without id"));
+    EXPECT_THAT(fetch(1, 6, 6), HasSubstr("pulses from 6 to before 6"));
+    EXPECT_THAT(fetch(1, 7, 6), HasSubstr("pulses from 7"));
+    EXPECT_THAT(fetch(1, 5, max_trigger_index + 1), HasSubstr("none up to"));
     EXPECT_THAT(refusal_of(decode_host_message, std::vector<std::byte>(max_header_bytes + 1)),
                 HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal_of(decode_host_message, {std::byte{0x08}}), HasSubstr("truncated"));

@@ -1,0 +1,152 @@
+#include "host_app/takes/rig_fetch.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/base/pulse_grid.h"
+#include "common/wire/random_id.h"
+
+namespace vantage {
+namespace {
+
+/// Frames under way: while one travels the rig reads the next.
+constexpr std::uint64_t window = 2;
+
+}  // namespace
+
+RigFetch::RigFetch(zmq::context_t& context, const StageConfig::Rig& rig,
+                   const std::optional<CurveKeys>& host_keys, double rate_hz, Plan plan,
+                   FetchedFiles files, std::chrono::nanoseconds patience)
+    : link_(context, rig, host_keys),
+      rate_hz_(rate_hz),
+      plan_(std::move(plan)),
+      files_(std::move(files)),
+      patience_(patience) {
+    books_.rig = rig.name;
+}
+
+void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
+    link_.watch(now);
+    while (const std::optional<RigLink::Delivery> delivery = link_.receive(now))
+        if (!books_.is_done) take_in(*delivery, budget);
+    if (!books_.is_done) look_at(link_.view(now), now);
+    if (wish_ && !books_.is_done) {
+        const std::uint64_t most = std::min(window, wish_->to_pulse - next_pulse_);
+        while (wish_->granted < received_ + most && budget.may_spend(now)) {
+            ++wish_->granted;
+            budget.spend(expected_bytes_);
+        }
+    }
+    RigLink::Wish wish;
+    wish.streaming = false;
+    wish.fetch = books_.is_done ? std::nullopt : wish_;
+    link_.tick(wish, now);
+}
+
+void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget) {
+    if (!delivery.kept || !wish_ || delivery.message.fetch->id != wish_->id) return;
+    // Some were lost on the way, or the rig was started anew and begins again.
+    if (delivery.message.fetch->sent != received_ + 1) {
+        ask_anew();
+        return;
+    }
+    ++received_;
+    const double bytes = static_cast<double>(delivery.kept->bytes());
+    budget.spend(bytes - expected_bytes_);
+    expected_bytes_ = bytes;
+    KeptFrame frame;
+    try {
+        frame = decode_kept_frame(*delivery.kept);
+        const std::uint64_t pulse = frame.frame.record.pulse;
+        if (frame.rig.name != books_.rig || received_ > wish_->granted || pulse < next_pulse_ ||
+            pulse >= wish_->to_pulse)
+            fail("it is of rig {} and pulse {}, and was not asked for", frame.rig.name, pulse);
+        if (PulseGrid(frame.pulse_rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz())
+            fail("it is of {:g} pulses a second, and the stage has {:g}", frame.pulse_rate_hz,
+                 rate_hz_);
+    } catch (const Error& error) {
+        end(fmt::format("a frame that rig {} keeps is refused: {}", books_.rig, error.what()));
+        return;
+    }
+    files_.add(frame);
+    const std::uint64_t pulse = frame.frame.record.pulse;
+    books_.not_kept += pulse - next_pulse_;
+    books_.seen += pulse + 1 - next_pulse_;
+    next_pulse_ = pulse + 1;
+    ++books_.frames;
+    books_.bytes += delivery.kept->bytes();
+}
+
+void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
+    if (view.connected) {
+        silent_since_.reset();
+    } else {
+        if (!silent_since_) silent_since_ = now;
+        if (now - *silent_since_ > patience_)
+            end(!view.refused.empty()
+                    ? view.refused
+                    : fmt::format("rig {} does not answer; the same command goes on where this one "
+                                  "ended when it does",
+                                  books_.rig));
+        return;
+    }
+    if (!parts_) {
+        if (view.sync.rate_hz != 0 &&
+            PulseGrid(view.sync.rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz()) {
+            end(
+                fmt::format("rig {} works at {:g} pulses a second and the stage at {:g}: make "
+                            "rate_hz agree",
+                            books_.rig, view.sync.rate_hz, rate_hz_));
+            return;
+        }
+        const std::vector<PulseRange> parts = plan_(view.sync.tai_offset_s);
+        std::uint64_t wanted = 0;
+        for (const PulseRange& part : parts) wanted += part.pulses();
+        books_.wanted = wanted;
+        parts_.emplace(parts.begin(), parts.end());
+        next_part();
+        return;
+    }
+    if (!wish_ || !view.fetch || view.fetch->id != wish_->id) return;
+    if (!view.fetch->trouble.empty()) {
+        end(view.fetch->trouble);
+    } else if (view.fetch->sent != received_) {
+        ask_anew();
+    } else if (view.fetch->is_over) {
+        books_.not_kept += wish_->to_pulse - next_pulse_;
+        books_.seen += wish_->to_pulse - next_pulse_;
+        parts_->pop_front();
+        next_part();
+    }
+}
+
+void RigFetch::ask_anew() {
+    wish_ = FetchWish{random_id(), next_pulse_, parts_->front().to, 0};
+    received_ = 0;
+    if (next_pulse_ < wish_->to_pulse) return;
+    parts_->pop_front();
+    next_part();
+}
+
+void RigFetch::next_part() {
+    wish_.reset();
+    if (parts_->empty()) {
+        books_.is_done = true;
+        return;
+    }
+    next_pulse_ = parts_->front().from;
+    ask_anew();
+}
+
+void RigFetch::end(std::string trouble) {
+    books_.trouble = std::move(trouble);
+    books_.is_done = true;
+}
+
+void RigFetch::finish() {
+    files_.finish();
+    books_.files = files_.files();
+    books_.there = files_.there().size();
+}
+
+}  // namespace vantage
