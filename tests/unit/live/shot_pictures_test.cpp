@@ -18,6 +18,11 @@ class ShotPicturesTest : public testing::Test {
         return picture;
     }
     static uchar red_of(const Texture& texture) { return ColourImage(texture.download())(0, 0)[0]; }
+    static Shot shot_aside() {
+        Shot shot;
+        shot.view = aside();
+        return shot;
+    }
     static OrbitView aside() {
         OrbitView view;
         view.azimuth_rad = 0.4;
@@ -31,7 +36,7 @@ class ShotPicturesTest : public testing::Test {
 };
 
 TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
-    shots_[3] = Shot{.name = "wide"};
+    shots_[3] = Shot{};
     pictures_.follow(shots_, made(aside(), 50), start_);
     EXPECT_EQ(pictures_.of(4), nullptr) << "the camera was not there yet";
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
@@ -44,7 +49,7 @@ TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
 }
 
 TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
-    shots_[0] = Shot{.name = "wide"};
+    shots_[0] = Shot{};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 100ms);
     EXPECT_EQ(red_of(*pictures_.of(1)), 90);
@@ -53,9 +58,9 @@ TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
 }
 
 TEST_F(ShotPicturesTest, GoWithTheirShot) {
-    shots_[0] = Shot{.name = "wide"};
+    shots_[0] = Shot{};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
-    shots_[0] = Shot{.name = "wide", .view = aside()};
+    shots_[0] = shot_aside();
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 3s);
     EXPECT_EQ(pictures_.of(1), nullptr) << "another view is kept there now";
 }
