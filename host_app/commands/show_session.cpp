@@ -259,7 +259,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
     OperatorWindow window("Vantage", std::max(least_width_px, format.width_px),
                           std::max(least_height_px, format.height_px));
     show.start();
-    DeskFeed desk(plan);
+    DeskFeed desk;
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
     OutputSwitch outputs(show.outputs());

@@ -46,6 +46,7 @@ FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_vie
       corridor_now_(std::move(corridor)) {
     helm_.keep(settings_.plan.book);
     shots_ = settings_.plan.book.shots;
+    if (settings_.plan.move) move_ = std::make_shared<const Move>(*settings_.plan.move);
 }
 
 void FlightControls::keep_flight(Move move) {
@@ -66,8 +67,11 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     if (const auto kept = [&] {
             const std::lock_guard lock(mutex_);
             return std::exchange(kept_flight_, std::nullopt);
-        }())
+        }()) {
         helm_.keep_flight(*kept);
+        const std::lock_guard lock(mutex_);
+        move_ = std::make_shared<const Move>(*kept);
+    }
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight) helm_.keep_within(corridor);
     auto [hands, since] = hands_.take();
@@ -110,6 +114,8 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     wishes_.toggle_take ^= hands.toggle_take;
     if (auto change = helm_.take_change()) {
         shots_ = change->book.shots;
+        const std::optional<Move>& move = change->book.move;
+        move_ = move ? std::make_shared<const Move>(*move) : nullptr;
         change->is_of_move |= wishes_.change && wishes_.change->is_of_move;
         wishes_.change = std::move(change);
     }
@@ -181,6 +187,11 @@ void FlightControls::record(const FlightInput& hands, const PilotStep& step, dou
                     longest_flight_s);
         is_recording_ = false;
     }
+}
+
+std::shared_ptr<const Move> FlightControls::move() const {
+    const std::lock_guard lock(mutex_);
+    return move_;
 }
 
 SessionWishes FlightControls::take_wishes() {

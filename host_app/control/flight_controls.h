@@ -86,6 +86,8 @@ class FlightControls final : public Pilot {
     /// What hands have kept as shots 1, 2, ...; from any thread.
     using Shots = std::array<std::optional<Shot>, most_shots>;
     Shots shots() const;
+    /// That is flown or may be, as hands have left it; null: none. From any thread.
+    std::shared_ptr<const Move> move() const;
 
     /// Those of the steps since the last call; from any thread.
     SessionWishes take_wishes();
@@ -135,6 +137,7 @@ class FlightControls final : public Pilot {
     SessionWishes wishes_;
     std::optional<double> seek_;
     Shots shots_;
+    std::shared_ptr<const Move> move_;
     std::optional<Move> kept_flight_;  ///< on its way to the helm
 };
 

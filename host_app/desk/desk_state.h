@@ -108,8 +108,9 @@ struct DeskPlan {
     };
     std::vector<Field> corridor;
     Eigen::Vector3d corridor_pivot_m{0, 0, 0};
-    std::vector<Eigen::Vector3d> path_m;  ///< of the camera in the last seconds, oldest first
-    std::vector<Eigen::Vector3d> move_m;  ///< of the planned move
+    std::vector<Eigen::Vector3d> path_m;       ///< of the camera in the last seconds, oldest first
+    std::vector<Eigen::Vector3d> move_m;       ///< of the planned move
+    std::vector<Eigen::Vector3d> keyframes_m;  ///< of it
 };
 
 /// A place for a shot.

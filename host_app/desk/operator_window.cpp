@@ -134,6 +134,7 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
 std::string OperatorWindow::question_of(const ControlCommand& command, int number) const {
     const std::string_view name = command.name;
     if (name == "take" && take_runs_) return "T again to end the take";
+    if (name == "remove_keyframe") return "X again to take out the keyframe";
     if (name == "store" && number <= shot_places &&
         kept_shots_[static_cast<std::size_t>(number - 1)])
         return fmt::format("Ctrl + {} again to replace shot {}", number, number);

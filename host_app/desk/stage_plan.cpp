@@ -125,6 +125,9 @@ void draw_path(const Pen& pen, const PlanMap& map, const DeskPlan& plan) {
     for (std::size_t i = 1; i < plan.move_m.size(); i += 2)
         pen.list().AddLine(map.at(plan.move_m[i - 1]), map.at(plan.move_m[i]),
                            ImGui::GetColorU32(palette::dim));
+    for (const Eigen::Vector3d& keyframe_m : plan.keyframes_m)
+        pen.list().AddCircleFilled(map.at(keyframe_m), 0.22f * pen.em(),
+                                   ImGui::GetColorU32(palette::dim));
     for (std::size_t i = 1; i < plan.path_m.size(); ++i) {
         ImVec4 colour = palette::accent;
         colour.w = static_cast<float>(i) / static_cast<float>(plan.path_m.size());

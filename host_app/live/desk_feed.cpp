@@ -17,7 +17,9 @@ constexpr std::chrono::milliseconds refresh_period{250};
 constexpr std::size_t latency_samples = 240;
 /// Of the camera's path that the plan shows.
 constexpr std::chrono::seconds path_length{10};
-constexpr double least_path_step_m = 0.02, move_step_s = 0.25;
+constexpr double least_path_step_m = 0.02;
+/// Of the planned move, for its line.
+constexpr int move_steps = 96;
 constexpr double corridor_reach = 1.3;  ///< of the farthest rig's distance from the pivot
 
 RigState state_in(const FrameSet* set, const RigStatus& status) {
@@ -84,12 +86,6 @@ DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {
 }
 
 }  // namespace
-
-DeskFeed::DeskFeed(const FlightPlan& plan) {
-    if (!plan.move) return;
-    for (double s = 0; s <= plan.move->duration_s(); s += move_step_s)
-        move_m_.push_back(plan.move->at(s).eye_m());
-}
 
 DeskRig DeskFeed::rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now) {
     DeskRig rig;
@@ -167,6 +163,19 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     }
 }
 
+void DeskFeed::follow_move(const LiveShow& show) {
+    const std::shared_ptr<const Move> move = show.controls().move();
+    if (move == move_) return;
+    move_ = move;
+    move_m_.clear();
+    keyframes_m_.clear();
+    if (!move_) return;
+    for (int i = 0; i <= move_steps; ++i)
+        move_m_.push_back(move_->at(move_->duration_s() * i / move_steps).eye_m());
+    for (const MoveKeyframe& keyframe : move_->keyframes())
+        keyframes_m_.push_back(keyframe.view.eye_m());
+}
+
 void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme,
                            MonotonicTime now) {
     const Eigen::Vector3d eye_m = programme.view.eye_m();
@@ -186,7 +195,9 @@ void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme
     plan.corridor = corridor_.fields();
     plan.corridor_pivot_m = corridor_.pivot_m();
     for (const Placed& placed : path_) plan.path_m.push_back(placed.eye_m);
+    follow_move(show);
     plan.move_m = move_m_;
+    plan.keyframes_m = keyframes_m_;
     state_.plan = std::move(plan);
 }
 

@@ -21,8 +21,6 @@ namespace vantage {
 /// which must be current at every call.
 class DeskFeed {
   public:
-    explicit DeskFeed(const FlightPlan& plan);
-
     /// The programme's newest picture; null before the first.
     const Texture* picture(const ProgrammeState& programme);
     /// To be called when that was shown.
@@ -37,6 +35,7 @@ class DeskFeed {
                  MonotonicTime now);
     static std::optional<DeskSources> sources_of(const ProgrammeState& programme);
     DeskRig rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now);
+    void follow_move(const LiveShow& show);
     void follow_plan(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
     void follow_shots(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
 
@@ -52,7 +51,8 @@ class DeskFeed {
     ShotPictures shot_pictures_;
     CorridorFields corridor_;
     std::deque<Placed> path_;
-    std::vector<Eigen::Vector3d> move_m_;
+    std::shared_ptr<const Move> move_;  ///< of which these are
+    std::vector<Eigen::Vector3d> move_m_, keyframes_m_;
     std::deque<float> latencies_ms_;  ///< from exposure to this desk's window
     std::uint64_t latency_of_ = 0;    ///< the pulse of the last of them
     std::string renderer_;

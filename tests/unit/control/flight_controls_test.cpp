@@ -359,15 +359,26 @@ TEST(FlightControlsInACorridor, FreeFlightGoesBeyondAndSaysSo) {
 TEST_F(FlightControlsTest, ASeekIsInTheNextStepAndInNoOther) {
     controls_.seek(120);
     controls_.seek(125.5);
-    EXPECT_EQ(controls_.step(0.1, {}).time.to_pulse, 125.5) << "the last one counts";
-    EXPECT_FALSE(controls_.step(0.2, {}).time.to_pulse);
+    EXPECT_EQ(controls_.step(0.1, std::nullopt).time.to_pulse, 125.5) << "the last one counts";
+    EXPECT_FALSE(controls_.step(0.2, std::nullopt).time.to_pulse);
+}
+
+TEST_F(FlightControlsTest, TellsTheMoveAsHandsHaveLeftIt) {
+    controls_.step(0.1, std::nullopt);
+    EXPECT_EQ(controls_.move(), nullptr);
+    for (const double time_s : {0.2, 0.3}) {
+        controls_.hands().put({.add_keyframe = true}, MonotonicTime{1h});
+        controls_.step(time_s, std::nullopt);
+    }
+    ASSERT_NE(controls_.move(), nullptr);
+    EXPECT_EQ(controls_.move()->keyframes().size(), 2u);
 }
 
 TEST_F(FlightControlsTest, TellsWhichShotsAreKept) {
-    controls_.step(0.1, {});
+    controls_.step(0.1, std::nullopt);
     EXPECT_FALSE(controls_.shots()[2]);
     controls_.hands().put({.store_shot = 3}, MonotonicTime{1h});
-    const OrbitView view = controls_.step(0.2, {}).view;
+    const OrbitView view = controls_.step(0.2, std::nullopt).view;
     ASSERT_TRUE(controls_.shots()[2]);
     EXPECT_TRUE(is_same_view(controls_.shots()[2]->view.camera(), view.camera()));
     EXPECT_FALSE(controls_.shots()[0]);

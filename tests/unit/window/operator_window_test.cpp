@@ -209,6 +209,11 @@ TEST_F(OperatorHands, ATakeThatRunsIsEndedByTheSecondPressOnly) {
     EXPECT_TRUE(after({"key", "t"}).toggle_take);
 }
 
+TEST_F(OperatorHands, AKeyframeIsTakenOutByTheSecondPressOnly) {
+    EXPECT_FALSE(after({"key", "x"}).remove_keyframe);
+    EXPECT_TRUE(after({"key", "x"}).remove_keyframe);
+}
+
 TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {
     state_.shots.resize(shot_places);
     state_.shots[2].is_kept = true;
