@@ -138,7 +138,8 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
         const std::string log = host.err();
         return log.rfind("rig north is connected") > log.rfind("rig north is gone");
     };
-    for (int i = 0; i < 6000 && !back(); ++i) usleep(10'000);
+    for (int i = 0; i < 20000 && !back(); ++i) usleep(10'000);
+    ASSERT_TRUE(back()) << host.err();
     sleep(2);
     host.send_signal(SIGINT);
     const ProgramResult result = host.wait();
