@@ -2,7 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio aruco mcc)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d video videoio aruco mcc)
 find_package(Ceres REQUIRED)
 find_package(Protobuf REQUIRED)
 find_package(fmt REQUIRED)

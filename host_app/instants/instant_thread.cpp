@@ -1,6 +1,7 @@
 #include "host_app/instants/instant_thread.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/log.h"
@@ -129,8 +130,9 @@ void InstantThread::run() {
     }
 }
 
-std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish,
-                                                std::uint64_t shown_pulse) {
+std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish, std::uint64_t shown_pulse,
+                                                double& share) {
+    share = 0;
     if (!wish.pulse && !wish.is_held) {
         fetched_.reset();
         try {
@@ -145,12 +147,28 @@ std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish,
     // Once only: what is shown stays, though the buffer drops its set meanwhile.
     if (wish.pulse && wish.pulse != fetched_) {
         fetched_ = wish.pulse;
-        const std::optional<std::uint64_t> there = past().pulse_at(*wish.pulse);
-        if (there && *there != shown_pulse) return past().at(*wish.pulse);
+        if (std::optional<FrameSet> set = past_set(wish, shown_pulse, share)) return set;
     }
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, patience, [&] { return is_stopping_; });
     return std::nullopt;
+}
+
+std::optional<FrameSet> InstantThread::past_set(const InstantWish& wish, std::uint64_t shown_pulse,
+                                                double& share) {
+    const std::optional<std::uint64_t> there = past().pulse_at(*wish.pulse);
+    if (!there) return std::nullopt;
+    const double passed = *wish.pulse - static_cast<double>(*there);
+    const double moment = 1.0 / wish.moments_a_pulse;
+    // A pulse that the past lacks is not made up for: then the one before it is shown. What was
+    // filmed comes before what is made.
+    if (wish.moments_a_pulse > 1 && passed >= moment / 2 && passed < 1) share = passed;
+    if (*there == shown_pulse &&
+        (wish.moments_a_pulse == 1 || std::abs(share - last_.share) < 0.999 * moment)) {
+        share = 0;
+        return std::nullopt;
+    }
+    return share > 0 ? between_.at(past(), *there, share) : past().at(*wish.pulse);
 }
 
 std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
@@ -282,18 +300,18 @@ void InstantThread::prepare_instants() {
         // Of a set that was given up half-way the preparer has some: what is shown comes anew too.
         const std::uint64_t shown = prepared && last_.set ? last_.set->trigger_index : no_pulse;
         const MonotonicTime taken_up = MonotonicClock::now();
-        std::optional<FrameSet> set = next_set(wish, shown);
+        double share = 0;
+        std::optional<FrameSet> set = next_set(wish, shown, share);
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
             const bool is_live = !wish.pulse;
             // Of a take everything counts; of a stage's past it was counted when it was live.
-            const bool is_counted = is_live || settings_.take;
+            const bool is_counted = share == 0 && (is_live || settings_.take);
             if (is_counted) unprepared_ = *set;
-            const std::uint64_t pulse = set->trigger_index;
-            const double dt_s =
-                last_pulse_ && pulse > *last_pulse_
-                    ? static_cast<double>(pulse - *last_pulse_) / settings_.pulse_rate_hz
-                    : 2 * longest_gap_s;
+            const double pulse = static_cast<double>(set->trigger_index) + share;
+            const double dt_s = last_pulse_ && pulse > *last_pulse_
+                                    ? (pulse - *last_pulse_) / settings_.pulse_rate_hz
+                                    : 2 * longest_gap_s;
             if (dt_s > longest_gap_s) preparer->forget();
             last_pulse_ = pulse;
             const std::vector<DepthView> views = views_of(*set, is_counted);
@@ -305,6 +323,7 @@ void InstantThread::prepare_instants() {
                 preparer->take(views, std::min(dt_s, longest_gap_s));
                 ReadyInstant next = last_;
                 next.set = std::make_shared<const FrameSet>(std::move(*set));
+                next.share = share;
                 next.exposure = exposure_of(*next.set);
                 next.is_live = is_live;
                 next.taken_up = taken_up;
@@ -322,6 +341,7 @@ void InstantThread::prepare_instants() {
             prepared = wish;
             unprepared_.reset();
             const std::lock_guard lock(mutex_);
+            if (share > 0) ++books_.between;
             if (is_counted) {
                 ++books_.prepared;
                 count_frames(*last_.set, books_.frames);

@@ -18,6 +18,7 @@
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/instant_preparer.h"
 #include "host_app/instants/rig_demand.h"
+#include "host_app/motion/between_sets.h"
 #include "host_app/sets/newest_set.h"
 #include "host_app/sets/replay_buffer.h"
 
@@ -30,6 +31,7 @@ struct ReadyInstant {
     std::shared_ptr<const InstantPreparer> preparer;
     std::shared_ptr<const Instant> instant;
     std::shared_ptr<const FrameSet> set;
+    double share = 0;  ///< of the time to the next pulse, where it was made of the sets of both
     std::optional<TaiTime> exposure;  ///< the earliest of its frames
     std::uint64_t generation = 0;     ///< of the contexts that can render it
     std::uint64_t number = 0;         ///< grows with every instant, also with one that is bettered
@@ -44,6 +46,9 @@ struct ReadyInstant {
 struct InstantWish {
     /// Of the replay buffer: the newest set that is not later; nothing: what arrives.
     std::optional<double> pulse;
+    /// Of the past: moments of a pulse that are made ready at most; those between two pulses are
+    /// made of what moved from one to the other. 1: pulses only.
+    int moments_a_pulse = 1;
     bool is_held = false;  ///< nothing new; what is shown is bettered
     VirtualView target;    ///< rigs that it needs are prepared
     PrepareLevel level;
@@ -94,6 +99,7 @@ class InstantThread {
 
     struct Books {
         std::uint64_t prepared = 0;        ///< live sets, or a take's
+        std::uint64_t between = 0;         ///< of moments between pulses
         RigCounts frames;                  ///< of them
         NewestSet::Superseded superseded;  ///< also what could not be prepared for a fault
         std::map<std::string, ColourHarmoniser::Rig> harmony;
@@ -129,7 +135,12 @@ class InstantThread {
     void give_way_to_jump() const;
     /// Destroys what nobody holds instants of any more.
     void let_go_of_preparers();
-    std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse);
+    /// `share`: that of ReadyInstant.
+    std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse,
+                                     double& share);
+    /// Of the past, what is wished for, unless it is shown.
+    std::optional<FrameSet> past_set(const InstantWish& wish, std::uint64_t shown_pulse,
+                                     double& share);
     std::vector<DepthView> views_of(const FrameSet& set, bool is_counted);
     /// Asks the rigs that the view needs to send, and the others to stop.
     void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
@@ -142,9 +153,11 @@ class InstantThread {
     RightOfWay way_;
     ReplayBuffer replay_;
     NewestSet sets_;
-    ColourHarmoniser harmoniser_;  ///< of the thread
-    RigDemand demand_;             ///< of the thread
-    std::optional<std::uint64_t> last_pulse_, last_harmonised_;
+    ColourHarmoniser harmoniser_;       ///< of the thread
+    RigDemand demand_;                  ///< of the thread
+    BetweenSets between_;               ///< of the thread
+    std::optional<double> last_pulse_;  ///< with the share of it that had passed
+    std::optional<std::uint64_t> last_harmonised_;
     std::optional<double> fetched_;        ///< the pulse that was looked up in the past last
     std::vector<Generation> generations_;  ///< of the thread; all but the last are lost
     bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown

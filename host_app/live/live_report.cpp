@@ -339,6 +339,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                              {"picture", to_json(programme.seek_steps_ms.picture)}};
     json["instants"] = {
         {"prepared", report.instants_prepared},
+        {"between_pulses", report.instants_between},
         {"a_second", programme.duration_s > 0
                          ? static_cast<double>(report.instants_prepared) / programme.duration_s
                          : 0},
@@ -500,8 +501,9 @@ std::string to_text(const LiveReport& report) {
         fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));
     if (!report.played.empty()) {
-        text += fmt::format("{} was played: {} instants, the last of pulse {}\n", report.played,
-                            report.instants_prepared, report.shown_pulse);
+        text += fmt::format(
+            "{} was played: {} instants, {} more between pulses, the last of pulse {}\n",
+            report.played, report.instants_prepared, report.instants_between, report.shown_pulse);
         text += corridor_text(report) + steps_text(report) + results_text(report);
         return text;
     }

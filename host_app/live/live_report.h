@@ -53,7 +53,8 @@ struct LiveReport {
 
     std::uint64_t sets_closed = 0, sets_complete = 0;
     std::uint64_t instants_prepared = 0, sets_superseded = 0, sets_dropped = 0;
-    std::vector<RigAccount> rigs;  ///< in the stage's order
+    std::uint64_t instants_between = 0;  ///< of moments between pulses
+    std::vector<RigAccount> rigs;        ///< in the stage's order
 
     RigSteps rig_steps;
     /// Steps of a frame's way at the host; of network and decode the worst rig's, of encode the

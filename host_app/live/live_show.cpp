@@ -235,6 +235,7 @@ LiveReport LiveShow::report() const {
     report.corridor = controls_.lines().corridor;
     report.free_flight = settings_.free_flight;
     report.instants_prepared = instants.prepared;
+    report.instants_between = instants.between;
     report.prepare_ms = instants.prepare_ms;
     report.rig_steps = instants.rig_steps;
     report.faults = instants.faults + report.programme.faults;

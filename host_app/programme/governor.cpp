@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "common/base/error.h"
 
@@ -104,6 +105,22 @@ QualityWish QualityWish::parse(const std::string& text) {
         fail("--quality is best, auto or a level from 0 (the best) to {}, not '{}'",
              render_levels().size() - 1, text);
     return {level};
+}
+
+void Governor::saw_past_instant(double ms) {
+    constexpr std::size_t judged_instants = 5;
+    past_ms_.push_back(ms);
+    if (past_ms_.size() > judged_instants) past_ms_.pop_front();
+}
+
+int Governor::moments_a_pulse(double speed) const {
+    const double pulses = std::abs(speed);
+    if (pulses == 0 || pulses >= 1 || past_ms_.empty()) return 1;
+    constexpr double most_moments = 100;
+    const double most = std::min(most_moments, 1 / pulses + 1e-9);
+    const double fitting = preparing_share * instant_ms_ / pulses /
+                           *std::max_element(past_ms_.begin(), past_ms_.end());
+    return std::max(1, static_cast<int>(std::min(most, fitting)));
 }
 
 Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)

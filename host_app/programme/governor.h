@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,12 +68,18 @@ class Governor {
     void saw_prepare(int rank, double ms, MonotonicTime now) {
         prepare_.saw(static_cast<std::size_t>(rank), ms, instant_ms_, now);
     }
+    /// An instant of the past was fetched and prepared in so long.
+    void saw_past_instant(double ms);
+    /// How many moments of a pulse are prepared when the past is played at this speed: no more a
+    /// second than pulses come live, and no more than there is time for. 1: pulses only.
+    int moments_a_pulse(double speed) const;
     std::vector<double> render_shares(MonotonicTime now) const { return render_.shares(now); }
     std::vector<double> prepare_shares(MonotonicTime now) const { return prepare_.shares(now); }
 
   private:
     double tick_ms_, instant_ms_;
     LevelChooser render_, prepare_;
+    std::deque<double> past_ms_;  ///< of the last instants of the past
 };
 
 }  // namespace vantage

@@ -161,6 +161,11 @@ bool Programme::look(double time_s, MonotonicTime now) {
         transport_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
     last_look_s_ = time_s;
     if (instant_) transport_.take(step.time, instant_->set->trigger_index, span);
+    // Where time stands, it stands between two pulses if it came there slowly, and not by a jump.
+    if (transport_.state().speed != 0)
+        moments_a_pulse_ = governor_.moments_a_pulse(transport_.state().speed);
+    else if (seen_jumps_ != transport_.jumps())
+        moments_a_pulse_ = 1;
     follow_seek(now);
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
@@ -220,13 +225,15 @@ void Programme::follow_seek(MonotonicTime now) {
 void Programme::wish_for_instant(MonotonicTime now) {
     const bool is_resting = !transport_.is_moving() && now - changed_ > rest;
     instants_.wish(
-        {transport_.pulse(), transport_.is_held(),
+        {transport_.pulse(), moments_a_pulse_, transport_.is_held(),
          view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
          is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare(),
          transport_.jumps()});
     if (instant_ && instant_->number != seen_prepared_ && transport_.is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);
+        if (!instant_->is_live)
+            governor_.saw_past_instant(instant_->fetch_ms + instant_->prepare_ms);
     }
 }
 

@@ -143,6 +143,7 @@ class Programme {
     };
     std::optional<Seek> seek_;
     std::uint64_t seen_jumps_ = 0;
+    int moments_a_pulse_ = 1;  ///< as InstantWish
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;

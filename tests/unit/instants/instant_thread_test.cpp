@@ -115,6 +115,33 @@ TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
     EXPECT_GT(thread_->newest()->number, first->number);
 }
 
+TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
+    for (const std::uint64_t pulse : {4, 5, 6}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const auto shows = [&](double pulse, int moments, std::uint64_t wanted, double share) {
+        thread_->wish({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
+        return wait_for([&] {
+            const auto newest = thread_->newest();
+            return newest->set->trigger_index == wanted && newest->share == share;
+        });
+    };
+    EXPECT_TRUE(shows(4.05, 4, 4, 0)) << "what was filmed comes before what is made";
+    EXPECT_TRUE(shows(4.375, 4, 4, 0.375));
+    EXPECT_NEAR(orders_->dt_s, 0.0375, 1e-9);
+    EXPECT_TRUE(shows(4.75, 4, 4, 0.75));
+    EXPECT_TRUE(shows(5.0, 4, 5, 0));
+    EXPECT_NEAR(orders_->dt_s, 0.025, 1e-9);
+    const std::uint64_t shown = thread_->newest()->number;
+    EXPECT_TRUE(shows(5.125, 4, 5, 0)) << "half a moment on";
+    EXPECT_TRUE(shows(5.5, 1, 5, 0));
+    EXPECT_EQ(thread_->newest()->number, shown);
+    EXPECT_TRUE(shows(6.5, 4, 6, 0.5)) << "there is no next one";
+    EXPECT_EQ(thread_->books().between, 3u);
+    EXPECT_EQ(thread_->books().prepared, 3u) << "of a stage's past all was counted when it came";
+}
+
 TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));

@@ -195,5 +195,22 @@ TEST(QualityWish, RefusesTheRestWithTheMend) {
     }
 }
 
+TEST(GovernorTest, SlowMotionIsDividedAsFarAsThereIsTimeForIt) {
+    Governor governor(50, 25, {});
+    EXPECT_EQ(governor.moments_a_pulse(0.1), 1) << "nothing is known yet";
+    governor.saw_past_instant(10);
+    EXPECT_EQ(governor.moments_a_pulse(0.5), 2);
+    EXPECT_EQ(governor.moments_a_pulse(0.25), 4);
+    EXPECT_EQ(governor.moments_a_pulse(-0.1), 10) << "no more a second than pulses come live";
+    EXPECT_EQ(governor.moments_a_pulse(0.75), 1);
+    EXPECT_EQ(governor.moments_a_pulse(1), 1);
+    EXPECT_EQ(governor.moments_a_pulse(0), 1);
+    governor.saw_past_instant(100);
+    EXPECT_EQ(governor.moments_a_pulse(0.1), 3) << "a pulse lasts 400 ms there";
+    EXPECT_EQ(governor.moments_a_pulse(0.5), 1);
+    for (int i = 0; i < 5; ++i) governor.saw_past_instant(10);
+    EXPECT_EQ(governor.moments_a_pulse(0.1), 10);
+}
+
 }  // namespace
 }  // namespace vantage
