@@ -496,6 +496,7 @@ void draw_help(const UiFonts& fonts) {
     std::vector<std::pair<std::string, const char*>> rows{
         {"left drag, arrow keys", "orbit around the pivot"},
         {"right or middle drag, A D Q E", "shift left, right, down, up"},
+        {"double click", "put the pivot on what is there"},
         {"wheel, W S", "nearer, farther"},
         {"Ctrl + wheel, + -", "narrower, wider field of view"}};
     for (const ControlCommand& command : control_commands())

@@ -26,6 +26,8 @@ std::string glfw_reason() {
 }
 
 constexpr double end_asks_s = 3;
+/// Between the presses of a double click.
+constexpr double double_press_s = 0.35;
 
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
@@ -149,6 +151,22 @@ void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) 
     // What begins on a panel is the panel's until the button is up.
     self.drags_[static_cast<std::size_t>(button)] =
         action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
+    if (button == GLFW_MOUSE_BUTTON_LEFT && self.drags_[GLFW_MOUSE_BUTTON_LEFT]) self.take_press();
+}
+
+/// Of two presses soon after one another: the place in the picture.
+void OperatorWindow::take_press() {
+    const double now_s = glfwGetTime();
+    const bool is_second = pressed_s_ >= 0 && now_s - pressed_s_ < double_press_s;
+    pressed_s_ = is_second ? -1 : now_s;
+    if (!is_second || picture_px_.empty()) return;
+    // The picture is in the middle, as large as fits.
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const double scale = std::min(static_cast<double>(screen.x) / picture_px_.width,
+                                  static_cast<double>(screen.y) / picture_px_.height);
+    const Eigen::Vector2d place(0.5 + (cursor_x_ - 0.5 * screen.x) / (scale * picture_px_.width),
+                                0.5 + (cursor_y_ - 0.5 * screen.y) / (scale * picture_px_.height));
+    if ((place.array() >= 0).all() && (place.array() <= 1).all()) input_.pick = place;
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
@@ -202,6 +220,7 @@ FlightInput OperatorWindow::poll(double dt_s) {
 }
 
 void OperatorWindow::show(PanelState state) {
+    if (state.picture) picture_px_ = state.picture->size();
     state.show_panels = show_panels_;
     state.show_help = show_help_;
     state.asks_to_end = glfwGetTime() < end_asked_until_s_;

@@ -62,6 +62,7 @@ class OperatorWindow {
     };
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     void take_key(int key);
+    void take_press();
     static void on_button(GLFWwindow* window, int button, int action, int modifiers);
     static void on_cursor(GLFWwindow* window, double x, double y);
     void take_cursor(double x, double y);
@@ -78,6 +79,8 @@ class OperatorWindow {
     FlightInput input_;
     std::bitset<3> drags_;  ///< by button: it went down on the picture
     double cursor_x_ = 0, cursor_y_ = 0;
+    double pressed_s_ = -1;  ///< when the left button went down on the picture last
+    cv::Size picture_px_;    ///< that is shown
     bool show_panels_ = true, show_help_ = false;
     double end_asked_until_s_ = 0;
 };
