@@ -254,7 +254,7 @@ if $headless; then
   [ ${#json[@]} -gt 0 ] || printf '\nThe flight:        out/flight.mkv\nIts contact sheet: out/contact_sheet.png\n'
 elif [ -n "$calibration" ]; then
   # The host begins where the rig stands.
-  "${host[@]}" "${live[@]}" --takes "$out"
+  "${host[@]}" "${live[@]}" --takes "$out" --flight "$out/flight-rig.toml"
 else
-  "${host[@]}" "${live[@]}" --takes "$out" --path "$move"
+  "${host[@]}" "${live[@]}" --takes "$out" --path "$move" --flight "$out/flight-${move##*/}"
 fi

@@ -68,6 +68,19 @@ void read_view(TomlTable& table, StageConfig::View& view) {
     table.read("synthesiser", view.synthesiser);
 }
 
+void read_flight(TomlTable& table, StageConfig::Flight& flight) {
+    table.read("horizon", flight.holds_horizon);
+    table.read("smoothing_s", flight.smoothing_s, {0.01, 5});
+    table.read("ramp_s", flight.ramp_s, {0, 10});
+    table.read("max_turn_deg_s", flight.max_turn_deg_s, {1, 720});
+    table.read("max_zoom_deg_s", flight.max_zoom_deg_s, {1, 360});
+    double max_speed_m_s = 0;
+    table.read("max_speed_m_s", max_speed_m_s, {0.01, 100});
+    if (table.has("max_speed_m_s")) flight.max_speed_m_s = max_speed_m_s;
+    table.read("shot_s", flight.shot_s, {0, 60});
+    table.read("keyframe_s", flight.keyframe_s, {0.1, 600});
+}
+
 }  // namespace
 
 StageConfig load_stage_config(const std::filesystem::path& path) {
@@ -82,6 +95,7 @@ StageConfig load_stage_config(const std::filesystem::path& path) {
         top.read("latency_budget_ms", config.latency_budget_ms, {1, 60000});
         top.read_table("timecode", [&](TomlTable& t) { read_timecode(t, config); });
         top.read_table("view", [&](TomlTable& t) { read_view(t, config.view); });
+        top.read_table("flight", [&](TomlTable& t) { read_flight(t, config.flight); });
     });
     return config;
 }

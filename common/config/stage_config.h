@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,15 @@ struct StageConfig {
         bool is_placed = false;  ///< any of the four that place it is given
         std::string synthesiser = "fused";
     } view;
+
+    /// How hands fly.
+    struct Flight {
+        bool holds_horizon = true;
+        double smoothing_s = 0.12, ramp_s = 0.1;
+        double max_turn_deg_s = 120, max_zoom_deg_s = 57;
+        std::optional<double> max_speed_m_s;  ///< nothing: as the stage is deep
+        double shot_s = 1.5, keyframe_s = 3;
+    } flight;
 };
 
 /// Throws Error with file and line for whatever does not fit.

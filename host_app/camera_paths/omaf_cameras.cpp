@@ -98,6 +98,8 @@ CameraPath omaf_path_of(const std::string& text, const std::filesystem::path& fi
                 fail("{}: a camera has no place", file.string());
             path.size_px = {camera.at("Resolution").at(0).get<int>(),
                             camera.at("Resolution").at(1).get<int>()};
+            if (path.size_px.width < 1 || path.size_px.height < 1)
+                fail("{}: a camera's pictures have no size", file.string());
             const double f_px = camera.at("Focal").at(0).get<double>();
             state.field_of_view_rad = checked_field_of_view(
                 settings.field_of_view_rad.value_or(2 * std::atan(0.5 * path.size_px.width / f_px)),

@@ -1,4 +1,5 @@
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +24,20 @@ std::chrono::nanoseconds as_duration(double seconds) {
         std::chrono::duration<double>(seconds));
 }
 
+FlightHabits habits_of(const StageConfig::Flight& flight) {
+    constexpr double rad = std::numbers::pi / 180;
+    FlightHabits habits;
+    habits.holds_horizon = flight.holds_horizon;
+    habits.shot_s = flight.shot_s;
+    habits.keyframe_gap_s = flight.keyframe_s;
+    habits.max_turn_rad_s = rad * flight.max_turn_deg_s;
+    habits.max_zoom_rad_s = rad * flight.max_zoom_deg_s;
+    habits.max_speed_m_s = flight.max_speed_m_s;
+    habits.ramp_s = flight.ramp_s;
+    habits.follow_s = flight.smoothing_s;
+    return habits;
+}
+
 void live(const LiveOptions& options) {
     // Before the receiver's threads, so that they leave the signals to it.
     StopSignal stop;
@@ -30,6 +45,7 @@ void live(const LiveOptions& options) {
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     FlightStore flights = options.show.flight_store(options.stage);
     FlightPlan plan = options.show.plan(stage.view, flights);
+    plan.habits = habits_of(stage.flight);
     if (plan.move && plan.move->take_s_at(0))
         log_warning(
             "{} says where in a take the camera is when; that is left aside, since the stage "

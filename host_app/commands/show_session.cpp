@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/base/pulse_grid.h"
 #include "common/image/image_file.h"
 #include "host_app/commands/picture_options.h"
@@ -16,6 +17,7 @@
 #include "host_app/live/desk_feed.h"
 #include "host_app/live/output_switch.h"
 #include "host_app/live/progress_log.h"
+#include "host_app/live/surface_pick.h"
 #include "host_app/output/picture_encoder.h"
 #include "host_app/output/picture_target.h"
 
@@ -216,10 +218,35 @@ void ShowSession::keep_flights(const SessionWishes& wishes) {
     if (!wishes.flight.empty()) flights.simplify(wishes.flight, wishes.limits);
 }
 
+/// Finds surfaces for hands that name them by a place in the picture, and the performer whom the
+/// pivot goes with.
+void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
+    const std::shared_ptr<const MadePicture> picture = show.state().picture;
+    if (!picture) return;
+    const FrameSet& set = *picture->job.instant->set;
+    FlightControls& controls = show.controls();
+    if (wishes.pick) {
+        const PictureFormat& format = show.settings().format;
+        FlightInput input;
+        input.pivot_m =
+            surface_at(set, picture->job.camera,
+                       static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
+        if (input.pivot_m)
+            controls.hands().put(input, now);
+        else
+            log_info("no rig has a depth there: the pivot stays");
+    }
+    if (!controls.lines().is_following || set.complete == followed) return;
+    followed = set.complete;
+    if (const auto pivot_m = performer_near(set, show.state().view.pivot_m))
+        controls.follow(*pivot_m);
+}
+
 /// What hands asked for beyond the programme itself.
 void ShowSession::follow_wishes(OutputSwitch& outputs, ControlRoom& room, MonotonicTime now) {
     const SessionWishes wishes = show.controls().take_wishes();
     keep_flights(wishes);
+    find_pivots(wishes, now);
     if (std::optional<Move> move = flights.follow(now))
         show.controls().keep_flight(*std::move(move));
     if (takes && wishes.toggle_take) takes->toggle();

@@ -53,6 +53,7 @@ struct ShowSession {
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.
     std::function<bool(StopSignal&)> wait;
+    MonotonicTime followed{};  ///< the set in which a performer was looked for last
 
     void run(StopSignal& stop);
 
@@ -60,6 +61,7 @@ struct ShowSession {
     void run_headless(StopSignal& stop, ControlRoom& room);
     void run_in_window(StopSignal& stop, ControlRoom& room);
     void keep_flights(const SessionWishes& wishes);
+    void find_pivots(const SessionWishes& wishes, MonotonicTime now);
     void follow_wishes(class OutputSwitch& outputs, ControlRoom& room, MonotonicTime now);
     void finish(ControlRoom& room, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);

@@ -39,7 +39,8 @@ HandsBox::Taken HandsBox::take() {
 FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing,
                                CorridorNow corridor)
     : settings_(std::move(settings)),
-      helm_(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move, settings_.has_past),
+      helm_(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move, settings_.has_past,
+            settings_.plan.habits),
       deck_(deck),
       rig_view_(std::move(rig_view)),
       framing_(std::move(framing)),
@@ -54,6 +55,11 @@ void FlightControls::keep_flight(Move move) {
     kept_flight_ = std::move(move);
 }
 
+void FlightControls::follow(const Eigen::Vector3d& pivot_m) {
+    const std::lock_guard lock(mutex_);
+    followed_ = pivot_m;
+}
+
 PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) {
     const double dt_s = time_s - last_s_;
     last_s_ = time_s;
@@ -64,14 +70,7 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
             framing_ = {};
         }
     }
-    if (const auto kept = [&] {
-            const std::lock_guard lock(mutex_);
-            return std::exchange(kept_flight_, std::nullopt);
-        }()) {
-        helm_.keep_flight(*kept);
-        const std::lock_guard lock(mutex_);
-        move_ = std::make_shared<const Move>(*kept);
-    }
+    take_from_session();
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight) helm_.keep_within(corridor);
     auto [hands, since] = hands_.take();
@@ -123,6 +122,7 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
         wishes_.flight = std::exchange(flight_, {});
         wishes_.limits = helm_.limits();
     }
+    if (hands.pick) wishes_.pick = hands.pick;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
     lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(),
@@ -131,6 +131,8 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
               wheel_line(),
               corridor_books_,
               is_recording_,
+              helm_.holds_horizon(),
+              is_following_,
               helm_.keyframes()};
     return step;
 }
@@ -153,6 +155,9 @@ void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<do
         if (std::exchange(step.time.toggle_hold, false)) helm_.toggle_pause();
         if (step.time.is_any()) helm_.leave_move();
     }
+    if (hands.toggle_follow) is_following_ = !is_following_;
+    // A hand that takes the pivot elsewhere, or a flight that does, ends that.
+    if (hands.moves_pivot() || helm_.move_progress()) is_following_ = false;
     helm_.take(hands, rig_view_, take_s);
     helm_.advance(dt_s);
     if (const std::optional<double> led = helm_.move_take_s(); led && settings_.take_begin)
@@ -170,6 +175,22 @@ void FlightControls::seek(double pulse) {
 FlightControls::Shots FlightControls::shots() const {
     const std::lock_guard lock(mutex_);
     return shots_;
+}
+
+void FlightControls::take_from_session() {
+    std::optional<Move> flight;
+    std::optional<Eigen::Vector3d> followed;
+    {
+        const std::lock_guard lock(mutex_);
+        flight = std::exchange(kept_flight_, std::nullopt);
+        followed = std::exchange(followed_, std::nullopt);
+    }
+    if (flight) {
+        helm_.keep_flight(*flight);
+        const std::lock_guard lock(mutex_);
+        move_ = std::make_shared<const Move>(*std::move(flight));
+    }
+    if (followed && is_following_) helm_.carry_pivot_to(*followed);
 }
 
 void FlightControls::record(const FlightInput& hands, const PilotStep& step, double time_s,

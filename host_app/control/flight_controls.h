@@ -42,10 +42,11 @@ class HandsBox {
 /// What hands ask of the session and not of the programme, on its way to the session's thread.
 struct SessionWishes {
     bool toggle_take = false;
-    std::vector<int> outputs;                 ///< pressed, 1 and on, in their order
-    std::optional<Helm::Change> change = {};  ///< of shots and move, by hand
-    FlightRecording flight = {};              ///< that was recorded; empty: none
-    FlightLimits limits = {};                 ///< that it was flown in
+    std::optional<Eigen::Vector2d> pick = {};  ///< see FlightInput
+    std::vector<int> outputs;                  ///< pressed, 1 and on, in their order
+    std::optional<Helm::Change> change = {};   ///< of shots and move, by hand
+    FlightRecording flight = {};               ///< that was recorded; empty: none
+    FlightLimits limits = {};                  ///< that it was flown in
 };
 
 /// All hands on the virtual camera: mouse and keyboard where there is a window, and the jog wheels
@@ -79,6 +80,8 @@ class FlightControls final : public Pilot {
 
     /// A flight that was recorded: the move from the next step on. From any thread.
     void keep_flight(Move move);
+    /// Where the performer is whom the pivot goes with. From any thread.
+    void follow(const Eigen::Vector3d& pivot_m);
 
     /// To this pulse of the past, and stand there; from any thread. Of several the last counts.
     void seek(double pulse);
@@ -103,6 +106,8 @@ class FlightControls final : public Pilot {
         std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
         CorridorBooks corridor;
         bool is_recording = false;  ///< a flight
+        bool holds_horizon = true;
+        bool is_following = false;  ///< the pivot goes with a performer
         std::size_t keyframes = 0;  ///< of the move
     };
     Lines lines() const;
@@ -111,6 +116,8 @@ class FlightControls final : public Pilot {
     std::string wheel_line() const;
     /// Whoever flies, tracked camera or helm.
     void fly(const FlightInput& hands, double dt_s, std::optional<double> take_s, PilotStep& step);
+    /// What the session's thread has made meanwhile.
+    void take_from_session();
     /// Keeps the step's camera while a flight is recorded.
     void record(const FlightInput& hands, const PilotStep& step, double time_s,
                 std::optional<double> take_s);
@@ -130,7 +137,7 @@ class FlightControls final : public Pilot {
     bool may_track_ = true;  ///< no hand has taken over
     bool is_tracked_ = false;
     double last_s_ = 0;
-    bool is_recording_ = false;
+    bool is_recording_ = false, is_following_ = false;
     FlightRecording flight_;
     mutable std::mutex mutex_;
     Lines lines_;
@@ -138,7 +145,8 @@ class FlightControls final : public Pilot {
     std::optional<double> seek_;
     Shots shots_;
     std::shared_ptr<const Move> move_;
-    std::optional<Move> kept_flight_;  ///< on its way to the helm
+    std::optional<Move> kept_flight_;          ///< on its way to the helm
+    std::optional<Eigen::Vector3d> followed_;  ///< likewise
 };
 
 }  // namespace vantage

@@ -142,6 +142,7 @@ struct DeskState {
     std::vector<DeskStep> steps;
     std::vector<DeskRig> rigs;
     OrbitView view;
+    bool follows_performer = false, holds_horizon = true;
     std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
     std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
     std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move

@@ -10,6 +10,7 @@ namespace {
 std::vector<std::pair<std::string, std::string>> help_rows() {
     std::vector<std::pair<std::string, std::string>> rows{
         {"left drag, arrow keys", "orbit around the pivot"},
+        {"double click", "put the pivot on what is there"},
         {"right or middle drag, A D Q E", "shift left, right, down, up"},
         {"wheel, W S", "nearer, farther"},
         {"Ctrl + wheel, + -", "narrower, wider field of view"},

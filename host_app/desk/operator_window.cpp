@@ -30,6 +30,8 @@ std::string glfw_reason() {
 /// is drawn no oftener than anybody can read, and no more seldom than it must.
 constexpr int idle_times = 9, idle_times_in_hand = 2;
 constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000};
+/// Between the presses of a double click.
+constexpr double double_press_s = 0.35;
 
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
@@ -181,6 +183,7 @@ void OperatorWindow::press_at_cursor() {
     for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
         if (is_on(output.rect)) input_.toggle_output = output.number;
     if (is_on(drawn_.spots.live)) input_.to_live = true;
+    if (is_on(drawn_.picture)) press_on_picture();
     if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
     drags_time_ = true;
     seek_at_cursor();
@@ -191,6 +194,17 @@ void OperatorWindow::seek_at_cursor() {
     const auto& [rect, time] = *drawn_.spots.time;
     seek_ = time.pulse_at((cursor_x_ - rect.left) / rect.width);
     is_changed_ = true;
+}
+
+/// Of two presses soon after one another: the place in the picture.
+void OperatorWindow::press_on_picture() {
+    const double now_s = glfwGetTime();
+    const bool is_second = pressed_s_ >= 0 && now_s - pressed_s_ < double_press_s;
+    pressed_s_ = is_second ? -1 : now_s;
+    if (!is_second) return;
+    const DeskRect& picture = drawn_.picture;
+    input_.pick = Eigen::Vector2d((cursor_x_ - picture.left) / picture.width,
+                                  (cursor_y_ - picture.top) / picture.height);
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {

@@ -77,6 +77,7 @@ class OperatorWindow {
     void take_key(int key);
     /// What a command's key has to be asked before it is obeyed; empty: nothing.
     std::string question_of(const ControlCommand& command, int number) const;
+    void press_on_picture();
     static void on_button(GLFWwindow* window, int button, int action, int modifiers);
     void press_at_cursor();
     static void on_cursor(GLFWwindow* window, double x, double y);
@@ -109,6 +110,7 @@ class OperatorWindow {
     double cursor_x_ = 0, cursor_y_ = 0;  ///< in pixels of what is shown
     bool is_changed_ = true;              ///< by hands, since the desk was drawn
     MonotonicTime next_desk_{}, next_desk_in_hand_{};
+    double pressed_s_ = -1;  ///< when the left button went down on the picture last
 };
 
 }  // namespace vantage

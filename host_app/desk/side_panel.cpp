@@ -56,8 +56,10 @@ void draw_camera(Column& column, const DeskState& state) {
                fmt::format("{:.1f}\u00b0 around, {:.1f}\u00b0 up, {:.2f} m, {:.1f}\u00b0 wide",
                            view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m,
                            view.field_of_view_rad * deg));
-    column.row(palette::dim, fmt::format("pivot {:.2f}  {:.2f}  {:.2f} m", view.pivot_m.x(),
-                                         view.pivot_m.y(), view.pivot_m.z()));
+    column.row(palette::dim, fmt::format("pivot {:.2f}  {:.2f}  {:.2f} m{}{}", view.pivot_m.x(),
+                                         view.pivot_m.y(), view.pivot_m.z(),
+                                         state.follows_performer ? ", goes with a performer" : "",
+                                         state.holds_horizon ? "" : ", horizon free"));
     if (state.coverage) draw_coverage(column, *state.coverage);
     if (state.move_progress) {
         const float height = 0.4f * column.pen.em();

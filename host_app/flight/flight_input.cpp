@@ -9,6 +9,14 @@ void FlightInput::add(const FlightInput& other) {
     pan_up_widths += other.pan_up_widths;
     dolly += other.dolly;
     zoom += other.zoom;
+    crane_up_widths += other.crane_up_widths;
+    look_right_rad += other.look_right_rad;
+    look_up_rad += other.look_up_rad;
+    roll_rad += other.roll_rad;
+    if (other.pick) pick = other.pick;
+    if (other.pivot_m) pivot_m = other.pivot_m;
+    toggle_horizon ^= other.toggle_horizon;
+    toggle_follow ^= other.toggle_follow;
     wheel_steps += other.wheel_steps;
     shuttle_s += other.shuttle_s;
     // Two presses of a switch undo each other.
@@ -51,16 +59,18 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
            both(&FlightInput::recall_shot) || both(&FlightInput::store_shot) ||
            both(&FlightInput::toggle_output) || both(&FlightInput::toggle_recording) ||
            both(&FlightInput::add_keyframe) || both(&FlightInput::set_keyframe) ||
-           both(&FlightInput::remove_keyframe);
+           both(&FlightInput::remove_keyframe) || both(&FlightInput::toggle_horizon) ||
+           both(&FlightInput::toggle_follow);
 }
 
 FlightInput FlightInput::turns() const {
     FlightInput turns;
-    for (const auto what :
-         {&FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
-          &FlightInput::pan_right_widths, &FlightInput::pan_up_widths, &FlightInput::dolly,
-          &FlightInput::zoom, &FlightInput::wheel_steps, &FlightInput::shuttle_s,
-          &FlightInput::past_steps, &FlightInput::retime_s})
+    for (const auto what : {&FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
+                            &FlightInput::pan_right_widths, &FlightInput::pan_up_widths,
+                            &FlightInput::crane_up_widths, &FlightInput::look_right_rad,
+                            &FlightInput::look_up_rad, &FlightInput::roll_rad, &FlightInput::dolly,
+                            &FlightInput::zoom, &FlightInput::wheel_steps, &FlightInput::shuttle_s,
+                            &FlightInput::past_steps, &FlightInput::retime_s})
         turns.*what = this->*what;
     return turns;
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+
+#include <Eigen/Core>
+
 namespace vantage {
 
 /// What the operator's hands did since the last look, whatever they held. Angles in radians, shifts
@@ -8,17 +12,24 @@ struct FlightInput {
     double orbit_azimuth_rad = 0, orbit_elevation_rad = 0;
     double pan_right_widths = 0, pan_up_widths = 0;
     double dolly = 0, zoom = 0;
+    double crane_up_widths = 0;
+    double look_right_rad = 0, look_up_rad = 0;  ///< the camera turns where it stands
+    double roll_rad = 0;
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
     bool toggle_tracking = false;
     bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
     bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
-    bool toggle_recording = false;        ///< of a flight
-    int keyframe_jump = 0;                ///< to the next keyframes of the move, either way
-    double retime_s = 0;                  ///< of the keyframe at which the move stands
-    int speed_steps = 0;                  ///< to faster or slower playing of the past
-    int recall_shot = 0, store_shot = 0;  ///< 1..9; 0: none
-    int toggle_output = 0;                ///< 1..8; 0: none
+    bool toggle_recording = false;  ///< of a flight
+    bool toggle_horizon = false, toggle_follow = false;
+    /// A place in the picture, 0..1 to the right and down: the pivot goes to what is seen there.
+    std::optional<Eigen::Vector2d> pick = {};
+    std::optional<Eigen::Vector3d> pivot_m = {};  ///< where that was found
+    int keyframe_jump = 0;                        ///< to the next keyframes of the move, either way
+    double retime_s = 0;                          ///< of the keyframe at which the move stands
+    int speed_steps = 0;                          ///< to faster or slower playing of the past
+    int recall_shot = 0, store_shot = 0;          ///< 1..9; 0: none
+    int toggle_output = 0;                        ///< 1..8; 0: none
 
     /// Detents of a jog wheel, clockwise positive.
     double wheel_steps = 0;
@@ -32,7 +43,14 @@ struct FlightInput {
     /// True if the operator has the camera itself in hand.
     bool steers() const {
         return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
-               pan_up_widths != 0 || dolly != 0 || zoom != 0 || reset || recall_shot != 0;
+               pan_up_widths != 0 || dolly != 0 || zoom != 0 || crane_up_widths != 0 ||
+               look_right_rad != 0 || look_up_rad != 0 || roll_rad != 0 || pivot_m || reset ||
+               recall_shot != 0;
+    }
+    /// True if the pivot is taken elsewhere.
+    bool moves_pivot() const {
+        return pan_right_widths != 0 || pan_up_widths != 0 || crane_up_widths != 0 ||
+               look_right_rad != 0 || look_up_rad != 0 || pivot_m || reset || recall_shot != 0;
     }
     /// True if the move itself is to be changed.
     bool edits_move() const {
@@ -44,7 +62,7 @@ struct FlightInput {
                next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
                toggle_tracking || toggle_take || toggle_output != 0 || mark_in || mark_out ||
                clear_marks || toggle_loop || cue || speed_steps != 0 || edits_move() ||
-               toggle_recording || keyframe_jump != 0;
+               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow;
     }
     /// Whether the same thing is commanded in both, so that one of them would be lost in add().
     bool commands_twice(const FlightInput& other) const;

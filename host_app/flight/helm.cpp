@@ -19,8 +19,8 @@ constexpr double move_s_per_step = 0.1;
 /// Time in which a wheel's step is travelled by 63 %.
 constexpr double wheel_follow_s = 0.08;
 constexpr double join_s = 0.8;
-/// Between two keyframes that are put one after the other.
-constexpr double keyframe_gap_s = 3;
+/// Of the turn to another pivot.
+constexpr double look_s = 0.8;
 /// What a flight from rest to rest is faster at most than on the whole.
 constexpr double ease_peak = 1.5;
 
@@ -64,17 +64,24 @@ const char* name_of(WheelMode mode) {
     return "past";
 }
 
-Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past)
-    : camera_(start), start_(start), has_past_(has_past), move_(std::move(move)) {
+Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past,
+           const FlightHabits& habits)
+    : camera_(start, habits.applied_to({})),
+      start_(start),
+      limits_(habits.applied_to({})),
+      has_past_(has_past),
+      holds_horizon_(habits.holds_horizon),
+      habits_(habits),
+      move_(std::move(move)) {
     if (!move_) return;
     on_move_ = playing_ = true;
     mode_ = WheelMode::move;
 }
 
 void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& start) {
-    limits_ = limits;
+    limits_ = habits_.applied_to(limits);
     if (start) start_ = *start;
-    camera_ = OrbitCamera(start ? *start : camera_.view(), limits);
+    camera_ = OrbitCamera(start ? *start : camera_.view(), limits_);
     camera_.keep_within(corridor_);
 }
 
@@ -122,7 +129,8 @@ OrbitView Helm::view() const {
     OrbitView on_move = move_->at(move_s_);
     if (joining_ <= 0) return on_move;
     const double gone = 1 - joining_;
-    return constrained(mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone)), limits_);
+    const OrbitView view = mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone));
+    return move_->path() == MovePath::orbit ? constrained(view, limits_) : view;
 }
 
 std::optional<double> Helm::move_progress() const {
@@ -195,7 +203,22 @@ std::optional<Shot>& Helm::shot(int number) {
     return shots_[static_cast<std::size_t>(number - 1)];
 }
 
-void Helm::fly_to(const OrbitView& view, double duration_s, Easing easing) {
+void Helm::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
+    if (!on_move_ && !shot_flight_) camera_.carry_pivot_to(pivot_m);
+}
+
+void Helm::look_at(const Eigen::Vector3d& pivot_m) {
+    const OrbitView here = camera_.view();
+    const Eigen::Vector3d eye = here.eye_m();
+    if ((pivot_m - eye).norm() < limits_.min_distance_m) return;
+    OrbitView there = view_from_eye(eye, pivot_m, here.field_of_view_rad, here.azimuth_rad);
+    there.roll_rad = here.roll_rad;
+    fly_to(taken_over(there.camera(), limits_, there.azimuth_rad), look_s, Easing::ease);
+}
+
+void Helm::fly_to(const OrbitView& asked, double duration_s, Easing easing) {
+    OrbitView view = asked;
+    if (holds_horizon_) view.roll_rad = 0;
     const bool is_held =
         !corridor_ || corridor_->of(constrained(view, limits_).camera()).share >= Corridor::end;
     // Towards what the corridor does not hold the camera goes as far as it does.
@@ -225,7 +248,7 @@ void Helm::edit_move(const FlightInput& input, std::optional<double> take_s) {
         return;
     }
     if (input.add_keyframe || (input.set_keyframe && !move_)) {
-        set_move(appended(move_, view(), take_s, keyframe_gap_s, limits_));
+        set_move(appended(move_, view(), take_s, habits_.keyframe_gap_s, limits_));
         move_s_ = move_->duration_s();
     } else if (input.set_keyframe) {
         set_move(with_view_at(*move_, place_s(), view(), take_s));
@@ -268,6 +291,7 @@ void Helm::take(const FlightInput& input,
                 const std::function<std::optional<OrbitView>(int number)>& rig_view,
                 std::optional<double> take_s) {
     if (input.next_wheel_mode) next_mode();
+    if (input.toggle_horizon) holds_horizon_ = !holds_horizon_;
     if (input.toggle_move && move_) {
         if (playing_) {
             leave_move();
@@ -280,7 +304,7 @@ void Helm::take(const FlightInput& input,
     }
     if (input.store_shot) {
         std::optional<Shot>& place = shot(input.store_shot);
-        if (!place) place = Shot{fmt::format("shot {}", input.store_shot), {}};
+        if (!place) place = Shot{fmt::format("shot {}", input.store_shot), {}, habits_.shot_s};
         place->view = view();
         is_changed_ = true;
     }
@@ -294,13 +318,16 @@ void Helm::take(const FlightInput& input,
     camera_.pan(input.pan_right_widths, input.pan_up_widths);
     camera_.dolly(input.dolly);
     camera_.zoom(input.zoom);
-    const Shot usual;
-    if (input.reset) fly_to(start_, usual.duration_s, usual.easing);
+    camera_.crane(input.crane_up_widths);
+    camera_.look(input.look_right_rad, input.look_up_rad);
+    if (!holds_horizon_) camera_.roll(input.roll_rad);
+    if (input.pivot_m) look_at(*input.pivot_m);
+    if (input.reset) fly_to(start_, habits_.shot_s, Easing::ease);
     if (input.recall_shot) {
         if (const std::optional<Shot>& stored = shot(input.recall_shot))
             fly_to(stored->view, stored->duration_s, stored->easing);
         else if (const std::optional<OrbitView> to = rig_view(input.recall_shot))
-            fly_to(*to, usual.duration_s, usual.easing);
+            fly_to(*to, habits_.shot_s, Easing::ease);
     }
 }
 
@@ -314,6 +341,7 @@ void Helm::advance(double dt_s) {
                               flight.easing == Easing::linear ? s : s * s * (3 - 2 * s)));
         if (s >= 1) shot_flight_.reset();
     }
+    if (holds_horizon_) camera_.level();
     camera_.advance(dt_s);
     if (!on_move_) return;
     if (playing_) travel(dt_s);

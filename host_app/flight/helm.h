@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host_app/flight/flight_book.h"
+#include "host_app/flight/flight_habits.h"
 #include "host_app/flight/flight_input.h"
 #include "host_app/flight/orbit_camera.h"
 
@@ -27,7 +28,8 @@ class Helm {
   public:
     /// A move plays from the start. `has_past`: whether there is a past for the wheel to go
     /// through.
-    Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false);
+    Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false,
+         const FlightHabits& habits = {});
 
     /// Shots, and a move for when there is none yet, which is flown when hands say so.
     void keep(const FlightBook& book);
@@ -45,6 +47,9 @@ class Helm {
 
     /// From now on it stands there, until somebody flies on.
     void stand_at(const CameraState& camera);
+
+    /// Carries the pivot, and the camera with it, to a point, unless it is on a move.
+    void carry_pivot_to(const Eigen::Vector3d& pivot_m);
 
     /// From now on hands fly within this corridor; null: anywhere. A planned move is not held up.
     void keep_within(std::shared_ptr<const Corridor> corridor) {
@@ -73,6 +78,7 @@ class Helm {
     std::optional<double> move_take_s() const;
     WheelMode wheel_mode() const { return mode_; }
     const FlightLimits& limits() const { return limits_; }
+    bool holds_horizon() const { return holds_horizon_; }
     std::size_t keyframes() const { return move_ ? move_->keyframes().size() : 0; }
 
   private:
@@ -84,6 +90,7 @@ class Helm {
     };
     std::optional<Shot>& shot(int number);
     void fly_to(const OrbitView& view, double duration_s, Easing easing);
+    void look_at(const Eigen::Vector3d& pivot_m);
     void edit_move(const FlightInput& input, std::optional<double> take_s);
     void jump_keyframes(int count);
     /// Where on the move, within its duration.
@@ -99,7 +106,8 @@ class Helm {
     std::shared_ptr<const Corridor> corridor_;
     OrbitView start_;
     FlightLimits limits_;
-    bool has_past_;
+    bool has_past_, holds_horizon_;
+    FlightHabits habits_;
     WheelMode mode_ = WheelMode::orbit;
     std::array<std::optional<Shot>, most_shots> shots_;
     std::optional<ShotFlight> shot_flight_;

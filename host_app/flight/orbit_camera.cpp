@@ -3,20 +3,43 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
 namespace vantage {
 namespace {
 
-/// Time in which the camera covers 63 % of the way to its goal.
-constexpr double follow_time_s = 0.12;
 /// Time in which a goal beyond the end of the corridor comes back to the camera by 63 %.
 constexpr double forget_time_s = 0.1;
 
-/// The part of `way` that is covered in this step.
-double covered(double way, double share, double most) {
-    return std::clamp(way * share, -most, most);
-}
+/// One number on its way: how fast it goes now, towards a speed that falls off with what is left of
+/// the way, no faster than `most`, and no sooner than its ramp allows.
+class Follower {
+  public:
+    Follower(const FlightLimits& limits, double dt_s) : limits_(limits), dt_s_(dt_s) {}
+
+    /// Of a way of any direction: the step that is gone of it.
+    template <class Way>
+    Way step(const Way& way, const Way& speed, double most) const {
+        Way wanted = (1 - std::exp(-dt_s_ / limits_.follow_s)) / dt_s_ * way;
+        if (limits_.ramp_s <= 0) return dt_s_ * limited(wanted, most);
+        const double ramp = most / limits_.ramp_s;
+        // What half of that brakes on the way that is left, so that nothing runs past its goal.
+        wanted = limited(wanted, std::min(most, std::sqrt(ramp * length(way))));
+        return dt_s_ * Way(speed + limited(Way(wanted - speed), ramp * dt_s_));
+    }
+
+  private:
+    static double length(double way) { return std::abs(way); }
+    static double length(const Eigen::Vector3d& way) { return way.norm(); }
+    template <class Way>
+    static Way limited(const Way& way, double most) {
+        return length(way) > most ? Way(most / length(way) * way) : way;
+    }
+
+    const FlightLimits& limits_;
+    double dt_s_;
+};
 
 }  // namespace
 
@@ -39,6 +62,39 @@ void OrbitCamera::pan(double right_widths, double up_widths) {
     goal_ = constrained(goal_, limits_);
 }
 
+void OrbitCamera::crane(double up_widths) {
+    is_let_through_ = false;
+    const double width_m = 2 * goal_.distance_m * std::tan(0.5 * goal_.field_of_view_rad);
+    goal_.pivot_m.y() += width_m * up_widths;
+    goal_ = constrained(goal_, limits_);
+}
+
+void OrbitCamera::look(double right_rad, double up_rad) {
+    is_let_through_ = false;
+    const Eigen::Vector3d eye = goal_.eye_m();
+    OrbitView turned = goal_;
+    turned.azimuth_rad -= right_rad;
+    turned.elevation_rad = std::clamp(goal_.elevation_rad - up_rad, -limits_.max_elevation_rad,
+                                      limits_.max_elevation_rad);
+    turned.pivot_m += eye - turned.eye_m();
+    goal_ = taken_over(turned.camera(), limits_, turned.azimuth_rad);
+}
+
+void OrbitCamera::roll(double clockwise_rad) {
+    is_let_through_ = false;
+    goal_.roll_rad += clockwise_rad;
+}
+
+void OrbitCamera::level() {
+    constexpr double turn_rad = 2 * std::numbers::pi;
+    goal_.roll_rad = turn_rad * std::round(current_.roll_rad / turn_rad);
+}
+
+void OrbitCamera::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
+    goal_.pivot_m = pivot_m;
+    goal_ = constrained(goal_, limits_);
+}
+
 void OrbitCamera::dolly(double nearer) {
     is_let_through_ = false;
     goal_.distance_m *= std::exp(-nearer);
@@ -54,38 +110,48 @@ void OrbitCamera::zoom(double narrower) {
 void OrbitCamera::fly_to(const OrbitView& view) {
     goal_ = constrained(view, limits_);
     goal_.azimuth_rad = nearest_turn(goal_.azimuth_rad, current_.azimuth_rad);
+    goal_.roll_rad = nearest_turn(goal_.roll_rad, current_.roll_rad);
     is_let_through_ = corridor_ && corridor_->of(goal_.camera()).share >= Corridor::end;
 }
 
 void OrbitCamera::jump_to(const OrbitView& view) {
     goal_ = current_ = constrained(view, limits_);
+    speed_ = {};
     is_let_through_ = false;
 }
 
 OrbitView OrbitCamera::followed(double dt_s) const {
     OrbitView next = current_;
-    const double share = 1 - std::exp(-dt_s / follow_time_s);
-    const double most_turn = limits_.max_turn_rad_s * dt_s;
-    const double most_way = limits_.max_speed_m_s * dt_s;
-    next.azimuth_rad += covered(goal_.azimuth_rad - next.azimuth_rad, share, most_turn);
-    next.elevation_rad += covered(goal_.elevation_rad - next.elevation_rad, share, most_turn);
-    next.distance_m += covered(goal_.distance_m - next.distance_m, share, most_way);
-    next.field_of_view_rad += covered(goal_.field_of_view_rad - next.field_of_view_rad, share,
-                                      limits_.max_zoom_rad_s * dt_s);
-    Eigen::Vector3d step = share * (goal_.pivot_m - next.pivot_m);
-    if (step.norm() > most_way) step *= most_way / step.norm();
-    next.pivot_m += step;
+    const Follower follower(limits_, dt_s);
+    const auto follow = [&](double OrbitView::*channel, double speed, double most) {
+        next.*channel += follower.step(goal_.*channel - current_.*channel, speed, most);
+    };
+    follow(&OrbitView::azimuth_rad, speed_.azimuth, limits_.max_turn_rad_s);
+    follow(&OrbitView::elevation_rad, speed_.elevation, limits_.max_turn_rad_s);
+    follow(&OrbitView::roll_rad, speed_.roll, limits_.max_turn_rad_s);
+    follow(&OrbitView::distance_m, speed_.distance, limits_.max_speed_m_s);
+    follow(&OrbitView::field_of_view_rad, speed_.field_of_view, limits_.max_zoom_rad_s);
+    next.pivot_m += follower.step(Eigen::Vector3d(goal_.pivot_m - current_.pivot_m), speed_.pivot,
+                                  limits_.max_speed_m_s);
     // Both ends of the way are above the floor, but not every mixture of them.
     return constrained(next, limits_);
 }
 
 void OrbitCamera::advance(double dt_s) {
     assert(dt_s >= 0);
-    const OrbitView next = followed(dt_s);
+    if (dt_s == 0) return;
+    const OrbitView before = current_, next = followed(dt_s);
     if (corridor_ && !is_let_through_)
         go_within_corridor(next, dt_s);
     else
         current_ = next;
+    // What held it back, held its speed back too.
+    const auto speed_of = [&](double OrbitView::*channel) {
+        return (current_.*channel - before.*channel) / dt_s;
+    };
+    speed_ = {speed_of(&OrbitView::azimuth_rad),       speed_of(&OrbitView::elevation_rad),
+              speed_of(&OrbitView::roll_rad),          speed_of(&OrbitView::distance_m),
+              speed_of(&OrbitView::field_of_view_rad), (current_.pivot_m - before.pivot_m) / dt_s};
 }
 
 void OrbitCamera::go_within_corridor(const OrbitView& next, double dt_s) {
@@ -123,6 +189,7 @@ void OrbitCamera::go_within_corridor(const OrbitView& next, double dt_s) {
     go(&OrbitView::elevation_rad);
     go(&OrbitView::distance_m);
     go(&OrbitView::field_of_view_rad);
+    go(&OrbitView::roll_rad);
     go(&OrbitView::pivot_m);
 }
 

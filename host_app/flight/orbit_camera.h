@@ -20,6 +20,16 @@ class OrbitCamera {
     /// Shifts pivot and camera in the picture's plane: to the right and up, in picture widths at
     /// the pivot's distance (what a drag across the whole picture moves).
     void pan(double right_widths, double up_widths);
+    /// Lifts pivot and camera straight up, likewise.
+    void crane(double up_widths);
+    /// Turns the camera where it stands: to the right and up.
+    void look(double right_rad, double up_rad);
+    /// About the line of sight, clockwise as seen from behind.
+    void roll(double clockwise_rad);
+    /// From now on towards no roll.
+    void level();
+    /// Pivot and camera to where the pivot is this point.
+    void carry_pivot_to(const Eigen::Vector3d& pivot_m);
     /// Nearer by a factor of e for every 1 (and back for -1).
     void dolly(double nearer);
     /// Narrower by a factor of e for every 1.
@@ -39,11 +49,17 @@ class OrbitCamera {
     const OrbitView& goal() const { return goal_; }
 
   private:
+    /// How fast it goes, in the view's own numbers.
+    struct Speed {
+        double azimuth = 0, elevation = 0, roll = 0, distance = 0, field_of_view = 0;
+        Eigen::Vector3d pivot{0, 0, 0};
+    };
     OrbitView followed(double dt_s) const;
     /// Goes on to `next` as far as the corridor allows.
     void go_within_corridor(const OrbitView& next, double dt_s);
 
     OrbitView goal_, current_;
+    Speed speed_;
     FlightLimits limits_;
     std::shared_ptr<const Corridor> corridor_;
     bool is_let_through_ = false;  ///< on a flight to a view that the corridor holds

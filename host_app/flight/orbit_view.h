@@ -45,6 +45,8 @@ struct FlightLimits {
     double max_turn_rad_s = 2.1;
     double max_speed_m_s = 6;
     double max_zoom_rad_s = 1.0;
+    double ramp_s = 0.1;     ///< from rest to the highest speed, or back, at the earliest
+    double follow_s = 0.12;  ///< in which the camera covers 63 % of the way to where hands want it
 };
 
 /// The nearest allowed view: values are clamped, and the elevation is raised until the camera is

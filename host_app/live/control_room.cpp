@@ -35,6 +35,8 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.move = lines.move_progress.value_or(-1);
     lamps.keyframes = static_cast<double>(lines.keyframes);
     lamps.record = lines.is_recording;
+    lamps.horizon = lines.holds_horizon;
+    lamps.follow = lines.is_following;
     lamps.coverage = lines.corridor.now ? lines.corridor.now->share : -1;
     lamps.wheel_mode = lines.wheel_mode;
     lamps.synthesiser = state.synthesiser;

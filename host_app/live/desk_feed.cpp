@@ -269,6 +269,8 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.view = programme.view;
     const FlightControls::Lines lines = show.controls().lines();
     state_.recording_flight = lines.is_recording;
+    state_.follows_performer = lines.is_following;
+    state_.holds_horizon = lines.holds_horizon;
     state_.move_progress = lines.move_progress;
     state_.wheel = lines.wheel;
     state_.coverage = lines.corridor.now;

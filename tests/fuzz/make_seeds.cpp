@@ -153,16 +153,43 @@ tone = [1.05, 0.97, 1.2]
                     "target_m = [0.0, 1.0, 0.0]\nsynthesiser = \"mesh\"\n");
     seeds.write("move_file", "two", R"(version = 1
 loop = false
-[[keyframes]]
+path = "free"
+lowest_m = -1
+[[keyframe]]
 time_s = 0.0
+take_s = 0.5
 azimuth_deg = 0.0
 distance_m = 4.5
 easing = "ease"
-[[keyframes]]
+[[keyframe]]
 time_s = 2.0
-azimuth_deg = 20.0
+take_s = 0.5
+eye_m = [0.0, 1.0, 4.0]
+pan_deg = 20.0
+tilt_deg = -5
+focus_m = 3
+[[shot]]
+number = 3
+name = "wide"
+duration_s = 2
+eye_m = [0.0, 1.0, 4.0]
 target_m = [0.0, 1.0, 0.0]
 )");
+    seeds.write("camera_path", "colmap",
+                "\1# images\n1 1 0 0 0 0 0 5 1 a.png\n\n\n--\n1 PINHOLE 64 48 50 50 32 24\n");
+    seeds.write("camera_path", "omaf",
+                R"({"cameras": [{"Name": "v0", "Projection": "Perspective",)"
+                R"("Position": [0, 0, 1], "Rotation": [0, 0, 0],)"
+                R"("Resolution": [64, 48], "Focal": [50, 50]}]})");
+    seeds.write(
+        "camera_path", "gltf",
+        "\3{\"nodes\": [{\"camera\": 0}], \"cameras\": [{\"perspective\": {\"yfov\": 0.7}}],"
+        "\"animations\": [{\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, "
+        "\"path\": \"translation\"}}], \"samplers\": [{\"input\": 0, \"output\": 1}]}],"
+        "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 1, \"type\": "
+        "\"SCALAR\"}, {\"bufferView\": 0, \"componentType\": 5126, \"count\": 1, \"type\": "
+        "\"VEC3\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 12}], \"buffers\": "
+        "[{\"byteLength\": 12, \"uri\": \"data:;base64,AAAAAAAAAAAAAAAA\"}]}");
     constexpr std::string_view matrices =
         R"("K": [[5,0,2],[0,5,1],[0,0,1]], "world_from_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]])";
     seeds.write("view_set", "views",
@@ -186,6 +213,9 @@ void write_controls(const Seeds& seeds) {
                 "\x85\x31"
                 "CAMERA 5        "sv);
     seeds.write("tsl_message", "v5", "\x0d\0\0\0\0\0\5\0\1\0\3\0VIR"sv);
+    seeds.write(
+        "camera_path", "freed",
+        "\0\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);
     seeds.write(
         "freed_message", "d1",
         "\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);

@@ -24,6 +24,7 @@ struct ShowLamps {
     double move = -1;      ///< 0..1 along the planned move; -1: not on it
     double keyframes = 0;  ///< that the move has
     bool record = false;   ///< a flight is recorded
+    bool horizon = false, follow = false;
     double coverage = -1;  ///< 0..1; -1: not known
     std::string wheel_mode, synthesiser, timecode;
     double render_level = 0, prepare_level = 0;

@@ -1,9 +1,12 @@
 #include <fstream>
 #include <numbers>
+#include <random>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "common/base/error.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/flight/pan_tilt_roll.h"
 #include "tests/support/data_folder.h"
@@ -179,6 +182,51 @@ TEST_F(CameraPathTest, AnAnimatedParentCarriesAGltfCamera) {
     EXPECT_TRUE(pose.linear().col(2).isApprox(Eigen::Vector3d::UnitX(), 1e-6));
     EXPECT_TRUE(pose.linear().col(1).isApprox(-Eigen::Vector3d::UnitY(), 1e-6));
     EXPECT_NEAR(std::tan(0.5 * read.cameras[0].field_of_view_rad), std::tan(0.25) * 16 / 9, 1e-9);
+}
+
+TEST_F(CameraPathTest, ADamagedFileIsReadOrRefused) {
+    CameraPath crane = crane_path();
+    crane.cameras.resize(4);
+    std::mt19937 random(11);
+    const auto bytes_of = [&](const std::string& name) {
+        std::ostringstream bytes;
+        bytes << std::ifstream(path(name), std::ios::binary).rdbuf();
+        return bytes.str();
+    };
+    const auto damaged = [&](std::string bytes) {
+        for (int i = static_cast<int>(random() % 4); i >= 0; --i) {
+            const std::size_t at = random() % bytes.size();
+            if (random() % 3 == 0)
+                bytes.erase(at, random() % 30);
+            else
+                bytes[at] =
+                    static_cast<char>(random() % 2 ? random() : "0129-.eE,[{\""[random() % 12]);
+            if (bytes.empty()) bytes = "x";
+        }
+        return bytes;
+    };
+    for (const char* name : {"a.freed", "images.txt", "a.json", "a.gltf", "a.glb"}) {
+        through(crane, name);
+        const std::string whole = bytes_of(name), lenses = bytes_of("cameras.txt");
+        int refused = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const std::string bytes = damaged(whole);
+            const auto span = std::as_bytes(std::span(bytes));
+            const std::string form = form_of(path(name)).name;
+            try {
+                const CameraPath read = form == "freed" ? freed_path_of(span, name, {})
+                                        : form == "colmap"
+                                            ? colmap_path_of(bytes, damaged(lenses), name, {})
+                                        : form == "omaf" ? omaf_path_of(bytes, name, {})
+                                                         : gltf_path_of(span, name, {});
+                for (const CameraState& camera : read.cameras)
+                    ASSERT_TRUE(camera.world_from_camera.matrix().allFinite()) << name;
+            } catch (const Error&) {
+                ++refused;
+            }
+        }
+        EXPECT_GT(refused, 100) << name;
+    }
 }
 
 TEST_F(CameraPathTest, RefusesWhatItCannotFly) {

@@ -63,6 +63,14 @@ TEST(ExampleFiles, LoadAndShowTheDefaults) {
     EXPECT_EQ(stage.latency_budget_ms, stage_defaults.latency_budget_ms);
     EXPECT_EQ(stage.view.width_px, stage_defaults.view.width_px);
     EXPECT_EQ(stage.view.field_of_view_deg, stage_defaults.view.field_of_view_deg);
+    EXPECT_EQ(stage.flight.holds_horizon, stage_defaults.flight.holds_horizon);
+    EXPECT_EQ(stage.flight.smoothing_s, stage_defaults.flight.smoothing_s);
+    EXPECT_EQ(stage.flight.ramp_s, stage_defaults.flight.ramp_s);
+    EXPECT_EQ(stage.flight.max_turn_deg_s, stage_defaults.flight.max_turn_deg_s);
+    EXPECT_EQ(stage.flight.max_zoom_deg_s, stage_defaults.flight.max_zoom_deg_s);
+    EXPECT_EQ(stage.flight.max_speed_m_s, stage_defaults.flight.max_speed_m_s);
+    EXPECT_EQ(stage.flight.shot_s, stage_defaults.flight.shot_s);
+    EXPECT_EQ(stage.flight.keyframe_s, stage_defaults.flight.keyframe_s);
 }
 
 TEST(ExampleFiles, ShowEveryKeyThatIsRead) {
@@ -78,8 +86,8 @@ TEST(ExampleFiles, ShowEveryKeyThatIsRead) {
                   std::vector<std::string>())
             << table;
     }
-    for (const char* table :
-         {"", "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n", "[view]\n", "[timecode]\n"}) {
+    for (const char* table : {"", "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n", "[view]\n",
+                              "[timecode]\n", "[flight]\n"}) {
         std::ofstream(file) << "version = 1\n" << table << unknown;
         const auto keys = known_keys(thrown_sentence([&] { load_stage_config(file); }));
         ASSERT_GE(keys.size(), 1u) << table;

@@ -85,6 +85,26 @@ TEST(FlightControlsInATake, AFlightSaysWhatTimeItIs) {
     EXPECT_FALSE(controls.step(2, 1075).time.at_pulse);
 }
 
+TEST(FlightControlsInATake, TheWheelScrubsFlightAndTimeBothWays) {
+    FlightControls controls(
+        {.plan = frozen_flight(), .pulse_rate_hz = 25, .has_past = true, .take_begin = 1000},
+        nullptr, [](int) { return std::nullopt; });
+    double time_s = 1.5;
+    controls.step(time_s, 1075);
+    const auto scrubbed = [&](double steps) {
+        controls.hands().put({.wheel_steps = steps}, {});
+        for (int i = 0; i < 100; ++i) controls.step(time_s += 0.02, 1075);
+        const PilotStep step = controls.step(time_s += 0.02, 1075);
+        return std::pair(step.view.azimuth_rad, *step.time.at_pulse);
+    };
+    const auto [back_rad, back] = scrubbed(-10);
+    EXPECT_NEAR(back_rad, 0.5, 1e-6) << "a step is 0.1 s";
+    EXPECT_NEAR(back, 1050, 1e-6);
+    const auto [on_rad, on] = scrubbed(7);
+    EXPECT_NEAR(on_rad, 1, 1e-6);
+    EXPECT_NEAR(on, 1060, 1e-6);
+}
+
 TEST(FlightControlsInATake, ALiveStageIsNotLed) {
     FlightControls controls({.plan = frozen_flight(), .pulse_rate_hz = 25, .has_past = true},
                             nullptr, [](int) { return std::nullopt; });
@@ -112,6 +132,43 @@ TEST(FlightControlsRecording, KeepsEveryStepWithItsTimeInTheTake) {
     controls.keep_flight(Move({{0, OrbitView{}}, {1, OrbitView{}}}, false));
     controls.step(5.3, 1010);
     EXPECT_EQ(controls.lines().keyframes, 2u);
+}
+
+TEST(FlightControlsPivot, GoesToTheSessionAndComesBackAsAPlaceOnTheStage) {
+    FlightControls controls({.plan = {}, .pulse_rate_hz = 25}, nullptr,
+                            [](int) { return std::nullopt; });
+    controls.hands().put({.pick = Eigen::Vector2d(0.25, 0.75)}, {});
+    controls.step(0, {});
+    EXPECT_EQ(controls.take_wishes().pick, Eigen::Vector2d(0.25, 0.75));
+    EXPECT_FALSE(controls.take_wishes().pick) << "once";
+    controls.hands().put({.pivot_m = Eigen::Vector3d(1, 1.2, -1)}, {});
+    for (int i = 1; i < 200; ++i) controls.step(0.02 * i, {});
+    EXPECT_TRUE(controls.step(4.1, {}).view.pivot_m.isApprox(Eigen::Vector3d(1, 1.2, -1), 1e-6));
+}
+
+TEST(FlightControlsPivot, FollowsUntilAHandTakesItElsewhere) {
+    FlightControls controls({.plan = {}, .pulse_rate_hz = 25}, nullptr,
+                            [](int) { return std::nullopt; });
+    double time_s = 0;
+    const auto pass = [&] {
+        for (int i = 0; i < 200; ++i) controls.step(time_s += 0.02, {});
+        return controls.step(time_s += 0.02, {}).view.pivot_m;
+    };
+    controls.follow({1, 1, 0});
+    EXPECT_NEAR(pass().x(), 0, 1e-9) << "nobody asked for it";
+    controls.hands().put({.toggle_follow = true}, {});
+    pass();
+    EXPECT_TRUE(controls.lines().is_following);
+    controls.follow({1, 1, 0});
+    EXPECT_NEAR(pass().x(), 1, 1e-6);
+    controls.hands().put({.orbit_azimuth_rad = 0.3}, {});
+    pass();
+    EXPECT_TRUE(controls.lines().is_following) << "one may orbit meanwhile";
+    controls.hands().put({.pan_right_widths = 0.1}, {});
+    const double panned = pass().x();
+    EXPECT_FALSE(controls.lines().is_following);
+    controls.follow({-1, 1, 0});
+    EXPECT_NEAR(pass().x(), panned, 1e-9);
 }
 
 TEST(FlightControlsRecording, EndsWithTheShow) {

@@ -244,6 +244,78 @@ TEST_F(HelmTest, AHandEndsTheFlightToAShotWhereItIs) {
     EXPECT_NEAR(helm.view().azimuth_rad, here, 1e-3);
 }
 
+TEST_F(HelmTest, HoldsTheHorizonUnlessItIsLetGo) {
+    Helm helm(looking(0), {});
+    FlightInput roll, toggle;
+    roll.roll_rad = 0.2;
+    helm.take(roll, no_rig);
+    pass(helm, 2);
+    EXPECT_NEAR(helm.view().roll_rad, 0, 1e-9);
+    toggle.toggle_horizon = true;
+    helm.take(toggle, no_rig);
+    EXPECT_FALSE(helm.holds_horizon());
+    helm.take(roll, no_rig);
+    pass(helm, 2);
+    EXPECT_NEAR(helm.view().roll_rad, 0.2, 1e-6);
+    helm.take(toggle, no_rig);
+    const double before = helm.view().roll_rad;
+    helm.advance(0.02);
+    EXPECT_GT(helm.view().roll_rad, before - 0.05) << "it levels without a jump";
+    pass(helm, 3);
+    EXPECT_NEAR(helm.view().roll_rad, 0, 1e-6);
+}
+
+TEST_F(HelmTest, TurnsToAPivotWhereItStands) {
+    Helm helm(looking(0), {});
+    const Eigen::Vector3d eye = helm.view().eye_m(), pivot(0.8, 1.4, -1);
+    FlightInput input;
+    input.pivot_m = pivot;
+    helm.take(input, no_rig);
+    pass(helm, 4);
+    EXPECT_TRUE(helm.view().pivot_m.isApprox(pivot, 1e-6));
+    EXPECT_TRUE(helm.view().eye_m().isApprox(eye, 1e-6));
+}
+
+TEST_F(HelmTest, GoesWithAPivotThatIsCarried) {
+    Helm helm(looking(0), {});
+    const Eigen::Vector3d before = helm.view().eye_m();
+    for (int i = 1; i <= 50; ++i) {
+        helm.carry_pivot_to({0.02 * i, 1, 0});
+        helm.advance(0.02);
+    }
+    pass(helm, 2);
+    EXPECT_NEAR(helm.view().pivot_m.x(), 1, 1e-6);
+    EXPECT_TRUE((helm.view().eye_m() - before).isApprox(Eigen::Vector3d(1, 0, 0), 1e-6));
+    Helm on_move(looking(0), straight_move());
+    on_move.carry_pivot_to({5, 1, 0});
+    pass(on_move, 1);
+    EXPECT_NEAR(on_move.view().pivot_m.x(), 0, 1e-9) << "a move is not carried";
+}
+
+TEST_F(HelmTest, FliesAsTheStageSays) {
+    FlightHabits habits;
+    habits.shot_s = 4;
+    habits.keyframe_gap_s = 7;
+    habits.max_turn_rad_s = 0.1;
+    habits.holds_horizon = false;
+    Helm helm(looking(0), {}, false, habits);
+    EXPECT_FALSE(helm.holds_horizon());
+    helm.settle({}, {});
+    FlightInput drag, store, put;
+    drag.orbit_azimuth_rad = 3;
+    helm.take(drag, no_rig);
+    pass(helm, 5);
+    EXPECT_LT(helm.view().azimuth_rad, 0.51);
+    store.store_shot = 2;
+    put.add_keyframe = true;
+    helm.take(store, no_rig);
+    helm.take(put, no_rig);
+    helm.take(put, no_rig);
+    const FlightBook book = helm.take_change()->book;
+    EXPECT_EQ(book.shots[1]->duration_s, 4);
+    EXPECT_EQ(book.move->duration_s(), 7);
+}
+
 TEST_F(HelmTest, MakesAMoveOfViewsAndTellsOfIt) {
     Helm helm(looking(0), {});
     FlightInput put, drag, play;

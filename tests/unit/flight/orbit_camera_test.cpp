@@ -47,7 +47,74 @@ TEST(OrbitCamera, TurnsNoFasterThanTheLimit) {
         camera.advance(0.04);
         EXPECT_LE(camera.view().azimuth_rad - before, limits.max_turn_rad_s * 0.04 + 1e-12);
     }
-    EXPECT_NEAR(camera.view().azimuth_rad, 50 * 0.04 * limits.max_turn_rad_s, 1e-9);
+    EXPECT_NEAR(camera.view().azimuth_rad,
+                (50 * 0.04 - 0.5 * limits.ramp_s) * limits.max_turn_rad_s,
+                0.02 * limits.max_turn_rad_s)
+        << "but for its ramp";
+}
+
+TEST(OrbitCamera, GathersAndLosesSpeedNoFasterThanItsRamp) {
+    for (const double ramp_s : {0.1, 0.5, 2.0}) {
+        FlightLimits limits;
+        limits.ramp_s = ramp_s;
+        OrbitCamera camera{OrbitView(), limits};
+        camera.orbit(2, 0);
+        double last_rad_s = 0, before = 0, highest = 0;
+        for (int i = 0; i < 800; ++i) {
+            camera.advance(0.01);
+            const double rad_s = (camera.view().azimuth_rad - before) / 0.01;
+            EXPECT_LE(std::abs(rad_s - last_rad_s), limits.max_turn_rad_s / ramp_s * 0.01 * 1.2)
+                << ramp_s << " s, step " << i;
+            last_rad_s = rad_s;
+            before = camera.view().azimuth_rad;
+            highest = std::max(highest, before);
+        }
+        EXPECT_NEAR(before, 2, 1e-4) << ramp_s;
+        EXPECT_LT(highest, 2.02) << "it brakes in time, " << ramp_s;
+    }
+}
+
+TEST(OrbitCamera, FollowsAsCloselyAsItIsTold) {
+    const auto gone = [](double follow_s) {
+        FlightLimits limits;
+        limits.follow_s = follow_s;
+        limits.ramp_s = 0;
+        OrbitCamera camera{OrbitView(), limits};
+        camera.orbit(0.1, 0);
+        for (int i = 0; i < 20; ++i) camera.advance(0.01);
+        return camera.view().azimuth_rad;
+    };
+    EXPECT_NEAR(gone(0.2), 0.1 * (1 - std::exp(-1)), 1e-4);
+    EXPECT_GT(gone(0.05), gone(0.5));
+}
+
+TEST(OrbitCamera, CranesStraightUpAndLooksAroundWhereItStands) {
+    OrbitView start;
+    start.elevation_rad = 0.5;
+    OrbitCamera camera{start};
+    camera.crane(0.2);
+    settle(camera);
+    const Eigen::Vector3d way = camera.view().eye_m() - start.eye_m();
+    EXPECT_NEAR(way.x(), 0, 1e-9);
+    EXPECT_GT(way.y(), 0.3);
+    EXPECT_NEAR(way.z(), 0, 1e-9);
+    const OrbitView before = camera.view();
+    camera.look(0.3, 0.1);
+    settle(camera);
+    EXPECT_TRUE(camera.view().eye_m().isApprox(before.eye_m(), 1e-6));
+    const Eigen::Vector3d there = before.world_from_camera().inverse() * camera.view().pivot_m;
+    EXPECT_GT(there.x(), 0.5) << "to the right";
+    EXPECT_LT(there.y(), -0.1) << "up";
+}
+
+TEST(OrbitCamera, RollsAndIsLevelledTheShorterWay) {
+    OrbitCamera camera{OrbitView()};
+    camera.roll(6);
+    settle(camera);
+    EXPECT_NEAR(camera.view().roll_rad, 6, 1e-6);
+    camera.level();
+    settle(camera);
+    EXPECT_NEAR(camera.view().roll_rad, 2 * M_PI, 1e-6);
 }
 
 TEST(OrbitCamera, MovesThePivotNoFasterThanTheLimit) {
@@ -56,8 +123,12 @@ TEST(OrbitCamera, MovesThePivotNoFasterThanTheLimit) {
     OrbitView far;
     far.pivot_m = {20, 15, -20};
     camera.fly_to(far);
-    const Eigen::Vector3d before = camera.view().pivot_m;
-    camera.advance(0.1);
+    Eigen::Vector3d before = camera.view().pivot_m;
+    for (int i = 0; i < 20; ++i) {
+        before = camera.view().pivot_m;
+        camera.advance(0.1);
+        EXPECT_LE((camera.view().pivot_m - before).norm(), 0.1 * limits.max_speed_m_s + 1e-9);
+    }
     EXPECT_NEAR((camera.view().pivot_m - before).norm(), 0.1 * limits.max_speed_m_s, 1e-9);
 }
 

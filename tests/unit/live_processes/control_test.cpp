@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
@@ -7,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "host_app/flight/flight_book.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/free_ports.h"
@@ -52,6 +56,64 @@ TEST(Control, OfOthersSteersAShowWhoseLampsTheySee) {
     EXPECT_EQ(summary["control"][0]["obeyed"], 4);
     EXPECT_EQ(summary["control"][0]["unknown"], 1);
     EXPECT_TRUE(summary["time"]["in"].is_number()) << summary["time"];
+}
+
+/// A flight by hand over a take becomes a flight file, which is flown and filmed.
+TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
+    const TemporaryFolder folder;
+    const std::string take = (folder.path() / "take.mkv").string();
+    const std::string flight = (folder.path() / "take.flight.toml").string();
+    const std::string film = (folder.path() / "film.mkv").string();
+    std::filesystem::copy_file(source_folder() / "tests/takes/version_1.mkv", take);
+    const auto [port, lamps] = two_free_ports();
+    ChildProgram watcher("/usr/bin/stdbuf", {"-oL", "oscdump", std::to_string(lamps)},
+                         folder.path());
+    ChildProgram show(VANTAGE_PROGRAM,
+                      {"play", take, "--headless", "--size", "96x72", "--loop", "--seconds", "300",
+                       "--control", fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)},
+                      folder.path());
+    const auto is_told = [&](const std::string& words) {
+        for (int i = 0; i < 3000; ++i) {
+            if (watcher.out().find(words) != std::string::npos) return true;
+            usleep(20'000);
+        }
+        return false;
+    };
+    const auto oscsend = [&](const std::string& words) {
+        return std::system(fmt::format("oscsend 127.0.0.1 {} {}", port, words).c_str()) == 0;
+    };
+    ASSERT_TRUE(is_told("lamp/speed f 1.0")) << watcher.out() << show.err();
+    ASSERT_TRUE(oscsend("/vantage/store i 4"));
+    ASSERT_TRUE(oscsend("/vantage/record"));
+    ASSERT_TRUE(is_told("lamp/record i 1")) << watcher.out();
+    ASSERT_TRUE(oscsend("/vantage/orbit f 12.0"));
+    ASSERT_TRUE(oscsend("/vantage/source_map"));
+    ASSERT_TRUE(is_told("lamp/source_map i 1")) << "the turn was taken in a step before";
+    ASSERT_TRUE(oscsend("/vantage/record"));
+    for (int i = 0; i < 3000 && show.err().find("is a move of") == std::string::npos; ++i)
+        usleep(20'000);
+    show.send_signal(SIGINT);
+    EXPECT_EQ(show.wait().status, 0) << show.err();
+    const FlightBook book = load_flight(flight);
+    ASSERT_TRUE(book.move);
+    EXPECT_TRUE(book.move->take_s_at(0));
+    EXPECT_TRUE(book.shots[3]);
+    const double turned_rad =
+        book.move->at(book.move->duration_s()).azimuth_rad - book.move->at(0).azimuth_rad;
+    EXPECT_GT(turned_rad, 0.02) << "of 0.2 rad";
+    const ProgramResult played = run_to_end(VANTAGE_PROGRAM, {"play", take, "--headless", "--size",
+                                                              "96x72", "--path", flight, "--json"});
+    EXPECT_EQ(played.status, 0) << played.err;
+    const ProgramResult filmed =
+        run_to_end(VANTAGE_PROGRAM, {"take", "export", take, "--as", "film", "--path", flight,
+                                     "--size", "96x72", "--rate", "10", "-o", film, "--json"});
+    EXPECT_EQ(filmed.status, 0) << filmed.err;
+    EXPECT_EQ(nlohmann::json::parse(filmed.out)["written"],
+              std::max(1L, std::lround(10 * book.move->duration_s())));
+    EXPECT_NE(run_to_end(VANTAGE_PROGRAM,
+                         {"take", "export", take, "--as", "film", "--path", flight, "-o", film})
+                  .err.find("already"),
+              std::string::npos);
 }
 
 }  // namespace
