@@ -13,6 +13,7 @@
 #include "host_app/commands/stereoscopic_options.h"
 #include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
+#include "host_app/live/set_desk.h"
 #include "host_app/takes/take_desk.h"
 
 namespace vantage {
@@ -20,6 +21,7 @@ namespace vantage {
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
     std::string path, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder, rate;
+    std::string set, saved_set;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
@@ -51,10 +53,11 @@ struct ShowSession {
     void run(StopSignal& stop);
 
   private:
-    void run_headless(StopSignal& stop, ControlRoom& room);
-    void run_in_window(StopSignal& stop, ControlRoom& room);
-    void follow_wishes(class OutputSwitch& outputs, ControlRoom& room, MonotonicTime now);
-    void finish(ControlRoom& room, const class CorridorWatch& corridor,
+    void run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets);
+    void run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets);
+    void follow_wishes(class OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
+                       MonotonicTime now);
+    void finish(ControlRoom& room, SetDesk& sets, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);
 };
 

@@ -89,6 +89,8 @@ PilotStep FlightControls::step(double time_s) {
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
     wishes_.toggle_take ^= hands.toggle_take;
+    wishes_.save_set |= hands.save_set;
+    wishes_.learn_set |= hands.learn_set;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
     lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(), name_of(helm_.wheel_mode()),

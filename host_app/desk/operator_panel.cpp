@@ -19,7 +19,9 @@ constexpr ImGuiWindowFlags fixed_panel =
     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 /// In ems: between panels, and to the edges.
-constexpr float panel_gap = 0.7f, left_panel_width = 22.5f;
+constexpr float panel_gap = 0.7f, left_panel_width = 25.5f;
+/// Of a set that counts as learnt.
+constexpr double mostly_known = 0.8;
 
 float em() { return ImGui::GetFontSize(); }
 
@@ -234,12 +236,12 @@ void draw_rigs_of_take(const PanelState& state, const UiFonts& fonts) {
 
 void draw_rig_table(const PanelState& state, const UiFonts& fonts) {
     heading(fonts, "RIGS");
-    if (!ImGui::BeginTable("rigs", 5, ImGuiTableFlags_SizingFixedFit)) return;
+    if (!ImGui::BeginTable("rigs", 6, ImGuiTableFlags_SizingFixedFit)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("state", 0, 5.2f * em());
-    for (const char* number : {"fps", "ms", "lost"})
+    for (const char* number : {"fps", "ms", "lost", "set"})
         ImGui::TableSetupColumn(number, 0, 3.4f * em());
-    for (const char* column : {"", "state", "fps", "ms", "lost"}) {
+    for (const char* column : {"", "state", "fps", "ms", "lost", "set"}) {
         ImGui::TableNextColumn();
         if (column == std::string("state"))
             text(palette::dim, column);
@@ -266,6 +268,12 @@ void draw_rig_table(const PanelState& state, const UiFonts& fonts) {
         if (rig.lost > 0) ImGui::PushStyleColor(ImGuiCol_Text, palette::warn);
         text_right(fmt::format("{}", rig.lost));
         if (rig.lost > 0) ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        if (!rig.set_known) continue;
+        const bool is_learning = *rig.set_known < mostly_known;
+        if (is_learning) ImGui::PushStyleColor(ImGuiCol_Text, palette::warn);
+        text_right(fmt::format("{:.0f} %", 100 * *rig.set_known));
+        if (is_learning) ImGui::PopStyleColor();
     }
     ImGui::EndTable();
     for (const PanelRig& rig : state.rigs)

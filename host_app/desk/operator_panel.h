@@ -18,10 +18,11 @@ enum class RigState { present, late, missed, disconnected, refused };
 struct PanelRig {
     std::string name;
     RigState state = RigState::disconnected;
-    double rate_hz = 0;                  ///< frames received a second
-    double latency_ms = 0;               ///< exposure to decoded, median
-    std::uint64_t lost = 0;              ///< frames that met no set, wherever they were lost
-    const Texture* disparity = nullptr;  ///< colour-mapped; null: none yet
+    double rate_hz = 0;                    ///< frames received a second
+    double latency_ms = 0;                 ///< exposure to decoded, median
+    std::uint64_t lost = 0;                ///< frames that met no set, wherever they were lost
+    const Texture* disparity = nullptr;    ///< colour-mapped; null: none yet
+    std::optional<double> set_known = {};  ///< share of its set; nothing: none is learnt
     std::vector<std::string> worries =
         {};  ///< what a technician should look after, a few words each
 };

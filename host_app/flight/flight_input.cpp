@@ -17,6 +17,8 @@ void FlightInput::add(const FlightInput& other) {
     toggle_novelty ^= other.toggle_novelty;
     toggle_take ^= other.toggle_take;
     toggle_tracking ^= other.toggle_tracking;
+    save_set |= other.save_set;
+    learn_set |= other.learn_set;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
@@ -37,6 +39,7 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
     const auto both = [&](auto FlightInput::*what) { return this->*what != 0 && other.*what != 0; };
     return both(&FlightInput::toggle_freeze) || both(&FlightInput::toggle_move) ||
            both(&FlightInput::toggle_novelty) || both(&FlightInput::toggle_take) ||
+           both(&FlightInput::save_set) || both(&FlightInput::learn_set) ||
            both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_loop) ||
            both(&FlightInput::reset) || both(&FlightInput::next_synthesiser) ||
            both(&FlightInput::next_wheel_mode) || both(&FlightInput::to_live) ||

@@ -73,7 +73,8 @@ PanelOutput panel_output(const OutputState& output) {
 
 }  // namespace
 
-PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
+PanelRig PanelFeed::rig_of(const RigAccount& account, const FrameSet* set) const {
+    const RigStatus& status = account.status;
     PanelRig rig;
     rig.name = status.rig;
     rig.state = state_in(set, status);
@@ -84,6 +85,10 @@ PanelRig PanelFeed::rig_of(const RigStatus& status, const FrameSet* set) const {
                status.lost + status.undecodable + status.late + status.duplicate +
                status.unsynchronized + status.out_of_step + status.queue_dropped;
     rig.worries = worries_of(status);
+    if (account.set) {
+        rig.set_known = account.set->known;
+        if (!account.set->misfit.empty()) rig.worries.push_back(account.set->misfit);
+    }
     if (const auto picture = disparities_.find(status.rig); picture != disparities_.end())
         rig.disparity = &picture->second;
     return rig;
@@ -131,7 +136,7 @@ void PanelFeed::refresh(LiveShow& show, const ProgrammeState& programme, const F
     if (set) refresh_disparities(*set);
 
     state_.rigs.clear();
-    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig.status, set));
+    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set));
     state_.stages.clear();
     for (const StepTime& step : step_times(report))
         state_.stages.push_back({step.name, step.ms.p50, is_at_rig(step.name)});

@@ -27,7 +27,7 @@ class PanelFeed {
                  MonotonicTime now);
     void refresh_disparities(const FrameSet& set);
     static std::optional<PanelNovelty> novelty_of(const ProgrammeState& programme);
-    PanelRig rig_of(const RigStatus& status, const FrameSet* set) const;
+    PanelRig rig_of(const RigAccount& account, const FrameSet* set) const;
 
     std::optional<MonotonicTime> refreshed_;
     RateMeter picture_rate_;

@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
     std::vector<std::string> exact_in;
     steps->add_option("--exact-in", exact_in, "Regions in which depth is the stage's")
         ->delimiter(',');
+    steps->add_flag("--known-set", stepped.knows_set,
+                    "Begin with a set that was learnt over the stage's loop");
     steps->add_flag("--regions", stepped.with_regions,
                     "Per cent of the pixels and of the squared error, by region");
     bool without_times = false;

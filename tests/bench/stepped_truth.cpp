@@ -6,11 +6,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/base/error.h"
 #include "common/image/image_file.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
@@ -117,6 +119,28 @@ void write_beside(const std::string& folder, const std::string& name, const Colo
     write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(both));
 }
 
+/// What is learnt of the set while performers walk a whole loop of the stage.
+LearntSet set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
+                        VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
+                        bool with_own_depth) {
+    constexpr std::chrono::milliseconds loop{24000}, step{800};
+    // Told to be closer in time than they are, so that they make one mean.
+    constexpr double told_dt_s = 0.2;
+    const std::unique_ptr<InstantPreparer> preparer = synthesiser.make_preparer(library);
+    if (!preparer->set_memory()) fail("the synthesiser {} learns no set", synthesiser.name);
+    std::uint64_t instant = 1'000'000;  // noise of its own
+    for (std::chrono::milliseconds time{0}; time < loop; time += step) {
+        std::vector<DepthView> views;
+        for (const auto& rig : rigs) {
+            rig->film(stage, time, instant);
+            views.push_back(rig->view(with_own_depth));
+        }
+        preparer->take(views, told_dt_s);
+        ++instant;
+    }
+    return preparer->set_memory()->learnt();
+}
+
 std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
     VirtualStage stage(library, set), truth_stage(library, set);
     std::vector<std::unique_ptr<MatchingRig>> rigs;
@@ -148,6 +172,14 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
         runners.push_back({entry.make_preparer(library),
                            std::make_unique<ViewPainter>(entry, format, library),
                            Measured(wanted.rigs.noise_sigma)});
+    }
+
+    if (wanted.knows_set) {
+        const auto learnt = std::make_shared<const LearntSet>(
+            set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
+                          !wanted.with_exact_depth));
+        for (Runner& runner : runners)
+            if (SetMemory* memory = runner.preparer->set_memory()) memory->begin_with(learnt);
     }
 
     const auto instants = static_cast<std::uint64_t>(
@@ -241,15 +273,16 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
 
 std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
     std::string text = fmt::format(
-        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth; {:g} "
+        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | set | PSNR dB | of the set | of performers | SSIM | debris | performers' "
         "edges: mean error | wavering: set | performers |{}\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
-        wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
-        wanted.render_level, wanted.settling_s, wanted.measured_s,
+        wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
+        wanted.rate_hz, wanted.prepare_level, wanted.render_level, wanted.settling_s,
+        wanted.measured_s,
         wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
         wanted.with_times ? " take | prepare | render |" : "",
         wanted.with_times ? " --- | --- | --- |" : "");

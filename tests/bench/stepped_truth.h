@@ -19,6 +19,7 @@ struct SteppedTruth {
     int prepare_level = 0, render_level = 0;
     bool with_exact_depth = false;
     std::vector<TruthRegion> exact_in;  ///< where rigs have the stage's depth, not their matchers'
+    bool knows_set = false;             ///< begins with what a loop of the stage tells of its set
     bool with_regions = false;          ///< shares of pixels and of squared error, by TruthRegion
     bool with_times = true;             ///< of the processor
     std::string
