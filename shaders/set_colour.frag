@@ -1,9 +1,11 @@
 // The colour of a rig's set: where it is seen now, the mean of the instants since it last changed, else what was seen
 // before.
 #include "colour_change.glsl"
+#include "set_kinds.glsl"
+#include "set_known.glsl"
 
 uniform sampler2D picture;  // this instant's
-uniform sampler2D before;   // mean of the instants before; alpha: how many
+uniform sampler2D before;   // mean of the instants before; alpha: how many, less where it showed other things, see set_known.glsl
 uniform sampler2D seen;     // from set_see.frag
 uniform sampler2D matte;    // the performers' share
 uniform float has_before;     // 0: there is no instant before
@@ -33,8 +35,13 @@ void main() {
         shown = vec4(past.rgb, 0.25);
         return;
     }
-    float change = max(textureLod(seen, uv, 0.0).g, pixel_share * largest(now.rgb - past.rgb));
-    float instants = min(past.a + 1.0, most_instants);
-    mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (instants + 1.0), smoothstep(noise, motion, change))), instants);
+    vec2 here = textureLod(seen, uv, 0.0).rg;
+    float change = max(here.g, pixel_share * largest(now.rgb - past.rgb));
+    // What shows another thing may go on to; light and shadow come and go over a set that is known.
+    bool is_other = is_kind(here.r, untold) || is_kind(here.r, new_set);
+    float instants = !is_other     ? min(past.a + 1.0, most_instants)
+                     : past.a > 1.0 ? 0.5 * past.a
+                                    : max(past.a - 1.0, most_unrest);
+    mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise, motion, change))), instants);
     shown = vec4(mean.rgb, 1.0);
 }

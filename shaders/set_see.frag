@@ -3,6 +3,7 @@
 #include "colour_change.glsl"
 #include "depth_votes.glsl"
 #include "set_kinds.glsl"
+#include "set_known.glsl"
 
 uniform sampler2D depth_map;  // this instant's, metres, 0 = unknown
 uniform sampler2D picture;    // this instant's
@@ -43,7 +44,8 @@ void main() {
     if (has_before == 0.0) return;
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
     now = textureLod(picture, uv, 0.0).rgb;
-    known = textureLod(set_colour, uv, 0.0).rgb;
+    vec4 mean = textureLod(set_colour, uv, 0.0);
+    known = mean.rgb;
     float own = largest(now - known);
     seen = vec4(the_set, 0.5 * own, own, 0.0);
     if (own < quiet) return;
@@ -54,11 +56,12 @@ void main() {
     float kind = the_set;
     if (change > motion) {
         bool goes_on = state.b > 0.0 && is_one_surface(z, state.b);
-        bool is_believed = state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
-        kind = is_same && is_shade()                 ? lit_set
-               : is_known && !is_same && z < state.r ? before_set
-               : z > 0.0 && !is_same                 ? (is_believed ? new_set : uncovered)
-                                                     : untold;
+        bool restless = is_restless(mean);
+        bool is_believed = restless || state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
+        kind = is_same && is_shade()                               ? lit_set
+               : is_known && !restless && !is_same && z < state.r ? before_set
+               : z > 0.0 && !is_same                               ? (is_believed ? new_set : uncovered)
+                                                                   : untold;
     }
     seen = vec4(kind, change, own, 0.0);
 }

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 
 #include <unistd.h>
 
@@ -40,6 +41,15 @@ std::filesystem::path free_path(const std::filesystem::path& path) {
         free = path.parent_path() /
                fmt::format("{}-{}{}", path.stem().string(), number, path.extension().string());
     return free;
+}
+
+std::filesystem::path name_for_now(const std::string& stem, const std::string& extension) {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    localtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "-%Y-%m-%d-%H%M%S", &parts);
+    return stem + text + extension;
 }
 
 }  // namespace vantage

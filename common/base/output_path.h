@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <string>
 
 namespace vantage {
 
@@ -13,5 +14,8 @@ void require_writable_output(const std::filesystem::path& output,
 
 /// The path, or, where there is such a file, the first of NAME-2.EXT, NAME-3.EXT, ... that is free.
 std::filesystem::path free_path(const std::filesystem::path& path);
+
+/// "take-2026-11-22-201500.mkv", by this process's clock and zone.
+std::filesystem::path name_for_now(const std::string& stem, const std::string& extension);
 
 }  // namespace vantage

@@ -11,14 +11,9 @@
 #include "frame.pb.h"
 
 namespace vantage {
-namespace {
-
-/// What the library would print of a damaged message is in the Error that the message ends in.
 void keep_protobuf_quiet() {
     [[maybe_unused]] static const auto replaced = google::protobuf::SetLogHandler(nullptr);
 }
-
-}  // namespace
 
 void check_schema_version(std::string_view what, std::uint32_t version) {
     if (version != wire_schema_version)

@@ -27,6 +27,9 @@ void check_schema_version(std::string_view what, std::uint32_t version);
 /// Throws Error unless the name is 1..max_name_chars letters, digits, '-', '_', '.'.
 void check_name(std::string_view what, std::string_view name);
 
+/// What the library would print of a damaged message is in the Error that the message ends in.
+void keep_protobuf_quiet();
+
 std::vector<std::byte> serialise(const google::protobuf::MessageLite& message);
 
 /// Throws Error for parts beyond max_header_bytes and for bytes that are no such message.

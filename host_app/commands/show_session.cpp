@@ -13,6 +13,7 @@
 #include "host_app/control/ports/freed_sink.h"
 #include "host_app/desk/operator_window.h"
 #include "host_app/desk/screen_windows.h"
+#include "host_app/instants/set_file.h"
 #include "host_app/live/corridor_watch.h"
 #include "host_app/live/desk_feed.h"
 #include "host_app/live/output_switch.h"
@@ -53,6 +54,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         .contact_sheet = contact_sheet,
         .free_flight = free_flight,
         .harmonise = harmonise};
+    if (!set.empty()) settings.set = std::make_shared<const LearntSet>(load_set(set));
     if (!size.empty()) {
         const cv::Size wanted = parse_size(size);
         settings.format.width_px = wanted.width;
@@ -133,6 +135,12 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--record", film,
                        "Write the programme as a film (.mkv, .mp4), with the house's time code: "
                        "--output of a file");
+    command.add_option("--set", set,
+                       "Begin with this set, which was learnt before (.vset): rigs whose "
+                       "calibration is another learn theirs anew");
+    command.add_option("--save-set", saved_set,
+                       "Save what was learnt of the set here at the end, or with the key J; "
+                       "without this the key names the file for the time");
     command.add_option("--encoder", encoder,
                        fmt::format("Encode with this one of {}; without it the first that works is "
                                    "taken, and named in the log",
@@ -176,17 +184,20 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
 void ShowSession::run(StopSignal& stop) {
     for (const std::string& url : options.outputs)
         if (is_freed_url(url)) show.add(make_freed_sink(url));
+    SetDesk sets(show, options.saved_set);
     ControlRoom room(options.controls, show);
     if (options.headless)
-        run_headless(stop, room);
+        run_headless(stop, room, sets);
     else
-        run_in_window(stop, room);
+        run_in_window(stop, room, sets);
 }
 
 /// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
 /// the names of outputs that failed, a take among them.
-void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
+void ShowSession::finish(ControlRoom& room, SetDesk& sets, const CorridorWatch& corridor,
                          const std::function<ColourImage()>& last_picture) {
+    if (!options.saved_set.empty() && sets.state().path.empty()) sets.save();
+    sets.finish();
     show.finish();
     if (takes) takes->finish();
     show.controls().end_recording();
@@ -194,6 +205,7 @@ void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
     flights.finish();
     LiveReport report = show.report();
     if (takes && takes->state().takes > 0) report.take = takes->state();
+    report.saved_set = sets.state().path;
     report.played = played;
     report.ports = room.close();
     report.uncovered = corridor.uncovered_parts();
@@ -209,6 +221,7 @@ void ShowSession::finish(ControlRoom& room, const CorridorWatch& corridor,
     std::vector<std::string> failures = failures_of(report);
     if (report.take && report.take->phase == TakePhase::failed)
         failures.push_back(report.take->failure);
+    if (!sets.state().failure.empty()) failures.push_back(sets.state().failure);
     if (!failures.empty())
         fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
 }
@@ -243,7 +256,8 @@ void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
 }
 
 /// What hands asked for beyond the programme itself.
-void ShowSession::follow_wishes(OutputSwitch& outputs, ControlRoom& room, MonotonicTime now) {
+void ShowSession::follow_wishes(OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
+                                MonotonicTime now) {
     const SessionWishes wishes = show.controls().take_wishes();
     keep_flights(wishes);
     find_pivots(wishes, now);
@@ -251,10 +265,13 @@ void ShowSession::follow_wishes(OutputSwitch& outputs, ControlRoom& room, Monoto
         show.controls().keep_flight(*std::move(move));
     if (takes && wishes.toggle_take) takes->toggle();
     for (const int number : wishes.outputs) outputs.press(number, now);
-    room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, now);
+    if (wishes.learn_set) show.learn_set_anew();
+    if (wishes.save_set) sets.save();
+    room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, sets.state().path,
+                    now);
 }
 
-void ShowSession::run_headless(StopSignal& stop, ControlRoom& room) {
+void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets) {
     if (!wait(stop)) return;
     // A disk that is too slow is to be known before the first picture.
     while (takes && takes->state().phase == TakePhase::opening &&
@@ -268,18 +285,18 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room) {
     ScreenWindows screens(false);
     const std::chrono::milliseconds look(show.outputs().screens().empty() ? 20 : 4);
     while (!show.is_over() && !stop.wait_for(look)) {
-        follow_wishes(outputs, room, MonotonicClock::now());
+        follow_wishes(outputs, sets, room, MonotonicClock::now());
         screens.follow(show.outputs().screens());
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(room, corridor, [&] {
+    finish(room, sets, corridor, [&] {
         const auto last = show.state().picture;
         return last->sources ? last->sources->picture : last->picture;
     });
 }
 
-void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
+void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets) {
     // Room for the desk around the picture, whatever the picture's size.
     constexpr int least_width_px = 1280, least_height_px = 720;
     const PictureFormat& format = show.settings().format;
@@ -302,7 +319,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
         const MonotonicTime now = MonotonicClock::now();
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
         if (const std::optional<double> pulse = window.take_seek()) show.controls().seek(*pulse);
-        follow_wishes(outputs, room, now);
+        follow_wishes(outputs, sets, room, now);
         screens.follow(show.outputs().screens());
         show.controls().hands().put(input, now);
         last = now;
@@ -323,7 +340,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room) {
         progress.tell(show);
         corridor.tell(show);
     }
-    finish(room, corridor, [&] { return window.screenshot(); });
+    finish(room, sets, corridor, [&] { return window.screenshot(); });
 }
 
 }  // namespace vantage

@@ -14,6 +14,7 @@
 #include "host_app/flight/flight_store.h"
 #include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
+#include "host_app/live/set_desk.h"
 #include "host_app/takes/take_desk.h"
 
 namespace vantage {
@@ -22,6 +23,7 @@ namespace vantage {
 struct ShowOptions {
     std::string path, flight, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder,
         rate;
+    std::string set, saved_set;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
@@ -58,12 +60,13 @@ struct ShowSession {
     void run(StopSignal& stop);
 
   private:
-    void run_headless(StopSignal& stop, ControlRoom& room);
-    void run_in_window(StopSignal& stop, ControlRoom& room);
+    void run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets);
+    void run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets);
     void keep_flights(const SessionWishes& wishes);
     void find_pivots(const SessionWishes& wishes, MonotonicTime now);
-    void follow_wishes(class OutputSwitch& outputs, ControlRoom& room, MonotonicTime now);
-    void finish(ControlRoom& room, const class CorridorWatch& corridor,
+    void follow_wishes(class OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
+                       MonotonicTime now);
+    void finish(ControlRoom& room, SetDesk& sets, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);
 };
 

@@ -123,6 +123,8 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
         wishes_.limits = helm_.limits();
     }
     if (hands.pick) wishes_.pick = hands.pick;
+    wishes_.save_set |= hands.save_set;
+    wishes_.learn_set |= hands.learn_set;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
     lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(),

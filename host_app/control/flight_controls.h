@@ -41,7 +41,7 @@ class HandsBox {
 
 /// What hands ask of the session and not of the programme, on its way to the session's thread.
 struct SessionWishes {
-    bool toggle_take = false;
+    bool toggle_take = false, save_set = false, learn_set = false;
     std::optional<Eigen::Vector2d> pick = {};  ///< see FlightInput
     std::vector<int> outputs;                  ///< pressed, 1 and on, in their order
     std::optional<Helm::Change> change = {};   ///< of shots and move, by hand

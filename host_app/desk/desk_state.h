@@ -33,6 +33,7 @@ struct DeskRig {
     std::optional<double> temperature_c = {};
     std::string clock = {};                 ///< a few words; empty: it says nothing
     std::string calibration = {};           ///< age and residual; empty: it has none
+    std::optional<double> set_known = {};   ///< share of its set; nothing: none is learnt
     std::vector<std::string> worries = {};  ///< what a technician should look after
 
     std::uint64_t lost() const { return lost_at_rig + lost_on_the_way + lost_at_host; }

@@ -8,6 +8,9 @@
 namespace vantage {
 namespace {
 
+/// Of a set that counts as learnt.
+constexpr double mostly_known = 0.8;
+
 /// A picture as large as fits into the rectangle's height; returns its width.
 float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture, bool is_of_now) {
     const float aspect =
@@ -32,6 +35,11 @@ void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) 
         y += 1.1f * pen.em();
     };
     if (!rig.worries.empty()) row(palette::warn, rig.worries.front());
+    if (rig.set_known) {
+        const bool is_learning = *rig.set_known < mostly_known;
+        row(is_learning ? palette::warn : palette::dim,
+            fmt::format("set {:.0f} %", 100 * *rig.set_known));
+    }
     if (rig.nearest_m > 0)
         row(palette::dim, fmt::format("{:.1f} to {:.1f} m", rig.nearest_m, rig.farthest_m));
     const std::string heat =

@@ -31,6 +31,8 @@ void FlightInput::add(const FlightInput& other) {
     remove_keyframe |= other.remove_keyframe;
     keyframe_jump += other.keyframe_jump;
     retime_s += other.retime_s;
+    save_set |= other.save_set;
+    learn_set |= other.learn_set;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
@@ -51,6 +53,7 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
     const auto both = [&](auto FlightInput::*what) { return this->*what != 0 && other.*what != 0; };
     return both(&FlightInput::toggle_freeze) || both(&FlightInput::toggle_move) ||
            both(&FlightInput::toggle_novelty) || both(&FlightInput::toggle_take) ||
+           both(&FlightInput::save_set) || both(&FlightInput::learn_set) ||
            both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_loop) ||
            both(&FlightInput::reset) || both(&FlightInput::next_synthesiser) ||
            both(&FlightInput::next_wheel_mode) || both(&FlightInput::to_live) ||

@@ -18,6 +18,7 @@ struct FlightInput {
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
     bool toggle_tracking = false;
     bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
+    bool save_set = false, learn_set = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
     bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
     bool toggle_recording = false;  ///< of a flight
@@ -60,9 +61,10 @@ struct FlightInput {
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
                next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
-               toggle_tracking || toggle_take || toggle_output != 0 || mark_in || mark_out ||
-               clear_marks || toggle_loop || cue || speed_steps != 0 || edits_move() ||
-               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow;
+               toggle_tracking || toggle_take || save_set || learn_set || toggle_output != 0 ||
+               mark_in || mark_out || clear_marks || toggle_loop || cue || speed_steps != 0 ||
+               edits_move() || toggle_recording || keyframe_jump != 0 || pick || toggle_horizon ||
+               toggle_follow;
     }
     /// Whether the same thing is commanded in both, so that one of them would be lost in add().
     bool commands_twice(const FlightInput& other) const;

@@ -4,6 +4,7 @@
 
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/instant.h"
+#include "host_app/instants/set_memory.h"
 #include "host_app/instants/virtual_view.h"
 
 namespace vantage {
@@ -47,6 +48,9 @@ class InstantPreparer {
     /// The next instant does not follow the last one (a cut, or time that is gone through): what
     /// was learnt along time is not to be used for it.
     virtual void forget() {}
+
+    /// What it learns of the set; null: nothing.
+    virtual SetMemory* set_memory() { return nullptr; }
 };
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/limits.h"
@@ -79,6 +80,16 @@ void InstantThread::prepare_for(const std::string& synthesiser, MakePreparer mak
 void InstantThread::wish(const InstantWish& wish) {
     const std::lock_guard lock(mutex_);
     wish_ = wish;
+}
+
+void InstantThread::learn_set_anew() {
+    const std::lock_guard lock(mutex_);
+    learns_anew_ = true;
+}
+
+std::future<LearntSet> InstantThread::learnt_set() {
+    const std::lock_guard lock(mutex_);
+    return asked_for_set_.emplace_back().get_future();
 }
 
 std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
@@ -214,6 +225,37 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
     newest_ = std::make_shared<const ReadyInstant>(last_);
 }
 
+void InstantThread::tend_set(InstantPreparer* preparer) {
+    bool learns_anew = false;
+    std::vector<std::promise<LearntSet>> asked;
+    {
+        const std::lock_guard lock(mutex_);
+        learns_anew = std::exchange(learns_anew_, false);
+        asked = std::exchange(asked_for_set_, {});
+    }
+    SetMemory* memory = preparer ? preparer->set_memory() : nullptr;
+    if (learns_anew) {
+        // Also not after a reset of the GPU, nor for the next synthesiser.
+        settings_.set = nullptr;
+        if (memory) memory->learn_anew();
+    }
+    for (std::promise<LearntSet>& one : asked) {
+        try {
+            if (preparer && !memory)
+                fail("the synthesiser {} learns no set: choose another (F2)", last_.synthesiser);
+            LearntSet set = memory ? memory->learnt() : LearntSet();
+            if (set.rigs.empty()) fail("nothing is known of the set: no rig has shown any yet");
+            one.set_value(std::move(set));
+        } catch (const ContextLost&) {
+            one.set_exception(std::make_exception_ptr(
+                Error("the GPU was reset while the set was read from it; save it again")));
+            throw;
+        } catch (...) {
+            one.set_exception(std::current_exception());
+        }
+    }
+}
+
 void InstantThread::let_go_of_preparers() {
     const auto let_go = [](Generation& one) {
         std::erase_if(one.preparers, [](const auto& each) { return each.use_count() == 1; });
@@ -277,9 +319,11 @@ void InstantThread::prepare_instants() {
         if (contexts_->generation() != member.generation)
             throw ContextLost("another thread found the GPU reset");
         if (generations_.size() > 1) let_go_of_preparers();
+        tend_set(preparer.get());
         if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
             let_go_of_preparers();
             preparer = generations_.back().preparers.emplace_back(maker.make(shaders));
+            if (SetMemory* memory = preparer->set_memory()) memory->begin_with(settings_.set);
             last_.synthesiser = maker.synthesiser;
             last_pulse_.reset();
             prepared.reset();
@@ -354,6 +398,8 @@ void InstantThread::prepare_instants() {
                 }
             }
             books_.harmony = harmoniser_.rigs();
+            books_.sets = preparer->set_memory() ? preparer->set_memory()->states()
+                                                 : std::vector<RigSetState>();
             prepare_ms_.add(last_.prepare_ms);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -74,6 +75,8 @@ class InstantThread {
         std::map<std::string, ColourCorrection> colours = {};  ///< by rig
         /// Of a take, from which all is shown and learnt; null: the replay buffer's.
         std::shared_ptr<const PastSets> take = nullptr;
+        /// That rigs begin with, where it fits; null: with nothing.
+        std::shared_ptr<const LearntSet> set = nullptr;
     };
     /// `contexts` must outlive it. `feed` is read from now on.
     InstantThread(Settings settings, StageFeed feed, ContextGroup& contexts);
@@ -84,6 +87,10 @@ class InstantThread {
     /// From now on instants are prepared for this synthesiser.
     void prepare_for(const std::string& synthesiser, MakePreparer make);
     void wish(const InstantWish& wish);
+    /// From the next instant on: what the rigs see is the set, whatever was known of it.
+    void learn_set_anew();
+    /// What was learnt of the set until now, soon; Error where nothing was.
+    std::future<LearntSet> learnt_set();
     /// The newest that is ready; null before the first. Throws what the feed threw.
     std::shared_ptr<const ReadyInstant> newest() const;
 
@@ -105,6 +112,7 @@ class InstantThread {
         std::map<std::string, ColourHarmoniser::Rig> harmony;
         Percentiles prepare_ms;
         RigSteps rig_steps;
+        std::vector<RigSetState> sets;  ///< empty: none are learnt
         int faults = 0;
     };
     Books books() const;
@@ -129,6 +137,8 @@ class InstantThread {
     void prepare_instants();
     /// As superseded. Precondition: mutex_ is held.
     void count_unprepared();
+    /// Answers what was asked of the set.
+    void tend_set(InstantPreparer* preparer);
     /// Does the work, or as much of it as was done when time jumped to elsewhere: then false.
     bool unless_time_jumps(const InstantWish& wish, const std::function<void()>& work);
     /// Throws GaveWay where time has jumped.
@@ -170,6 +180,8 @@ class InstantThread {
     std::condition_variable woken_;
     Maker maker_;
     InstantWish wish_;
+    bool learns_anew_ = false;
+    std::vector<std::promise<LearntSet>> asked_for_set_;
     bool is_stopping_ = false;
     std::uint64_t looks_ = 0;  ///< at what is wished, each with nothing in hand
     std::condition_variable looked_;

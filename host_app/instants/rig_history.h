@@ -57,6 +57,14 @@ class RigHistory {
         is_set_learnt_ = true;
         ++learnt_instants_;
     }
+    /// Begins with what was learnt before: the states of both, as they are read back.
+    void restore(const cv::Mat4f& set_state, const cv::Mat& colour_mean, int instants) {
+        set_.resize(depth().size());
+        set_.restore(set_state);
+        steady_colour_.resize(colour_->size());
+        steady_colour_.restore(colour_mean);
+        learnt_instants_ = instants;
+    }
     /// Instants that the set was learnt of.
     int learnt_instants() const { return learnt_instants_; }
     /// The set as it was bettered last, and how well (see PrepareLevel::rank); null before the

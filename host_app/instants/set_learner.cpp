@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host_app/instants/depth_spread.h"
 
@@ -17,6 +18,20 @@ constexpr double patience_s = 1;
 constexpr float matte_reach_px = 6;
 /// What stands still before the set for so long is a part of it.
 constexpr double absorbed_after_s = 120;
+/// What was still for so long is the set; less may be a moment of what moves.
+constexpr double known_after_s = 0.5;
+/// The longest means, of which certainties are shares.
+constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
+/// Pixels that known_share() looks at.
+const cv::Size sampled_pixels{64, 48};
+
+float most_depth_instants(const RigHistory& rig) {
+    return instants_of(depth_mean_s, rig.dt_s(), 8, longest_depth_mean);
+}
+
+float most_colour_instants(const RigHistory& rig) {
+    return instants_of(colour_mean_s, rig.dt_s(), 4, longest_colour_mean);
+}
 
 }  // namespace
 
@@ -50,6 +65,7 @@ void SetLearner::learn(RigHistory& rig) {
     see.set("picture", 1);
     see.set("set_colour", 2);
     see.set("set_state", 3);
+    see.set("known_after", known_after(rig));
     set_votes(see);
     rig.depth().bind(0);
     rig.fresh_colour().bind(1);
@@ -82,7 +98,7 @@ void SetLearner::learn(RigHistory& rig) {
     learn.set("seen", 2);
     learn.set("matte", 3);
     set_votes(learn);
-    learn.set("most_instants", instants_of(depth_mean_s, rig.dt_s(), 8, 128));
+    learn.set("most_instants", most_depth_instants(rig));
     learn.set("most_misses", instants_of(patience_s, rig.dt_s(), 3, 30));
     learn.set("absorbed_after", static_cast<float>(absorbed_after_s / std::max(rig.dt_s(), 1e-3)));
     rig.depth().bind(0);
@@ -97,7 +113,7 @@ void SetLearner::learn(RigHistory& rig) {
     show.set("seen", 2);
     show.set("matte", 3);
     show.set("has_before", has_before ? 1.0f : 0.0f);
-    show.set("most_instants", instants_of(colour_mean_s, rig.dt_s(), 4, 32));
+    show.set("most_instants", most_colour_instants(rig));
     rig.fresh_colour().bind(0);
     set_colour.bind(1);
     set.seen().bind(2);
@@ -105,6 +121,65 @@ void SetLearner::learn(RigHistory& rig) {
     colour_.draw(colour);
     rig.finish_set();
     rig.finish_colour();
+}
+
+float SetLearner::known_after(const RigHistory& rig) {
+    return instants_of(known_after_s, rig.dt_s(), 3, 30);
+}
+
+LearntRigSet SetLearner::learnt(const RigHistory& rig) {
+    LearntRigSet set;
+    set.rig = rig.camera().name;
+    set.calibration = calibration_of(rig.camera(), rig.fresh_colour().size(), rig.depth().size());
+    const cv::Mat state = rig.set_state().state().download();
+    cv::extractChannel(state, set.depth_m, 0);
+    cv::Mat votes, mean;
+    cv::extractChannel(state, votes, 1);
+    votes.convertTo(set.certainty, CV_8U, 255 / most_depth_instants(rig));
+    rig.colour_mean().download().convertTo(mean, CV_32F);
+    std::vector<cv::Mat> channels;
+    cv::split(mean, channels);
+    channels[3] /= most_colour_instants(rig);
+    cv::merge(channels, mean);
+    mean.convertTo(set.colour, CV_8U, 255);
+    return set;
+}
+
+void SetLearner::restore(RigHistory& rig, const LearntRigSet& set) {
+    cv::Mat votes;
+    set.certainty.convertTo(votes, CV_32F, longest_depth_mean / 255.0);
+    cv::Mat whole(votes.size(), CV_32F);
+    // Their fraction would count what did not agree.
+    for (int y = 0; y < votes.rows; ++y)
+        for (int x = 0; x < votes.cols; ++x)
+            whole.at<float>(y, x) = std::max(1.0f, std::floor(votes.at<float>(y, x)));
+    const cv::Mat none = cv::Mat::zeros(votes.size(), CV_32F);
+    cv::Mat4f state;
+    cv::merge(std::vector<cv::Mat>{set.depth_m, whole, none, none}, state);
+    cv::Mat mean;
+    set.colour.convertTo(mean, CV_32F, 1 / 255.0);
+    std::vector<cv::Mat> channels;
+    cv::split(mean, channels);
+    channels[3] *= longest_colour_mean;
+    cv::merge(channels, mean);
+    cv::Mat halves;
+    mean.convertTo(halves, CV_16F);
+    rig.restore(state, halves, longest_depth_mean);
+}
+
+double SetLearner::known_share(const RigHistory& rig) {
+    sampled_.resize(sampled_pixels);
+    Program& known = known_.use();
+    known.set("set_state", 0);
+    known.set("set_colour", 1);
+    known.set("known_after", known_after(rig));
+    known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled_pixels.width),
+                                              1.0f / static_cast<float>(sampled_pixels.height)));
+    rig.set_state().state().bind(0);
+    rig.colour_mean().bind(1);
+    known_.draw(sampled_.target());
+    const cv::Mat seen = sampled_.texture().download();
+    return cv::countNonZero(seen) / static_cast<double>(seen.total());
 }
 
 }  // namespace vantage

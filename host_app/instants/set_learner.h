@@ -2,6 +2,7 @@
 
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/tile_pass.h"
+#include "host_app/instants/learnt_set.h"
 #include "host_app/instants/rig_history.h"
 
 namespace vantage {
@@ -16,16 +17,29 @@ class SetLearner {
           matte_(library, "matte.frag"),
           soften_(library, "matte_soften.frag"),
           learn_(library, "set_learn.frag"),
-          colour_(library, "set_colour.frag") {}
+          colour_(library, "set_colour.frag"),
+          known_(library, "set_known.frag") {}
 
     /// Makes the rig's colour() and steady_depth() those of its set, and fills its matte(). Once an
     /// upload.
     void learn(RigHistory& rig);
 
+    /// What was learnt, read back. Precondition: learn() of the last upload.
+    static LearntRigSet learnt(const RigHistory& rig);
+    /// Goes on from that; before learn(), of an upload without a past. Precondition: it is of the
+    /// rig's camera and sizes.
+    static void restore(RigHistory& rig, const LearntRigSet& set);
+    /// Share of the rig's pixels at which the set is known. Precondition as learnt().
+    double known_share(const RigHistory& rig);
+
+    /// Instants that a pixel has to have been still for before it is known to show the set.
+    static float known_after(const RigHistory& rig);
+
   private:
     FullscreenPass see_, tiles_;
     TilePass matte_, soften_;
-    FullscreenPass learn_, colour_;
+    FullscreenPass learn_, colour_, known_;
+    DrawnTexture sampled_{TextureFormat::r8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 

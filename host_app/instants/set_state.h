@@ -26,6 +26,11 @@ class SetState {
     }
     const Framebuffer& seen_target() const { return sized_->seen_target; }
     const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
+    /// Goes on from a state, rgba32f of the size, that was read back before.
+    void restore(const cv::Mat4f& state) {
+        sized_->states[sized_->now].upload(state);
+        is_drawn_ = true;
+    }
     void finish() {
         sized_->now = 1 - sized_->now;
         is_drawn_ = true;

@@ -1,5 +1,10 @@
 #include "host_app/instants/staged_preparer.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/base/log.h"
 #include "host_app/instants/depth_spread.h"
 #include "host_app/instants/rig_presence.h"
 #include "host_app/instants/view_ranking.h"
@@ -11,6 +16,8 @@ namespace {
 constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
 /// Instants, before which there is nothing to remember.
 constexpr int remembered_from = 3;
+/// Between two looks at how much of the sets is known.
+constexpr double look_period_s = 1;
 
 }  // namespace
 
@@ -29,12 +36,67 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
     ++instant_;
     uploaded_ = upload_with_fades(views, dt_s, rigs_);
-    for (RigHistory* rig : uploaded_) sets_.learn(*rig);
+    for (RigHistory* rig : uploaded_) {
+        begin_with_learnt(*rig);
+        sets_.learn(*rig);
+    }
     has_depths_.clear();
+    if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
 void StagedPreparer::forget() {
     for (const auto& rig : rigs_) rig->forget();
+}
+
+void StagedPreparer::begin_with_learnt(RigHistory& rig) {
+    if (!begins_with_ || rig.learnt_instants() > 0) return;
+    const std::string& name = rig.camera().name;
+    const auto found = std::find_if(begins_with_->rigs.begin(), begins_with_->rigs.end(),
+                                    [&](const LearntRigSet& set) { return set.rig == name; });
+    std::string misfit;
+    if (found == begins_with_->rigs.end())
+        misfit = fmt::format("the set that was loaded has none of rig {}: it is learnt anew", name);
+    else if (found->calibration !=
+             calibration_of(rig.camera(), rig.fresh_colour().size(), rig.depth().size()))
+        misfit = fmt::format(
+            "the set that was loaded was learnt with another calibration or picture size of rig "
+            "{}: it is learnt anew",
+            name);
+    else
+        SetLearner::restore(rig, *found);
+    if (!misfit.empty() && misfits_[name] != misfit) log_warning("{}", misfit);
+    misfits_[name] = misfit;
+}
+
+void StagedPreparer::look_at_sets() {
+    looked_s_ = now_s_;
+    states_.clear();
+    for (const RigHistory* rig : uploaded_) {
+        const auto misfit = misfits_.find(rig->camera().name);
+        states_.push_back({.rig = rig->camera().name,
+                           .known = sets_.known_share(*rig),
+                           .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
+                           .misfit = misfit != misfits_.end() ? misfit->second : ""});
+    }
+}
+
+void StagedPreparer::begin_with(std::shared_ptr<const LearntSet> set) {
+    begins_with_ = std::move(set);
+    misfits_.clear();
+    states_.clear();
+}
+
+void StagedPreparer::learn_anew() {
+    begin_with(nullptr);
+    forget();
+}
+
+LearntSet StagedPreparer::learnt() const {
+    LearntSet set;
+    set.learnt = TaiClock::now();
+    for (const auto& rig : rigs_)
+        if (rig->learnt_instants() > 0) set.rigs.push_back(SetLearner::learnt(*rig));
+    return set;
 }
 
 void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
@@ -63,7 +125,10 @@ std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
     Program& show = show_.use();
     bind_set(show, rig);
     show.set("colour", 2);
+    show.set("colour_mean", 3);
+    show.set("known_after", SetLearner::known_after(rig));
     rig.colour().bind(2);
+    rig.colour_mean().bind(3);
     show_.draw(target);
     // Elsewhere the rig sees the set now.
     triangles_.build_where(

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "host_app/instants/depth_closer.h"
@@ -17,7 +19,7 @@ namespace vantage {
 
 /// Takes a stage for two things: a set, which is learnt along time, bettered by all rigs and kept,
 /// and performers before it, who are cut out of every instant with a matte.
-class StagedPreparer final : public InstantPreparer {
+class StagedPreparer final : public InstantPreparer, private SetMemory {
   public:
     explicit StagedPreparer(const ShaderLibrary& library);
 
@@ -26,8 +28,17 @@ class StagedPreparer final : public InstantPreparer {
                                            const PrepareLevel& level) override;
     void improve(const VirtualView& target) override;
     void forget() override;
+    SetMemory* set_memory() override { return this; }
 
   private:
+    void begin_with(std::shared_ptr<const LearntSet> set) override;
+    void learn_anew() override;
+    LearntSet learnt() const override;
+    std::vector<RigSetState> states() const override { return states_; }
+
+    /// A rig without a past begins with what was loaded of it, if that fits.
+    void begin_with_learnt(RigHistory& rig);
+    void look_at_sets();
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
     /// Gives a program of set_now.glsl the rig's set, on units 0 and 1. Precondition: it has a
@@ -53,6 +64,10 @@ class StagedPreparer final : public InstantPreparer {
     double now_s_ = 0;  ///< instants' time since the first one
     std::uint64_t instant_ = 0;
     double improved_s_ = 0;
+    std::shared_ptr<const LearntSet> begins_with_;
+    std::map<std::string, std::string> misfits_;  ///< by rig that begins_with_ was tried for
+    std::vector<RigSetState> states_;
+    double looked_s_ = 0;
 };
 
 }  // namespace vantage

@@ -10,7 +10,7 @@ namespace vantage {
 
 /// A rig's picture without the noise that stands still, and the mean of instants that it is made
 /// of: rgba8 with a mip chain, and rgba16f in two copies, of which the one before is read while the
-/// next is drawn. The mean's alpha counts its instants; 0 where the picture has just changed.
+/// next is drawn. The mean's alpha counts its instants, and falls where the picture changes.
 class SteadyColour {
   public:
     /// Whether picture() and mean() hold anything.
@@ -18,12 +18,20 @@ class SteadyColour {
     const Texture& picture() const { return sized_->picture; }
     const Texture& mean() const { return sized_->means[sized_->now]; }
 
-    /// Of the picture and the next mean. Another size begins anew.
+    /// Another size begins anew.
+    void resize(cv::Size size) {
+        if (sized_ && sized_->picture.size() == size) return;
+        sized_.emplace(size);
+        is_drawn_ = false;
+    }
+    /// Goes on from a mean, rgba16f of the size, that was read back before.
+    void restore(const cv::Mat& mean) {
+        sized_->means[sized_->now].upload(mean);
+        is_drawn_ = true;
+    }
+    /// Of the picture and the next mean.
     const Framebuffer& next_target(cv::Size size) {
-        if (!sized_ || sized_->picture.size() != size) {
-            sized_.emplace(size);
-            is_drawn_ = false;
-        }
+        resize(size);
         return sized_->targets[1 - sized_->now];
     }
     void finish() {

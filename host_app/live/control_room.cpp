@@ -1,5 +1,7 @@
 #include "host_app/live/control_room.h"
 
+#include <algorithm>
+
 namespace vantage {
 namespace {
 
@@ -14,7 +16,7 @@ ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
-                             MonotonicTime now) {
+                             const std::string& saved_set, MonotonicTime now) {
     if (!desk_) return;
     const ProgrammeState state = show.state();
     const FlightControls::Lines lines = show.controls().lines();
@@ -27,6 +29,10 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.mark_out = state.time.out.has_value();
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
+    lamps.set = -1;
+    for (const RigSetState& set : show.instant_books().sets)
+        lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
+    lamps.saved_set = saved_set;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
     lamps.preview_tally = tally.preview;

@@ -18,7 +18,8 @@ class ControlRoom {
     ControlRoom(const std::vector<std::string>& urls, LiveShow& show);
 
     /// To be called often, from the session's thread. `take`: nothing: none can be recorded.
-    void show_lamps(const LiveShow& show, const std::optional<TakeState>& take, MonotonicTime now);
+    void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
+                    const std::string& saved_set, MonotonicTime now);
     Tally::State tally() const { return tally_.state(); }
     /// Ends the ports; what they counted.
     std::vector<PortState> close();

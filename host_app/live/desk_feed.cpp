@@ -87,7 +87,8 @@ DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {
 
 }  // namespace
 
-DeskRig DeskFeed::rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now) {
+DeskRig DeskFeed::rig_of(const RigAccount& account, const FrameSet* set, MonotonicTime now) {
+    const RigStatus& status = account.status;
     DeskRig rig;
     rig.name = status.rig;
     rig.state = state_in(set, status);
@@ -111,6 +112,10 @@ DeskRig DeskFeed::rig_of(const RigStatus& status, const FrameSet* set, Monotonic
     rig.clock = short_clock_words(status);
     rig.calibration = calibration_words(status.health, std::chrono::system_clock::now());
     rig.worries = worries_of(status);
+    if (account.set) {
+        rig.set_known = account.set->known;
+        if (!account.set->misfit.empty()) rig.worries.push_back(account.set->misfit);
+    }
     return rig;
 }
 
@@ -144,7 +149,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     if (set) rig_pictures_.take(*set);
 
     state_.rigs.clear();
-    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig.status, set, now));
+    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set, now));
     state_.steps.clear();
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});

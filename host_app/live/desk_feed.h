@@ -34,7 +34,7 @@ class DeskFeed {
     void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
                  MonotonicTime now);
     static std::optional<DeskSources> sources_of(const ProgrammeState& programme);
-    DeskRig rig_of(const RigStatus& status, const FrameSet* set, MonotonicTime now);
+    DeskRig rig_of(const RigAccount& account, const FrameSet* set, MonotonicTime now);
     void follow_move(const LiveShow& show);
     void follow_plan(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
     void follow_shots(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);

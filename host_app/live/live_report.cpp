@@ -382,6 +382,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
             entry["colour"] = {{"gains", {gain[0], gain[1], gain[2]}},
                                {"shared_points", rig.harmony->samples}};
         }
+        if (rig.set) {
+            entry["set"] = {{"known", rig.set->known}, {"loaded", rig.set->is_loaded}};
+            if (!rig.set->misfit.empty()) entry["set"]["misfit"] = rig.set->misfit;
+        }
         entry["latency_ms"] = to_json(rig.status.latency_ms);
         entry["clock"] = clock_text(rig.status);
         entry["same_clock"] = rig.status.same_clock;
@@ -410,6 +414,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                    {"last_refusal", port.books.last_refusal},
                                    {"failure", port.failure}});
     if (report.take) json["take"] = take_json(*report.take);
+    if (!report.saved_set.empty()) json["saved_set"] = report.saved_set;
     for (const OutputState& output : report.outputs)
         if (!output.film.empty() && !json.contains("film"))
             json["film"] = {
@@ -472,6 +477,7 @@ std::string results_text(const LiveReport& report) {
             port.books.malformed, port.books.dropped,
             port.failure.empty() ? "" : "; failed: ", port.failure);
     if (report.take) text += take_text(*report.take);
+    if (!report.saved_set.empty()) text += fmt::format("set saved to {}\n", report.saved_set);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
 }

@@ -31,6 +31,8 @@ struct RigAccount {
     std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before they were prepared
     /// What live harmonisation adds to its colours; nothing if it never did.
     std::optional<ColourHarmoniser::Rig> harmony = {};
+    std::optional<RigSetState> set =
+        {};  ///< what it has learnt of its set; nothing: none is learnt
 };
 
 /// All that a live session did, for the closing summary and the operator's desk.
@@ -67,6 +69,7 @@ struct LiveReport {
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
     std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
+    std::string saved_set;          ///< where the set was saved last; empty: nowhere
     std::string played;             ///< the take that was played; empty: the stage was live
 
     std::vector<OutputState> outputs;

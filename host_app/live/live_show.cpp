@@ -96,7 +96,8 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .replay_bytes = settings.replay_bytes,
                  .harmonise = settings.harmonise,
                  .colours = settings.colours,
-                 .take = settings.take},
+                 .take = settings.take,
+                 .set = settings.set},
                 std::move(feed), contexts_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
@@ -253,6 +254,8 @@ LiveReport LiveShow::report() const {
                            count_of(instants.superseded.frames, rig.rig)};
         if (const auto harmony = instants.harmony.find(rig.rig); harmony != instants.harmony.end())
             account.harmony = harmony->second;
+        for (const RigSetState& set : instants.sets)
+            if (set.rig == rig.rig) account.set = set;
         report.rigs.push_back(std::move(account));
     }
     report.network_ms = worst(status, &RigStatus::network_ms);

@@ -33,6 +33,7 @@ struct LiveSettings {
     bool free_flight = false;               ///< hands may leave the corridor
     bool harmonise = true;                  ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
+    std::shared_ptr<const LearntSet> set = nullptr;        ///< that rigs begin with; null: none
     std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
     Transport transport = {};                              ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
@@ -84,6 +85,9 @@ class LiveShow {
     InstantThread::Books instant_books() const { return instants_.books(); }
     ReceiverStatus status() const { return instants_.status(); }
     std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
+    /// As InstantThread's.
+    void learn_set_anew() { instants_.learn_set_anew(); }
+    std::future<LearntSet> learnt_set() { return instants_.learnt_set(); }
 
   private:
     std::optional<OrbitView> rig_view(int number) const;

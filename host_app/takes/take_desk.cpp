@@ -1,7 +1,5 @@
 #include "host_app/takes/take_desk.h"
 
-#include <ctime>
-
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -31,16 +29,6 @@ TakeRecorder::Settings recorder_settings(const StageConfig& stage,
     settings.show = to_json(take_show_of(stage));
     settings.pre_roll = pre_roll;
     return settings;
-}
-
-/// "take-2026-11-22-201500.mkv", by this process's clock and zone.
-std::filesystem::path name_for_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    localtime_r(&now, &parts);
-    char text[40];
-    std::strftime(text, sizeof text, "take-%Y-%m-%d-%H%M%S.mkv", &parts);
-    return text;
 }
 
 class CameraSink final : public PictureSink {
@@ -108,7 +96,7 @@ void TakeDesk::begin(const std::filesystem::path& path) {
 void TakeDesk::toggle() {
     try {
         if (!recorder_.is_running()) {
-            begin(free_path(path_.empty() ? folder_ / name_for_now() : path_));
+            begin(free_path(path_.empty() ? folder_ / name_for_now("take", ".mkv") : path_));
             return;
         }
         recorder_.end();

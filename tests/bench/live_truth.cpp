@@ -9,10 +9,6 @@
 #include "tests/bench/size_option.h"
 #include "tests/bench/stepped_truth.h"
 
-namespace vantage {
-namespace {}  // namespace
-}  // namespace vantage
-
 int main(int argc, char** argv) {
     using namespace vantage;
     CLI::App app("How close the programme's pictures come to a real camera's");
@@ -35,6 +31,13 @@ int main(int argc, char** argv) {
     steps->add_option("--prepare-level", stepped.prepare_level)->check(CLI::Range(0, 3));
     steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 5));
     steps->add_flag("--exact", stepped.with_exact_depth, "Depth of the stage, not of the matchers");
+    std::vector<std::string> exact_in;
+    steps->add_option("--exact-in", exact_in, "Regions in which depth is the stage's")
+        ->delimiter(',');
+    steps->add_flag("--known-set", stepped.knows_set,
+                    "Begin with a set that was learnt over the stage's loop");
+    steps->add_flag("--regions", stepped.with_regions,
+                    "Per cent of the pixels and of the squared error, by region");
     bool without_times = false;
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
@@ -54,6 +57,8 @@ int main(int argc, char** argv) {
         EglContext context;
         const ShaderLibrary shaders;
         stepped.with_times = !without_times;
+        for (const std::string& region : exact_in)
+            stepped.exact_in.push_back(parse_truth_region(region));
         stepped.rigs.size = size_of(size);
         stepped.rigs.preset = parse_preset(preset);
         std::cout << stepped_table(shaders, stepped);

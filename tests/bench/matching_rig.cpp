@@ -45,6 +45,11 @@ void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
     exact_m_ = depth_of(frame.exact_disparity);
 }
 
+StageCamera MatchingRig::camera() const {
+    return {calibration_.left.width_px, calibration_.left.height_px, calibration_.left.K(),
+            calibration_.world_from_left};
+}
+
 DepthView MatchingRig::view(bool with_own_depth) const {
     DepthView view = view_;
     view.depth_m = with_own_depth ? own_m_ : exact_m_;

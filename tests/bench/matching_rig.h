@@ -33,6 +33,8 @@ class MatchingRig {
 
     void film(VirtualStage& stage, std::chrono::nanoseconds stage_time, std::uint64_t instant);
 
+    StageCamera camera() const;
+
     /// What was filmed last, with the depth that the rig's own matcher found or the exact one.
     DepthView view(bool with_own_depth) const;
 

@@ -5,11 +5,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/base/error.h"
 #include "common/image/image_file.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
@@ -26,7 +29,7 @@ nanoseconds nanoseconds_of(double s) { return nanoseconds(static_cast<std::int64
 /// What a real camera would see, and where performers are in its picture.
 struct Truth {
     ColourImage colour;
-    cv::Mat1b performers, edges;
+    cv::Mat1b performers, edges, regions;
 };
 
 /// A camera that stands still on the stage.
@@ -38,16 +41,7 @@ class StillCamera {
         state_.field_of_view_rad = 2 * std::atan(0.5 * size.width / rig.left.K()(0, 0));
         camera_ = {size.width, size.height, state_.K(size.width, size.height),
                    state_.world_from_camera};
-        // The set is what is farthest at any time: performers walk about.
-        for (double s = 0; s < 24; s += 1.5) {
-            const DepthImage depth_m =
-                stage_->render(camera_, nanoseconds_of(s), {.pictures = StagePictures::depth})
-                    .depth_m;
-            if (set_depth_m_.empty())
-                set_depth_m_ = depth_m;
-            else
-                set_depth_m_ = DepthImage(cv::max(cv::Mat(set_depth_m_), cv::Mat(depth_m)));
-        }
+        regions_.emplace(*stage_, camera_);
     }
 
     const CameraState& state() const { return state_; }
@@ -55,12 +49,9 @@ class StillCamera {
     Truth film(nanoseconds time) const {
         const StageRendering seen = stage_->render(camera_, time);
         constexpr int band_px = 5;
-        Truth truth{seen.colour, seen.depth_m < 0.97 * set_depth_m_, {}};
-        cv::Mat1b wide, narrow;
-        const cv::Mat around = cv::Mat1b::ones(band_px, band_px);
-        cv::dilate(truth.performers, wide, around);
-        cv::erode(truth.performers, narrow, around);
-        truth.edges = wide & ~narrow;
+        Truth truth{
+            seen.colour, regions_->performers(seen.depth_m), {}, regions_->of(seen.depth_m)};
+        truth.edges = band_of(truth.performers, band_px);
         return truth;
     }
 
@@ -68,7 +59,37 @@ class StillCamera {
     VirtualStage* stage_;
     CameraState state_;
     StageCamera camera_;
-    DepthImage set_depth_m_;
+    std::optional<TruthRegions> regions_;
+};
+
+/// The squared error of pictures, by region.
+class RegionalError {
+  public:
+    void add(const ColourImage& picture, const Truth& truth) {
+        cv::Mat off;
+        cv::subtract(picture, truth.colour, off, cv::noArray(), CV_32F);
+        off = off.mul(off);
+        for (const TruthRegion region : all_truth_regions) {
+            const cv::Mat1b where = truth.regions == static_cast<uchar>(region);
+            const cv::Scalar sum = cv::mean(off, where) * cv::countNonZero(where);
+            auto& [error, pixels] = regions_[region];
+            error += sum[0] + sum[1] + sum[2];
+            pixels += cv::countNonZero(where);
+        }
+    }
+    /// Per cent of all pixels and of all squared error, each.
+    std::string row() const {
+        double errors = 0, all = 0;
+        for (const auto& [region, sums] : regions_) errors += sums.first, all += sums.second;
+        std::string text;
+        for (const auto& [region, sums] : regions_)
+            text += fmt::format(" {:.1f} / {:.1f} |", 100 * sums.second / all,
+                                100 * sums.first / errors);
+        return text;
+    }
+
+  private:
+    std::map<TruthRegion, std::pair<double, double>> regions_;
 };
 
 /// One synthesiser, looked at from several cameras.
@@ -76,6 +97,7 @@ struct Measured {
     explicit Measured(double noise_sigma) : set(noise_sigma), performers(noise_sigma) {}
 
     Fidelity fidelity;
+    RegionalError regions;
     Wavering set, performers;
     double edge_error = 0, set_psnr_db = 0, performers_psnr_db = 0;
     int edge_pictures = 0;
@@ -97,12 +119,37 @@ void write_beside(const std::string& folder, const std::string& name, const Colo
     write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(both));
 }
 
+/// What is learnt of the set while performers walk a whole loop of the stage.
+LearntSet set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
+                        VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
+                        bool with_own_depth) {
+    constexpr std::chrono::milliseconds loop{24000}, step{800};
+    // Told to be closer in time than they are, so that they make one mean.
+    constexpr double told_dt_s = 0.2;
+    const std::unique_ptr<InstantPreparer> preparer = synthesiser.make_preparer(library);
+    if (!preparer->set_memory()) fail("the synthesiser {} learns no set", synthesiser.name);
+    std::uint64_t instant = 1'000'000;  // noise of its own
+    for (std::chrono::milliseconds time{0}; time < loop; time += step) {
+        std::vector<DepthView> views;
+        for (const auto& rig : rigs) {
+            rig->film(stage, time, instant);
+            views.push_back(rig->view(with_own_depth));
+        }
+        preparer->take(views, told_dt_s);
+        ++instant;
+    }
+    return preparer->set_memory()->learnt();
+}
+
 std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
     VirtualStage stage(library, set), truth_stage(library, set);
     std::vector<std::unique_ptr<MatchingRig>> rigs;
     for (const double place : {-1.5, -0.5, 0.5, 1.5})
         rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
                                                      rigs.size() + 1, wanted.rigs));
+    std::vector<TruthRegions> rig_regions;
+    if (!wanted.exact_in.empty())
+        for (const auto& rig : rigs) rig_regions.emplace_back(truth_stage, rig->camera());
     // Between the middle rigs, between the last two, and beside the last.
     std::vector<StillCamera> cameras;
     for (const double place : {0.0, 1.0, 1.6})
@@ -127,6 +174,14 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                            Measured(wanted.rigs.noise_sigma)});
     }
 
+    if (wanted.knows_set) {
+        const auto learnt = std::make_shared<const LearntSet>(
+            set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
+                          !wanted.with_exact_depth));
+        for (Runner& runner : runners)
+            if (SetMemory* memory = runner.preparer->set_memory()) memory->begin_with(learnt);
+    }
+
     const auto instants = static_cast<std::uint64_t>(
         std::llround((wanted.settling_s + wanted.measured_s) * wanted.rate_hz));
     const auto settled =
@@ -138,6 +193,12 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
         for (const auto& rig : rigs) {
             rig->film(stage, time, k);
             views.push_back(rig->view(!wanted.with_exact_depth));
+            if (wanted.exact_in.empty()) continue;
+            const DepthImage exact_m = rig->view(false).depth_m;
+            const cv::Mat1b regions = rig_regions[views.size() - 1].of(exact_m);
+            views.back().depth_m = views.back().depth_m.clone();
+            for (const TruthRegion region : wanted.exact_in)
+                exact_m.copyTo(views.back().depth_m, regions == static_cast<uchar>(region));
         }
         std::vector<Truth> truths;
         if (k >= settled)
@@ -165,6 +226,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                 measured.render_ms.push_back(cpu_ms() - before_ms);
                 const Truth& truth = truths[c];
                 measured.fidelity.add(picture, truth.colour);
+                measured.regions.add(picture, truth);
                 if (cv::countNonZero(truth.edges) > 0) {
                     measured.set_psnr_db += psnr_db(picture, truth.colour, ~truth.performers);
                     measured.performers_psnr_db += psnr_db(picture, truth.colour, truth.performers);
@@ -201,6 +263,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
         if (wanted.with_times)
             text += fmt::format(" {:.0f} | {:.0f} | {:.0f} |", median(m.take_ms),
                                 median(m.prepare_ms), median(m.render_ms));
+        if (wanted.with_regions) text += m.regions.row();
         text += "\n";
     }
     return text;
@@ -210,18 +273,28 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
 
 std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
     std::string text = fmt::format(
-        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth; {:g} "
+        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | set | PSNR dB | of the set | of performers | SSIM | debris | performers' "
         "edges: mean error | wavering: set | performers |{}\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
-        wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
-        wanted.render_level, wanted.settling_s, wanted.measured_s,
+        wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
+        wanted.rate_hz, wanted.prepare_level, wanted.render_level, wanted.settling_s,
+        wanted.measured_s,
         wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
         wanted.with_times ? " take | prepare | render |" : "",
         wanted.with_times ? " --- | --- | --- |" : "");
+    if (wanted.with_regions) {
+        std::string names, rule;
+        for (const TruthRegion region : all_truth_regions) {
+            names += fmt::format(" {} |", words_of(region));
+            rule += " --- |";
+        }
+        text.insert(text.rfind("\n", text.size() - 2), names);
+        text.insert(text.size() - 1, rule);
+    }
     for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
     return text;
 }

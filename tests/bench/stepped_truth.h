@@ -5,6 +5,7 @@
 
 #include "common/gl/shader_library.h"
 #include "tests/bench/matching_rig.h"
+#include "tests/bench/truth_regions.h"
 
 namespace vantage {
 
@@ -17,7 +18,10 @@ struct SteppedTruth {
     double start_s = 2;  ///< in the stage's loop
     int prepare_level = 0, render_level = 0;
     bool with_exact_depth = false;
-    bool with_times = true;  ///< of the processor
+    std::vector<TruthRegion> exact_in;  ///< where rigs have the stage's depth, not their matchers'
+    bool knows_set = false;             ///< begins with what a loop of the stage tells of its set
+    bool with_regions = false;          ///< shares of pixels and of squared error, by TruthRegion
+    bool with_times = true;             ///< of the processor
     std::string
         pictures;  ///< a folder for the last picture of each view beside its truth; may be empty
 };

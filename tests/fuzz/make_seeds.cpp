@@ -15,6 +15,7 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/disparity_codec.h"
 #include "common/wire/link_message.h"
+#include "host_app/instants/set_file.h"
 #include "tests/fuzz/seed_frames.h"
 
 namespace vantage {
@@ -332,6 +333,13 @@ void write_takes(const Seeds& seeds) {
     }
 }
 
+void write_sets(const Seeds& seeds) {
+    const LearntRigSet rig{"rig-a", "fnv1a64:0123456789abcdef",
+                           ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
+                           cv::Mat1b(3, 4, uchar{200})};
+    seeds.write("learnt_set", "one", encode_set({tai_from_ns(1), {rig}}));
+}
+
 }  // namespace
 }  // namespace vantage
 
@@ -351,6 +359,7 @@ int main(int argc, char** argv) {
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);
         vantage::write_kept_frame(seeds);
+        vantage::write_sets(seeds);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "make_seeds: " << error.what() << '\n';

@@ -18,6 +18,8 @@ struct ShowLamps {
     double behind_s = 0;  ///< of live
     bool mark_in = false, mark_out = false, loops = false;
     bool take = false, film = false;
+    double set = -1;  ///< 0..1 known, of the rig that knows least; -1: none is learnt
+    std::string saved_set;
     bool programme_tally = false, preview_tally = false;
     bool tracked = false;  ///< a tracked camera flies
     bool source_map = false;

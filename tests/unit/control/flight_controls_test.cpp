@@ -442,13 +442,16 @@ TEST_F(FlightControlsTest, TellsWhichShotsAreKept) {
 }
 
 TEST_F(FlightControlsTest, GivesTheSessionWhatIsNotTheProgrammesToDo) {
-    controls_.hands().put({.toggle_take = true, .toggle_output = 2}, MonotonicTime{1h});
+    controls_.hands().put({.toggle_take = true, .save_set = true, .toggle_output = 2},
+                          MonotonicTime{1h});
     EXPECT_FALSE(controls_.take_wishes().toggle_take) << "no step has taken it yet";
     step();
-    controls_.hands().put({.toggle_output = 1}, MonotonicTime{1h});
+    controls_.hands().put({.learn_set = true, .toggle_output = 1}, MonotonicTime{1h});
     step();
     const SessionWishes wishes = controls_.take_wishes();
     EXPECT_TRUE(wishes.toggle_take);
+    EXPECT_TRUE(wishes.save_set);
+    EXPECT_TRUE(wishes.learn_set);
     EXPECT_EQ(wishes.outputs, (std::vector<int>{2, 1}));
     EXPECT_TRUE(controls_.take_wishes().outputs.empty()) << "every wish is given once";
 }

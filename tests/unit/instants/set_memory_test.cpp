@@ -142,7 +142,7 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
                     static_cast<float>(picture(v, u)[c] + random_.uniform(-off, off + 1)) / 255;
             }
             picture(v, u)[3] = 255;
-            past(v, u)[3] = static_cast<float>(random_.uniform(0, 13));
+            past(v, u)[3] = static_cast<float>(random_.uniform(-4, 13));
         }
     // Performers are whole patches, so that much of the set is clear of them.
     for (int v = 0; v < height_px; ++v)
@@ -188,8 +188,15 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
                     off = std::max(off, std::abs(picture(v, u)[c] / 255.0 - past(v, u)[c]));
                 const double change = std::max(seen_(v, u)[1] / 255.0, 0.4 * off);
                 const double way = std::clamp((change - 0.01) / 0.01, 0.0, 1.0);
-                const double instants = std::min(past(v, u)[3] + 1, most_instants);
-                const double share = std::max(1 / (instants + 1), way * way * (3 - 2 * way));
+                // What shows another thing may go on to.
+                const uchar kind = seen_(v, u)[0];
+                const float counted = past(v, u)[3];
+                const double instants = kind != untold && kind != new_set
+                                            ? std::min(counted + 1, most_instants)
+                                        : counted > 1 ? counted / 2
+                                                      : std::max(counted - 1, -4.0f);
+                const double share =
+                    std::max(1 / (std::max(instants, 0.0) + 1), way * way * (3 - 2 * way));
                 for (int c = 0; c < 3; ++c)
                     expected[c] +=
                         static_cast<float>(share * (picture(v, u)[c] / 255.0 - past(v, u)[c]));

@@ -100,5 +100,79 @@ TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
     EXPECT_LT(cv::norm(guessed, DepthImage(hole.size(), -wall_m), cv::NORM_INF), 0.01);
 }
 
+/// What was learnt goes on in another preparer: the set behind a square that stands there from its
+/// first instant on.
+TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
+    const DepthView empty = film(false);
+    for (int i = 0; i < 8; ++i) (void)prepared(empty);
+    const auto learnt = std::make_shared<const LearntSet>(preparer_.set_memory()->learnt());
+    ASSERT_EQ(learnt->rigs.size(), 1u);
+    EXPECT_EQ(preparer_.set_memory()->states().at(0).known, 1);
+    EXPECT_FALSE(preparer_.set_memory()->states()[0].is_loaded);
+
+    StagedPreparer next(shaders_);
+    next.set_memory()->begin_with(learnt);
+    const DepthView with = film(true);
+    next.take({&with, 1}, 0.2);
+    const RigSetState state = next.set_memory()->states().at(0);
+    EXPECT_EQ(state.known, 1);
+    EXPECT_TRUE(state.is_loaded);
+    EXPECT_EQ(state.misfit, "");
+    const std::shared_ptr<const Instant> instant =
+        next.prepare({width_px, height_px, with.K, with.world_from_camera}, prepare_levels()[2]);
+    const RigSurface& surface = *instant->rigs.at(0).surface;
+    EXPECT_LT(cv::norm(DepthImage(surface.depth().download()),
+                       DepthImage(with.depth_m.size(), square_m), cv::NORM_INF, square(-1)),
+              0.01);
+    ASSERT_NE(surface.plate(), nullptr);
+    const ColourImage plate = surface.plate()->picture().colour().download();
+    EXPECT_LE(unlike(plate, empty.colour, square(0)), 3);
+    cv::Mat1b alpha;
+    cv::extractChannel(plate, alpha, 3);
+    EXPECT_EQ(cv::countNonZero(alpha != 255), 0);
+}
+
+TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
+    for (int i = 0; i < 8; ++i) (void)prepared(film(false));
+    auto learnt = std::make_shared<LearntSet>(preparer_.set_memory()->learnt());
+    DepthView moved = film(false);
+    moved.world_from_camera.translation().x() += 0.01;
+    StagedPreparer other_place(shaders_);
+    other_place.set_memory()->begin_with(learnt);
+    other_place.take({&moved, 1}, 0.2);
+    RigSetState state = other_place.set_memory()->states().at(0);
+    EXPECT_FALSE(state.is_loaded);
+    EXPECT_NE(state.misfit.find("another calibration or picture size of rig only"),
+              std::string::npos)
+        << state.misfit;
+    EXPECT_EQ(state.known, 0);
+
+    learnt->rigs[0].rig = "another";
+    StagedPreparer other_rig(shaders_);
+    other_rig.set_memory()->begin_with(learnt);
+    const DepthView view = film(false);
+    other_rig.take({&view, 1}, 0.2);
+    state = other_rig.set_memory()->states().at(0);
+    EXPECT_FALSE(state.is_loaded);
+    EXPECT_NE(state.misfit.find("has none of rig only"), std::string::npos) << state.misfit;
+}
+
+/// A square that stood there from the start is no part of a set that is learnt without it, nor does
+/// a set that was loaded come back.
+TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
+    for (int i = 0; i < 8; ++i) (void)prepared(film(true));
+    preparer_.set_memory()->begin_with(
+        std::make_shared<const LearntSet>(preparer_.set_memory()->learnt()));
+    preparer_.set_memory()->learn_anew();
+    for (int i = 0; i < 6; ++i) (void)prepared(film(false));
+    EXPECT_EQ(preparer_.set_memory()->states().at(0).known, 1);
+    EXPECT_FALSE(preparer_.set_memory()->states()[0].is_loaded);
+    const LearntRigSet set = preparer_.set_memory()->learnt().rigs.at(0);
+    EXPECT_LT(cv::norm(set.depth_m, DepthImage(set.depth_m.size(), wall_m), cv::NORM_INF), 0.02);
+    preparer_.forget();
+    (void)prepared(film(false));
+    EXPECT_FALSE(preparer_.set_memory()->states().at(0).is_loaded);
+}
+
 }  // namespace
 }  // namespace vantage
