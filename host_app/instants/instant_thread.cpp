@@ -242,7 +242,8 @@ void InstantThread::tend_set(InstantPreparer* preparer) {
     for (std::promise<LearntSet>& one : asked) {
         try {
             if (preparer && !memory)
-                fail("the synthesiser {} learns no set: choose another (F2)", last_.synthesiser);
+                fail("the synthesiser {} learns no set: choose another (--synth, F2)",
+                     last_.synthesiser);
             LearntSet set = memory ? memory->learnt() : LearntSet();
             if (set.rigs.empty()) fail("nothing is known of the set: no rig has shown any yet");
             one.set_value(std::move(set));

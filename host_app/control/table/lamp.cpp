@@ -70,8 +70,8 @@ std::span<const Lamp> lamps() { return all; }
 
 const char* kind_words(const Lamp& lamp) {
     const LampValue value = lamp.of({});
-    if (std::holds_alternative<bool>(value)) return "on or off";
-    return std::holds_alternative<double>(value) ? "a number" : "a word";
+    if (std::holds_alternative<bool>(value)) return "switch";
+    return std::holds_alternative<double>(value) ? "number" : "word";
 }
 
 }  // namespace vantage

@@ -46,7 +46,7 @@ struct Lamp {
 /// All of them, in the order in which people are shown them.
 std::span<const Lamp> lamps();
 
-/// "on or off", "a number", "a word".
+/// "switch", "number", "word".
 const char* kind_words(const Lamp& lamp);
 
 }  // namespace vantage
