@@ -93,7 +93,7 @@ TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
     for (int i = 0; i < 3000 && show.err().find("is a move of") == std::string::npos; ++i)
         usleep(20'000);
     show.send_signal(SIGINT);
-    EXPECT_EQ(show.wait().status, 0) << show.err();
+    EXPECT_EQ(show.wait().status, 130) << show.err();
     const FlightBook book = load_flight(flight);
     ASSERT_TRUE(book.move);
     EXPECT_TRUE(book.move->take_s_at(0));
