@@ -185,6 +185,7 @@ TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {
 
 TEST_F(TakeProcesses, GapsOfTheHostsTakeAreFetchedFromTheRigs) {
     run(live({"--frames", "5", "--take", file("one.mkv")}));
+    sleep(1);  // five pulses, however fast the next host is there
     run(live({"--frames", "5", "--take", file("two.mkv")}));
     run({"take", "join", file("one.mkv"), file("two.mkv"), "-o", file("gaps.mkv"), "--json"});
     ASSERT_FALSE(check_take(TakeReader(file("gaps.mkv"))).is_whole())
