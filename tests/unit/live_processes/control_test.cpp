@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -13,8 +12,8 @@
 #include "host_app/flight/flight_book.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/free_ports.h"
 #include "tests/support/source_folder.h"
+#include "tests/unit/live_processes/steered_show.h"
 
 namespace vantage {
 namespace {
@@ -22,35 +21,20 @@ namespace {
 /// A take that is played, steered by oscsend and watched by oscdump, each a process of its own.
 TEST(Control, OfOthersSteersAShowWhoseLampsTheySee) {
     const TemporaryFolder folder;
-    const auto [port, lamps] = two_free_ports();
-    ChildProgram watcher("/usr/bin/stdbuf", {"-oL", "oscdump", std::to_string(lamps)},
-                         folder.path());
-    ChildProgram show(VANTAGE_PROGRAM,
-                      {"play", (source_folder() / "tests/takes/version_1.mkv").string(),
-                       "--headless", "--size", "96x72", "--loop", "--seconds", "300", "--json",
-                       "--control", fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)},
-                      folder.path());
-    const auto is_told = [&](const std::string& words) {
-        for (int i = 0; i < 3000; ++i) {
-            if (watcher.out().find(words) != std::string::npos) return true;
-            usleep(20'000);
-        }
-        return false;
-    };
-    const auto oscsend = [&](const std::string& words) {
-        return std::system(fmt::format("oscsend 127.0.0.1 {} {}", port, words).c_str()) == 0;
-    };
-    ASSERT_TRUE(is_told("lamp/speed f 1.0")) << watcher.out() << show.err();
-    ASSERT_TRUE(oscsend("/vantage/mark_in"));
-    EXPECT_TRUE(is_told("lamp/mark_in i 1")) << watcher.out();
-    ASSERT_TRUE(oscsend("/vantage/freeze"));
-    EXPECT_TRUE(is_told("lamp/hold i 1")) << watcher.out();
-    ASSERT_TRUE(oscsend("/vantage/no_such"));
-    ASSERT_TRUE(oscsend("/vantage/orbit f 10.0"));
-    ASSERT_TRUE(oscsend("/vantage/source_map"));
-    EXPECT_TRUE(is_told("lamp/source_map i 1")) << watcher.out();
-    show.send_signal(SIGINT);
-    const ProgramResult end = show.wait();
+    SteeredShow steered({"play", (source_folder() / "tests/takes/version_1.mkv").string(),
+                         "--headless", "--size", "96x72", "--loop", "--seconds", "300", "--json"},
+                        folder);
+    ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/mark_in"));
+    EXPECT_TRUE(steered.is_told("lamp/mark_in i 1")) << steered.told();
+    ASSERT_TRUE(steered.send("/vantage/freeze"));
+    EXPECT_TRUE(steered.is_told("lamp/hold i 1")) << steered.told();
+    ASSERT_TRUE(steered.send("/vantage/no_such"));
+    ASSERT_TRUE(steered.send("/vantage/orbit f 10.0"));
+    ASSERT_TRUE(steered.send("/vantage/source_map"));
+    EXPECT_TRUE(steered.is_told("lamp/source_map i 1")) << steered.told();
+    steered.show().send_signal(SIGINT);
+    const ProgramResult end = steered.show().wait();
     const nlohmann::json summary = nlohmann::json::parse(end.out);
     ASSERT_EQ(summary["control"].size(), 1u);
     EXPECT_EQ(summary["control"][0]["obeyed"], 4);
@@ -65,35 +49,20 @@ TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
     const std::string flight = (folder.path() / "take.flight.toml").string();
     const std::string film = (folder.path() / "film.mkv").string();
     std::filesystem::copy_file(source_folder() / "tests/takes/version_1.mkv", take);
-    const auto [port, lamps] = two_free_ports();
-    ChildProgram watcher("/usr/bin/stdbuf", {"-oL", "oscdump", std::to_string(lamps)},
-                         folder.path());
-    ChildProgram show(VANTAGE_PROGRAM,
-                      {"play", take, "--headless", "--size", "96x72", "--loop", "--seconds", "300",
-                       "--control", fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)},
-                      folder.path());
-    const auto is_told = [&](const std::string& words) {
-        for (int i = 0; i < 3000; ++i) {
-            if (watcher.out().find(words) != std::string::npos) return true;
-            usleep(20'000);
-        }
-        return false;
-    };
-    const auto oscsend = [&](const std::string& words) {
-        return std::system(fmt::format("oscsend 127.0.0.1 {} {}", port, words).c_str()) == 0;
-    };
-    ASSERT_TRUE(is_told("lamp/speed f 1.0")) << watcher.out() << show.err();
-    ASSERT_TRUE(oscsend("/vantage/store i 4"));
-    ASSERT_TRUE(oscsend("/vantage/record"));
-    ASSERT_TRUE(is_told("lamp/record i 1")) << watcher.out();
-    ASSERT_TRUE(oscsend("/vantage/orbit f 12.0"));
-    ASSERT_TRUE(oscsend("/vantage/source_map"));
-    ASSERT_TRUE(is_told("lamp/source_map i 1")) << "the turn was taken in a step before";
-    ASSERT_TRUE(oscsend("/vantage/record"));
-    for (int i = 0; i < 3000 && show.err().find("is a move of") == std::string::npos; ++i)
+    SteeredShow steered(
+        {"play", take, "--headless", "--size", "96x72", "--loop", "--seconds", "300"}, folder);
+    ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/store i 4"));
+    ASSERT_TRUE(steered.send("/vantage/record"));
+    ASSERT_TRUE(steered.is_told("lamp/record i 1")) << steered.told();
+    ASSERT_TRUE(steered.send("/vantage/orbit f 12.0"));
+    ASSERT_TRUE(steered.send("/vantage/source_map"));
+    ASSERT_TRUE(steered.is_told("lamp/source_map i 1")) << "the turn was taken in a step before";
+    ASSERT_TRUE(steered.send("/vantage/record"));
+    for (int i = 0; i < 3000 && steered.show().err().find("is a move of") == std::string::npos; ++i)
         usleep(20'000);
-    show.send_signal(SIGINT);
-    EXPECT_EQ(show.wait().status, 130) << show.err();
+    steered.show().send_signal(SIGINT);
+    EXPECT_EQ(steered.show().wait().status, 130) << steered.show().err();
     const FlightBook book = load_flight(flight);
     ASSERT_TRUE(book.move);
     EXPECT_TRUE(book.move->take_s_at(0));

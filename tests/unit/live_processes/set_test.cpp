@@ -1,16 +1,13 @@
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/free_ports.h"
 #include "tests/support/source_folder.h"
+#include "tests/unit/live_processes/steered_show.h"
 
 namespace vantage {
 namespace {
@@ -60,30 +57,14 @@ TEST_F(Sets, AreSavedAtTheEndAndBegunWith) {
 }
 
 TEST_F(Sets, AreSavedWhileAShowRunsByACommandThatADeskSees) {
-    const auto [port, lamps] = two_free_ports();
-    ChildProgram watcher("/usr/bin/stdbuf", {"-oL", "oscdump", std::to_string(lamps)},
-                         folder_.path());
-    ChildProgram show(
-        VANTAGE_PROGRAM,
-        played({"--loop", "--seconds", "300", "--save-set", at("by_hand.vset"), "--control",
-                fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)}),
-        folder_.path());
-    const auto is_told = [&](const std::string& words) {
-        for (int i = 0; i < 3000; ++i) {
-            if (watcher.out().find(words) != std::string::npos) return true;
-            usleep(20'000);
-        }
-        return false;
-    };
-    const auto oscsend = [&](const std::string& words) {
-        return std::system(fmt::format("oscsend 127.0.0.1 {} {}", port, words).c_str()) == 0;
-    };
-    ASSERT_TRUE(is_told("lamp/speed f 1.0")) << watcher.out() << show.err();
-    ASSERT_TRUE(oscsend("/vantage/save_set"));
-    EXPECT_TRUE(is_told("by_hand.vset")) << watcher.out() << show.err();
-    ASSERT_TRUE(oscsend("/vantage/learn_set"));
-    show.send_signal(SIGINT);
-    const ProgramResult end = show.wait();
+    SteeredShow steered(played({"--loop", "--seconds", "300", "--save-set", at("by_hand.vset")}),
+                        folder_);
+    ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/save_set"));
+    EXPECT_TRUE(steered.is_told("by_hand.vset")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/learn_set"));
+    steered.show().send_signal(SIGINT);
+    const ProgramResult end = steered.show().wait();
     EXPECT_EQ(nlohmann::json::parse(end.out)["saved_set"], at("by_hand.vset"));
     EXPECT_TRUE(std::filesystem::exists(at("by_hand.vset")));
     EXPECT_FALSE(std::filesystem::exists(at("by_hand-2.vset")));

@@ -1,0 +1,43 @@
+#include "tests/unit/live_processes/steered_show.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "tests/support/free_ports.h"
+
+namespace vantage {
+namespace {
+
+std::vector<std::string> steered(std::vector<std::string> arguments, int port, int lamps) {
+    arguments.insert(arguments.end(),
+                     {"--control", fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)});
+    return arguments;
+}
+
+}  // namespace
+
+SteeredShow::SteeredShow(std::vector<std::string> arguments, const TemporaryFolder& folder)
+    : SteeredShow(std::move(arguments), folder, two_free_ports()) {}
+
+SteeredShow::SteeredShow(std::vector<std::string> arguments, const TemporaryFolder& folder,
+                         std::pair<int, int> ports)
+    : port_(ports.first),
+      watcher_("/usr/bin/stdbuf", {"-oL", "oscdump", std::to_string(ports.second)}, folder.path()),
+      show_(VANTAGE_PROGRAM, steered(std::move(arguments), ports.first, ports.second),
+            folder.path()) {}
+
+bool SteeredShow::send(const std::string& words) const {
+    return std::system(fmt::format("oscsend 127.0.0.1 {} {}", port_, words).c_str()) == 0;
+}
+
+bool SteeredShow::is_told(const std::string& words) const {
+    for (int i = 0; i < 3000; ++i) {
+        if (watcher_.out().find(words) != std::string::npos) return true;
+        usleep(20'000);
+    }
+    return false;
+}
+
+}  // namespace vantage
