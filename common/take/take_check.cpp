@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/take/take_pulses.h"
 
 namespace vantage {
 namespace {
@@ -55,16 +56,11 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
 TakeVerdict check_take(const TakeReader& take, const std::function<void(double)>& progress) {
     TakeVerdict verdict;
     verdict.damage = take.damage();
-    std::uint64_t all = 0, done = 0, first = ~std::uint64_t{0}, last = 0;
+    std::uint64_t all = 0, done = 0;
+    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) all += take.frames(rig).size();
+    const PulseSpan span = all > 0 ? pulse_span_of(take) : PulseSpan();
     for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
-        const std::vector<TakeReader::Frame>& frames = take.frames(rig);
-        all += frames.size();
-        if (frames.empty()) continue;
-        first = std::min(first, frames.front().pulse);
-        last = std::max(last, frames.back().pulse);
-    }
-    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
-        if (all > 0) find_gaps(take, rig, first, last, verdict.gaps);
+        if (all > 0) find_gaps(take, rig, span.first, span.last, verdict.gaps);
         for (const TakeReader::Frame& frame : take.frames(rig)) {
             try {
                 take.load(rig, frame);

@@ -16,6 +16,7 @@
 #include "common/base/time_zone.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
+#include "common/take/take_pulses.h"
 #include "common/wire/status_report.h"
 #include "host_app/commands/take_time.h"
 #include "host_app/live/live_report.h"

@@ -234,25 +234,26 @@ void ShowSession::keep_flights(const SessionWishes& wishes) {
 /// Finds surfaces for hands that name them by a place in the picture, and the performer whom the
 /// pivot goes with.
 void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
-    const std::shared_ptr<const MadePicture> picture = show.state().picture;
-    if (!picture) return;
-    const FrameSet& set = *picture->job.instant->set;
     FlightControls& controls = show.controls();
+    const bool is_following = controls.lines().is_following;
+    if (!wishes.pick && !is_following) return;
+    const ProgrammeState programme = show.state();
+    if (!programme.picture) return;
+    const PictureJob& job = programme.picture->job;
+    const FrameSet& set = *job.instant->set;
     if (wishes.pick) {
         const PictureFormat& format = show.settings().format;
         FlightInput input;
-        input.pivot_m =
-            surface_at(set, picture->job.camera,
-                       static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
+        input.pivot_m = surface_at(
+            set, job.camera, static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
         if (input.pivot_m)
             controls.hands().put(input, now);
         else
             log_info("no rig has a depth there: the pivot stays");
     }
-    if (!controls.lines().is_following || set.complete == followed) return;
+    if (!is_following || set.complete == followed) return;
     followed = set.complete;
-    if (const auto pivot_m = performer_near(set, show.state().view.pivot_m))
-        controls.follow(*pivot_m);
+    if (const auto pivot_m = performer_near(set, programme.view.pivot_m)) controls.follow(*pivot_m);
 }
 
 /// What hands asked for beyond the programme itself.

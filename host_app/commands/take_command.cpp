@@ -12,6 +12,7 @@
 #include "common/base/timecode.h"
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
+#include "common/take/take_pulses.h"
 #include "host_app/commands/film_options.h"
 #include "host_app/commands/take_time.h"
 #include "host_app/exports/take_export.h"

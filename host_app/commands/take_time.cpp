@@ -9,17 +9,6 @@
 
 namespace vantage {
 
-PulseSpan pulse_span_of(const TakeReader& take) {
-    PulseSpan span{~std::uint64_t{0}, 0};
-    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
-        if (take.frames(rig).empty()) continue;
-        span.first = std::min(span.first, take.frames(rig).front().pulse);
-        span.last = std::max(span.last, take.frames(rig).back().pulse);
-    }
-    if (span.first > span.last) fail("{} holds no frame", take.path().string());
-    return span;
-}
-
 std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uint64_t first,
                        std::uint64_t last) {
     const PulseGrid pulses(take.facts().pulse_rate_hz);

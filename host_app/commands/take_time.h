@@ -7,12 +7,6 @@
 
 namespace vantage {
 
-struct PulseSpan {
-    std::uint64_t first = 0, last = 0;
-};
-/// Of all its rigs. Throws Error if it holds no frame.
-PulseSpan pulse_span_of(const TakeReader& take);
-
 /// The pulse that a person names by its time in a take of pulses `first` to `last`: "12.5", seconds
 /// after its beginning, or "10:00:12:05", the house's time code in this process's zone. May be the
 /// one after `last`. Throws Error if the words are neither, or the code is not in the take.

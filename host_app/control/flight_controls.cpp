@@ -118,10 +118,7 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
         change->is_of_move |= wishes_.change && wishes_.change->is_of_move;
         wishes_.change = std::move(change);
     }
-    if (!is_recording_ && !flight_.empty()) {
-        wishes_.flight = std::exchange(flight_, {});
-        wishes_.limits = helm_.limits();
-    }
+    if (!is_recording_) pass_flight_on();
     if (hands.pick) wishes_.pick = hands.pick;
     wishes_.save_set |= hands.save_set;
     wishes_.learn_set |= hands.learn_set;
@@ -224,6 +221,10 @@ SessionWishes FlightControls::take_wishes() {
 
 void FlightControls::end_recording() {
     const std::lock_guard lock(mutex_);
+    pass_flight_on();
+}
+
+void FlightControls::pass_flight_on() {
     if (flight_.empty()) return;
     wishes_.flight = std::exchange(flight_, {});
     wishes_.limits = helm_.limits();

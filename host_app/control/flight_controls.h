@@ -121,6 +121,8 @@ class FlightControls final : public Pilot {
     /// Keeps the step's camera while a flight is recorded.
     void record(const FlightInput& hands, const PilotStep& step, double time_s,
                 std::optional<double> take_s);
+    /// What was recorded, to the session. Precondition: mutex_ is held.
+    void pass_flight_on();
     void note_coverage(const Corridor* corridor, const CameraState& camera, double dt_s);
 
     Settings settings_;

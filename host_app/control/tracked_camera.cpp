@@ -2,26 +2,12 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
+#include "host_app/flight/move.h"
 
 namespace vantage {
 namespace {
 
 constexpr double glide_s = 0.8;
-
-CameraState mixed(const CameraState& a, const CameraState& b, double share_of_b) {
-    const auto mix = [&](auto from, auto to) { return from + share_of_b * (to - from); };
-    CameraState state;
-    state.world_from_camera.translation() = mix(Eigen::Vector3d(a.world_from_camera.translation()),
-                                                Eigen::Vector3d(b.world_from_camera.translation()));
-    state.world_from_camera.linear() =
-        Eigen::Quaterniond(a.world_from_camera.linear())
-            .slerp(share_of_b, Eigen::Quaterniond(b.world_from_camera.linear()))
-            .toRotationMatrix();
-    state.field_of_view_rad = mix(a.field_of_view_rad, b.field_of_view_rad);
-    state.focus_m = mix(a.focus_m, b.focus_m);
-    return state;
-}
 
 }  // namespace
 
@@ -44,7 +30,7 @@ void CameraGlide::begin() {
 CameraState CameraGlide::step(const CameraState& flown, double dt_s) {
     remaining_ = std::max(0.0, remaining_ - dt_s / glide_s);
     const double gone = 1 - remaining_;
-    shown_ = remaining_ > 0 ? mixed(*from_, flown, gone * gone * (3 - 2 * gone)) : flown;
+    shown_ = remaining_ > 0 ? mixed(*from_, flown, eased(gone)) : flown;
     return *shown_;
 }
 

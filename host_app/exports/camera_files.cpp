@@ -18,9 +18,12 @@ constexpr double deg = 180 / std::numbers::pi;
 
 }  // namespace
 
+CameraState camera_of(const CameraRecord& record) {
+    return {record.world_from_camera, record.field_of_view_rad, record.focus_m};
+}
+
 std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera) {
-    return encode_freed(
-        freed_camera({camera.world_from_camera, camera.field_of_view_rad, camera.focus_m}, 1));
+    return encode_freed(freed_camera(camera_of(camera), 1));
 }
 
 void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> cameras,

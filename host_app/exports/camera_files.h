@@ -10,6 +10,9 @@
 
 namespace vantage {
 
+/// Of a tick.
+CameraState camera_of(const CameraRecord& record);
+
 /// A camera in a FreeD message, as freed_camera() says it.
 std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera);
 

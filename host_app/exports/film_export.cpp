@@ -6,6 +6,8 @@
 #include "common/base/error.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
+#include "common/take/take_pulses.h"
+#include "host_app/exports/camera_files.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/depth_views.h"
 #include "host_app/output/set_timecode.h"
@@ -24,33 +26,12 @@ constexpr double longest_gap_s = 1;
 constexpr double film_quality = 16;
 constexpr std::size_t most_pictures = 10'000'000;
 
-PastSets::Span span_of(const TakeReader& take) {
-    PastSets::Span span{~std::uint64_t{0}, 0, 0, take.bytes()};
-    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig) {
-        if (take.frames(rig).empty()) continue;
-        span.oldest = std::min(span.oldest, take.frames(rig).front().pulse);
-        span.newest = std::max(span.newest, take.frames(rig).back().pulse);
-    }
-    if (span.oldest > span.newest) fail("{} holds no frame", take.path().string());
-    return span;
-}
-
 std::size_t pictures_of(double duration_s, double rate_hz) {
     const double count = std::max(1.0, std::round(duration_s * rate_hz));
     if (count > most_pictures)
         fail("a film of {:.0f} s at {:g} pictures a second has too many of them: {} are the most",
              duration_s, rate_hz, most_pictures);
     return static_cast<std::size_t>(count);
-}
-
-CameraState camera_of(const CameraRecord& record) {
-    return {record.world_from_camera, record.field_of_view_rad, record.focus_m};
-}
-
-CameraState between(const CameraRecord& a, const CameraRecord& b, double share) {
-    const auto mix = [&](double from, double to) { return from + share * (to - from); };
-    return {interpolate(a.world_from_camera, b.world_from_camera, share),
-            mix(a.field_of_view_rad, b.field_of_view_rad), mix(a.focus_m, b.focus_m)};
 }
 
 /// Instants of a take, in the order in which they are asked for.
@@ -71,13 +52,7 @@ class FilmInstants {
                                 : 2 * longest_gap_s;
         set_ = sets_.at(static_cast<double>(there));
         if (dt_s > longest_gap_s) preparer_->forget();
-        std::vector<DepthView> views;
-        for (const FrameSet::Slot& slot : set_->slots) {
-            if (!slot.frame) continue;
-            views.push_back(depth_view_of(*slot.frame));
-            const auto colour = show_.colours.find(slot.rig);
-            if (colour != show_.colours.end()) views.back().colour_correction = colour->second;
-        }
+        std::vector<DepthView> views = depth_views_of(*set_, show_.colours);
         harmoniser_.see(views, std::min(dt_s, longest_gap_s));
         for (DepthView& view : views) harmoniser_.apply(view);
         preparer_->take(views, std::min(dt_s, longest_gap_s));
@@ -102,11 +77,11 @@ class FilmInstants {
 
 std::vector<FilmPicture> film_of(const Move& move, const TakeReader& take, const TakePart& part,
                                  double rate_hz) {
-    const PastSets::Span span = span_of(take);
+    const PulseSpan span = pulse_span_of(take);
     const double pulse_rate_hz = take.facts().pulse_rate_hz;
     const bool leads = move.take_s_at(0).has_value();
-    const auto first = static_cast<double>(leads ? span.oldest : std::max(part.from, span.oldest));
-    const auto last = static_cast<double>(std::min(part.to, span.newest + 1));
+    const auto first = static_cast<double>(leads ? span.first : std::max(part.from, span.first));
+    const auto last = static_cast<double>(std::min(part.to, span.last + 1));
     const double duration_s = leads ? move.duration_s() : (last - first) / pulse_rate_hz;
     if (duration_s < 0) fail("{} has no frame in that part", take.path().string());
     std::vector<FilmPicture> pictures(pictures_of(duration_s, rate_hz));
@@ -141,9 +116,10 @@ std::vector<FilmPicture> film_of_cameras(const TakeReader& take, const TakePart&
         const auto here = static_cast<std::size_t>(at);
         const CameraRecord& a = ticks[here];
         pictures[i].pulse = static_cast<double>(a.pulse);
-        pictures[i].camera = here + 1 < ticks.size()
-                                 ? between(a, ticks[here + 1], at - static_cast<double>(here))
-                                 : camera_of(a);
+        pictures[i].camera =
+            here + 1 < ticks.size()
+                ? mixed(camera_of(a), camera_of(ticks[here + 1]), at - static_cast<double>(here))
+                : camera_of(a);
     }
     return pictures;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <set>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "common/base/folder.h"
+#include "common/take/take_pulses.h"
 #include "host_app/exports/camera_files.h"
 #include "host_app/exports/moment.h"
 #include "host_app/exports/moment_folders.h"
@@ -27,14 +27,6 @@ constexpr std::array<ExportFormat, 4> formats{{
      write_training_folder},
     {"views", "a view set for vantage render, a folder a moment", "", write_view_set},
 }};
-
-/// Of a take with frames.
-std::uint64_t first_pulse(const TakeReader& take) {
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
-    for (std::size_t rig = 0; rig < take.facts().rigs.size(); ++rig)
-        if (!take.frames(rig).empty()) first = std::min(first, take.frames(rig).front().pulse);
-    return first;
-}
 
 std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& part) {
     std::set<std::uint64_t> pulses;
@@ -92,7 +84,7 @@ ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, c
     const std::vector<std::uint64_t> pulses = pulses_of(take, part);
     if (pulses.empty()) fail("{} is not written: no frame is in that part", folder.string());
     claim(folder, take, format.name);
-    const std::uint64_t first = first_pulse(take);
+    const std::uint64_t first = pulse_span_of(take).first;
     MomentReader reader(take);
     ExportBooks books;
     for (std::size_t i = 0; i < pulses.size(); ++i) {

@@ -30,4 +30,10 @@ bool is_same_view(const CameraState& a, const CameraState& b) {
            std::abs(a.field_of_view_rad - b.field_of_view_rad) < same_angle_rad;
 }
 
+CameraState mixed(const CameraState& a, const CameraState& b, double share_of_b) {
+    const auto mix = [&](double from, double to) { return from + share_of_b * (to - from); };
+    return {interpolate(a.world_from_camera, b.world_from_camera, share_of_b),
+            mix(a.field_of_view_rad, b.field_of_view_rad), mix(a.focus_m, b.focus_m)};
+}
+
 }  // namespace vantage

@@ -20,4 +20,7 @@ struct CameraState {
 /// Whether a picture of one would not differ visibly from one of the other.
 bool is_same_view(const CameraState& a, const CameraState& b);
 
+/// On the straight way from one to the other; 0: `a`, 1: `b`.
+CameraState mixed(const CameraState& a, const CameraState& b, double share_of_b);
+
 }  // namespace vantage

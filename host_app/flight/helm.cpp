@@ -129,7 +129,7 @@ OrbitView Helm::view() const {
     OrbitView on_move = move_->at(move_s_);
     if (joining_ <= 0) return on_move;
     const double gone = 1 - joining_;
-    const OrbitView view = mixed(joined_from_, on_move, gone * gone * (3 - 2 * gone));
+    const OrbitView view = mixed(joined_from_, on_move, eased(gone));
     return move_->path() == MovePath::orbit ? constrained(view, limits_) : view;
 }
 
@@ -337,8 +337,8 @@ void Helm::advance(double dt_s) {
         ShotFlight& flight = *shot_flight_;
         flight.gone_s = std::min(flight.gone_s + dt_s, flight.duration_s);
         const double s = flight.gone_s / flight.duration_s;
-        camera_.jump_to(mixed(flight.from, flight.to,
-                              flight.easing == Easing::linear ? s : s * s * (3 - 2 * s)));
+        camera_.jump_to(
+            mixed(flight.from, flight.to, flight.easing == Easing::linear ? s : eased(s)));
         if (s >= 1) shot_flight_.reset();
     }
     if (holds_horizon_) camera_.level();

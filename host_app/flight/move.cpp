@@ -46,8 +46,6 @@ Eigen::Quaterniond turn_by(const Eigen::Vector3d& vector) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
 }
 
-double eased(double s) { return s * s * (3 - 2 * s); }
-
 }  // namespace
 
 Move::Move(std::vector<MoveKeyframe> keyframes, bool loop, const FlightLimits& limits,

@@ -18,6 +18,9 @@ enum class Easing {
     cut,     ///< stays, and jumps at the next keyframe
 };
 
+/// 0..1 from rest to rest, at 0..1 of the time.
+inline double eased(double s) { return s * s * (3 - 2 * s); }
+
 /// What runs from keyframe to keyframe.
 enum class MovePath {
     orbit,  ///< pivot, azimuth, elevation, roll, the logarithm of the distance

@@ -183,13 +183,7 @@ std::optional<FrameSet> InstantThread::past_set(const InstantWish& wish, std::ui
 }
 
 std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
-    std::vector<DepthView> views;
-    for (const FrameSet::Slot& slot : set.slots) {
-        if (!slot.frame) continue;
-        views.push_back(depth_view_of(*slot.frame));
-        const auto colour = settings_.colours.find(slot.rig);
-        if (colour != settings_.colours.end()) views.back().colour_correction = colour->second;
-    }
+    std::vector<DepthView> views = depth_views_of(set, settings_.colours);
     if (!settings_.harmonise) return views;
     if (is_counted) {
         const double pulses = last_harmonised_ && set.trigger_index > *last_harmonised_

@@ -65,7 +65,6 @@ void SetLearner::learn(RigHistory& rig) {
     see.set("picture", 1);
     see.set("set_colour", 2);
     see.set("set_state", 3);
-    see.set("known_after", known_after(rig));
     set_votes(see);
     rig.depth().bind(0);
     rig.fresh_colour().bind(1);

@@ -29,13 +29,10 @@ std::vector<cv::Vec4b> cividis() {
 
 }  // namespace
 
-DepthImage depth_of(const DisparityImage& disparity, const RectifiedStereo& geometry) {
+DepthImage depth_of(const DisparityImage& disparity, const DisparityScale& scale) {
     DepthImage depth(disparity.size());
-    std::transform(disparity.begin(), disparity.end(), depth.begin(), [&](unsigned short code) {
-        if (code == 0) return 0.0f;
-        return static_cast<float>(
-            geometry.depth_m(static_cast<double>(code) / disparity_steps_per_px));
-    });
+    std::transform(disparity.begin(), disparity.end(), depth.begin(),
+                   [&](std::uint16_t steps) { return scale.depth_m(steps); });
     return depth;
 }
 

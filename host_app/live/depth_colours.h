@@ -1,12 +1,12 @@
 #pragma once
 
-#include "common/geometry/rectified_stereo.h"
 #include "common/image/image.h"
+#include "host_app/instants/depth_view.h"
 
 namespace vantage {
 
-/// Depth of every pixel; 0 = unknown. `geometry` is of the disparity's own width.
-DepthImage depth_of(const DisparityImage& disparity, const RectifiedStereo& geometry);
+/// Depth of every pixel; 0 = unknown.
+DepthImage depth_of(const DisparityImage& disparity, const DisparityScale& scale);
 
 /// The depths that a picture of depth tells apart: those of the scene itself, without the nearest
 /// and the farthest fiftieth. It follows slowly, so that colours keep their meaning from picture to

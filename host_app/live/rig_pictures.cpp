@@ -39,14 +39,8 @@ void RigPictures::take(const FrameSet& set) {
             DisparityImage small;
             cv::resize(frame.disparity, small, reduced(frame.disparity.size()), 0, 0,
                        cv::INTER_NEAREST);
-            // Disparities are in pixels of their own picture's width.
-            RectifiedStereo geometry = frame.geometry;
-            const double scale =
-                static_cast<double>(frame.disparity.cols) / std::max(1, geometry.width_px);
-            geometry.f_px *= scale;
-            geometry.cx_left_px *= scale;
-            geometry.cx_right_px *= scale;
-            const DepthImage depth = depth_of(small, geometry);
+            const DepthImage depth =
+                depth_of(small, DisparityScale(frame.geometry, frame.disparity.cols));
             pictures.range.follow(depth);
             show(pictures.depth, depth_colours(depth, pictures.range));
         }

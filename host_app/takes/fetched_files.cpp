@@ -9,7 +9,7 @@
 #include "common/base/timecode.h"
 #include "common/base/version.h"
 #include "common/take/kept_files.h"
-#include "common/take/take_reader.h"
+#include "common/take/take_pulses.h"
 
 namespace vantage {
 
@@ -18,11 +18,8 @@ FetchedFiles::FetchedFiles(std::filesystem::path folder, std::string rig,
     : folder_(std::move(folder)), rig_(std::move(rig)), show_(std::move(show)) {
     for (const KeptFile& file : kept_files(folder_, rig_)) {
         try {
-            const TakeReader take(file.path);
-            for (std::size_t i = 0; i < take.facts().rigs.size(); ++i)
-                if (take.facts().rigs[i].name == rig_)
-                    for (const TakeReader::Frame& frame : take.frames(i))
-                        there_.push_back(frame.pulse);
+            const std::vector<std::uint64_t> in_file = pulses_of_rig(TakeReader(file.path), rig_);
+            there_.insert(there_.end(), in_file.begin(), in_file.end());
         } catch (const Error& error) {
             log_warning("{}: what is in it is fetched again", error.what());
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/take/take_pulses.h"
 #include "common/wire/zmq_helpers.h"
 #include "host_app/takes/take_show.h"
 
@@ -12,14 +13,6 @@ namespace {
 constexpr std::chrono::seconds progress_period{2};
 /// Between two looks whether it is to end.
 constexpr std::chrono::milliseconds longest_wait{100};
-
-std::vector<std::uint64_t> pulses_in(const TakeReader& take, const std::string& rig) {
-    std::vector<std::uint64_t> pulses;
-    for (std::size_t i = 0; i < take.facts().rigs.size(); ++i)
-        if (take.facts().rigs[i].name == rig)
-            for (const TakeReader::Frame& frame : take.frames(i)) pulses.push_back(frame.pulse);
-    return pulses;
-}
 
 }  // namespace
 
@@ -40,7 +33,7 @@ std::vector<FetchBooks> KeptFetch::run(const StageConfig& stage,
         FetchedFiles files(folder, rig.name, show);
         std::vector<std::uint64_t> there = files.there();
         if (take) {
-            const std::vector<std::uint64_t> in_take = pulses_in(*take, rig.name);
+            const std::vector<std::uint64_t> in_take = pulses_of_rig(*take, rig.name);
             there.insert(there.end(), in_take.begin(), in_take.end());
             std::sort(there.begin(), there.end());
         }

@@ -62,9 +62,11 @@ TEST(DepthColoursTest, DepthComesOfTheDisparitysOwnWidth) {
     RectifiedStereo geometry;
     geometry.f_px = 100;
     geometry.baseline_m = 0.2;
+    geometry.width_px = 2;
+    const DisparityScale scale(geometry, 2);
     const DisparityImage disparity(1, 2, static_cast<unsigned short>(5 * disparity_steps_per_px));
-    EXPECT_NEAR(depth_of(disparity, geometry)(0, 0), 4, 1e-5);
-    EXPECT_EQ(depth_of(DisparityImage::zeros(1, 2), geometry)(0, 1), 0);
+    EXPECT_NEAR(depth_of(disparity, scale)(0, 0), 4, 1e-5);
+    EXPECT_EQ(depth_of(DisparityImage::zeros(1, 2), scale)(0, 1), 0);
 }
 
 }  // namespace
