@@ -1,7 +1,8 @@
-# How every target of Vantage is built: language level, warnings, sanitizers, and four helpers.
+# How every target of Vantage is built: language level, warnings, sanitizers, and five helpers.
 #   vantage_library(NAME DEPENDS ...)      a static library of all *.cpp of the current folder
 #   vantage_command_library(NAME ...)      the same of a program's subcommands
 #   vantage_registry(TARGET ...)           gathers backends by file name, so that adding one touches no other file
+#   vantage_embed_texts(TARGET ...)        builds files in
 #   vantage_unit_test(NAME DEPENDS ...)    one GoogleTest program of all *_test.cpp of the current folder
 
 set(CMAKE_CXX_STANDARD 20)
@@ -28,6 +29,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # False alarms of GCC's flow analysis inside the standard library and OpenCV at -O2.
   target_compile_options(vantage_options INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow
     -Wno-stringop-overread -Wno-array-bounds -Wno-restrict -Wno-dangling-reference)
+  # A class's hidden part may hold what an unnamed namespace has: nobody else sees either.
+  target_compile_options(vantage_options INTERFACE -Wno-subobject-linkage)
 endif()
 if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -59,12 +62,49 @@ function(vantage_use_precompiled name headers)
   endif()
 endfunction()
 
+# Most of the time to compile a source goes into the headers that it shares with its neighbours, so those of a module are
+# compiled several at a time: what stands in an unnamed namespace has a name of its own within its module. Backends, which
+# are alike on purpose, are compiled alone, and so is what a module names after APART.
+option(VANTAGE_UNITY "Compile several sources of a module at a time" ON)
+function(vantage_compile_together name)
+  if(VANTAGE_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
+# vantage_embed_texts(TARGET lib FUNCTION texts HEADER declares.h FILES ...)
+# Defines `std::span<const EmbeddedText> texts();`, files as they are when this is configured.
+function(vantage_embed_texts)
+  cmake_parse_arguments(ARG "" "TARGET;FUNCTION;HEADER" "FILES" ${ARGN})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARG_FILES})
+  set(entries "")
+  foreach(file ${ARG_FILES})
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} text)
+    string(APPEND entries "    {\"${name}\", R\"~toml~(${text})~toml~\"},\n")
+  endforeach()
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${ARG_FUNCTION}.cpp)
+  file(CONFIGURE OUTPUT ${embedded} @ONLY CONTENT "#include \"${ARG_HEADER}\"
+
+namespace vantage {
+namespace {
+constexpr EmbeddedText texts[] = {
+@entries@};
+}  // namespace
+std::span<const EmbeddedText> ${ARG_FUNCTION}() { return texts; }
+}  // namespace vantage
+")
+  target_sources(${ARG_TARGET} PRIVATE ${embedded})
+endfunction()
+
 function(vantage_library name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "APART;DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_use_precompiled(${name} vantage_headers)
+  vantage_compile_together(${name} ${ARG_APART})
 endfunction()
 
 # What reads a command line or checks a result spends its time elsewhere: optimising it further takes longer to compile
@@ -82,6 +122,7 @@ function(vantage_command_library name)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_optimise_little(${name})
   vantage_use_precompiled(${name} vantage_command_headers)
+  vantage_compile_together(${name})
   vantage_registry(TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
     HEADER common/base/command.h SUFFIX command FILES ${commands})
 endfunction()
@@ -98,6 +139,7 @@ function(vantage_registry)
   foreach(file ${ARG_FILES})
     get_filename_component(stem ${file} NAME_WE)
     if(stem MATCHES "_${ARG_SUFFIX}$")
+      set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       string(APPEND declarations "${ARG_TYPE} ${stem}_entry();\n")
       string(APPEND calls "    entries.push_back(${stem}_entry());\n")
     endif()

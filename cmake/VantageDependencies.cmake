@@ -16,6 +16,10 @@ pkg_check_modules(ZMQ REQUIRED IMPORTED_TARGET libzmq)
 # zmq.h stands by itself. What pkg-config names for the libraries behind it comes out in another order when it is asked
 # again, and a third of all objects would be compiled anew at the second start.
 set_target_properties(PkgConfig::ZMQ PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "" INTERFACE_COMPILE_OPTIONS "")
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(AVAHI REQUIRED IMPORTED_TARGET avahi-client)
+# It asks for threads by a definition, which the precompiled headers do not have.
+set_target_properties(PkgConfig::AVAHI PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
@@ -23,8 +27,12 @@ pkg_check_modules(LIBGPIOD REQUIRED IMPORTED_TARGET libgpiodcxx>=2.0)
 pkg_check_modules(LIBCAMERA REQUIRED IMPORTED_TARGET libcamera>=0.3)
 pkg_check_modules(HIDAPI REQUIRED IMPORTED_TARGET hidapi-hidraw)
 pkg_check_modules(LIBLO REQUIRED IMPORTED_TARGET liblo)
+pkg_check_modules(MICROHTTPD REQUIRED IMPORTED_TARGET libmicrohttpd)
 pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR>=3)
+# It asks for threads by an option, which the precompiled headers do not have.
+set_target_properties(PkgConfig::OPENEXR PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 
 find_path(HPDF_INCLUDE_DIR hpdf.h REQUIRED)

@@ -1,5 +1,7 @@
-// The surface at every pixel of the virtual view: the nearest one that a rig has measured, averaged over the rigs that
-// agree on it within a soft distance. A guessed depth counts only where nobody measured.
+// The surface at every pixel of the virtual view: the nearest one that one of the two most useful rigs has measured, or,
+// where neither has, another rig, averaged over the rigs that agree on it within a soft distance. From farther aside
+// errors of depth are longer, and would stand before what those two see. A guessed depth counts only where nobody
+// measured.
 #include "rig_layers.glsl"
 
 uniform float softness;  // relative depth within which two surfaces are one
@@ -24,7 +26,18 @@ void main() {
         else                                                    \
             measured = min(measured, z[i]);                     \
     }
-    FOR_LAYERS(LOOK)
+    LOOK(0)
+#if LAYERS > 1
+    LOOK(1)
+#endif
+#if LAYERS > 2
+    float by_the_first = measured;
+    LOOK(2)
+#if LAYERS > 3
+    LOOK(3)
+#endif
+    if (by_the_first < nothing) measured = by_the_first;
+#endif
     float nearest = measured < nothing ? measured : guessed;
     fused_depth = 0.0;
     if (nearest == nothing) return;

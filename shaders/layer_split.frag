@@ -15,12 +15,13 @@ uniform float edge_ratio;     // two depths whose ratio is larger lie on two sur
 #if DEPTH
 layout(location = 0) out float layer_z;  // metres, 0 = nothing
 #else
-layout(location = 0) out vec4 layer_colour;  // alpha: the matte
+layout(location = 0) out vec4 layer_colour;  // alpha: the matte; of the main layer how much of the pixel shows it
 #endif
 
-const int reach = 2;             // px from an edge to which lens and sensor mix colours
-const float blur_px = 0.75;      // standard deviation of that mixing
-const float nearness_px = 2.0;   // of the pixels that tell the pure colours
+const int reach = 1;             // px from an edge to which lens and sensor mix colours; a wider strip guesses more than it mends
+const float blur_px = 0.65;      // standard deviation of that mixing
+const float nearness_px = 1.5;   // of the pixels that tell the pure colours
+const float least_shown = 0.02;  // what goes on behind the edge is guessed, and better than nothing
 const float area_worth = 0.05;   // of the areas' word on the matte, against a squared colour contrast
 
 float depth_at(ivec2 at, ivec2 size) {
@@ -92,7 +93,7 @@ void main() {
 #if BOUNDARY
     layer_colour = vec4(mix(f, c, smoothstep(0.6, 1.0, share)), share);
 #else
-    layer_colour = vec4(mix(c, b, smoothstep(0.0, 0.4, share)), 1.0);
+    layer_colour = vec4(mix(c, b, smoothstep(0.0, 0.4, share)), max(1.0 - share, least_shown));
 #endif
 #endif
 }

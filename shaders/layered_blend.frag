@@ -4,6 +4,9 @@
 
 uniform float softness;  // relative depth within which two surfaces are one
 
+const float shown = 0.3;          // share of a pixel from which on it shows the main layer's surface
+const float guessed_alpha = 0.25;
+
 layout(location = 0) out vec4 blended;
 layout(location = 1) out float blended_z;
 
@@ -24,27 +27,34 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
-    float z[LAYERS];
-    float back = nothing, front = nothing;
-#define LOOK(i)                          \
-    z[i] = layer_z(layer_depth[i], at);  \
-    if (i % 2 == 0)                      \
-        back = min(back, z[i]);          \
-    else                                 \
-        front = min(front, z[i]);
+    float z[LAYERS], weight[LAYERS];
+    vec4 c[LAYERS];
+    float back = nothing, guessed_back = nothing, front = nothing;
+#define LOOK(i)                                                          \
+    z[i] = layer_z(layer_depth[i], at);                                  \
+    c[i] = look(i, colour[i], min(z[i], 1e6), pixel, ray, weight[i]);    \
+    if (i % 2 == 1)                                                      \
+        front = min(front, z[i]);                                        \
+    else if (c[i].a >= shown)                                            \
+        back = min(back, z[i]);                                          \
+    else                                                                 \
+        guessed_back = min(guessed_back, z[i]);
     FOR_LAYERS(LOOK)
+    // What a main layer only guesses behind its own strip counts where nobody sees it.
+    bool is_seen = back < nothing;
+    if (!is_seen) back = guessed_back;
     vec4 behind = vec4(0.0), before = vec4(0.0), shares = vec4(0.0);
-    float matte = 0.0, weight;
+    float matte = 0.0;
 #define ADD(i)                                                       \
     if (is_one(i, z[i], i % 2 == 0 ? back : front)) {                \
-        vec4 c = look(i, colour[i], z[i], pixel, ray, weight);       \
-        shares[i] += weight;                                         \
         if (i % 2 == 0) {                                            \
-            behind += weight * vec4(c.rgb, 1.0);                     \
+            weight[i] *= c[i].a;                                     \
+            behind += weight[i] * vec4(c[i].rgb, 1.0);               \
         } else {                                                     \
-            before += weight * vec4(c.rgb, 1.0);                     \
-            matte += weight * c.a;                                   \
+            before += weight[i] * vec4(c[i].rgb, 1.0);               \
+            matte += weight[i] * c[i].a;                             \
         }                                                            \
+        shares[i] += weight[i];                                      \
     }
     FOR_LAYERS(ADD)
     float share = before.a > 0.0 ? matte / before.a : 0.0;
@@ -64,6 +74,6 @@ void main() {
         return;
     }
     vec3 b = behind.rgb / behind.a;
-    blended = vec4(share > 0.0 ? mix(b, before.rgb / before.a, share) : b, 1.0);
+    blended = vec4(share > 0.0 ? mix(b, before.rgb / before.a, share) : b, is_seen || share >= 0.5 ? 1.0 : guessed_alpha);
     blended_z = share > 0.5 ? front : back;
 }

@@ -28,20 +28,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 tools/install_packages.sh bare
 
-# Everything that this computer's apt calls Debian, but for backports, in the release that is wanted.
-here=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
-sources() {
-  apt-get indextargets --format '$(ORIGIN)|$(REPO_URI)|$(CODENAME)|$(IDENTIFIER)' |
-    awk -F'|' -v here="$here" -v wanted="$codename" \
-      '$1 == "Debian" && index($3, here) == 1 && $3 !~ /-backports/ && $4 == "Packages" {
-        sub("^" here, wanted, $3); print "deb " $2 " " $3 " main" }' | sort -u
-}
-[ -n "$(sources)" ] || apt-get -qq update
-if [ -z "$(sources)" ]; then
-  echo "bare.sh: apt here knows no mirror of Debian $here, so there is nothing to make a root from" >&2
-  exit 1
-fi
-
+sources=$(tools/debian_sources.sh "$codename")
 root=$(mktemp -d "${TMPDIR:-/var/tmp}/vantage-bare-$release.XXXXXX")
 chmod 755 "$root"
 settings=$(mktemp)
@@ -62,8 +49,8 @@ say "a root of Debian $release ($codename)"
 # How this computer reaches its mirror (a proxy, say) holds in the root too.
 apt-config dump | grep -E '^Acquire::([a-z]+::([^ ]*::)?Proxy|Check-|Retries)' >"$settings" || true
 echo 'Acquire::Retries "3";' >>"$settings"
-sources | mmdebstrap --quiet --mode=root --variant=minbase --include=sudo,git,ca-certificates --aptopt="$settings" \
-  "$codename" "$root" -
+mmdebstrap --quiet --mode=root --variant=minbase --include=sudo,git,ca-certificates --aptopt="$settings" \
+  "$codename" "$root" - <<<"$sources"
 
 folder='/tmp/a folder/vantage'
 git clone -q --no-hardlinks . "$root$folder"

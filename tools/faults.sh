@@ -55,7 +55,7 @@ befall() {
 play() { # name, seconds, whether anything befalls it
   local name=$1 length=$2 troubled=$3
   rm -f out/demo/rig?.log
-  tools/demo.sh --rigs-only >"$out/ready" 2>"$out/rigs.log" &
+  build/release/bin/vantage demo --folder out --rigs-only >"$out/ready" 2>"$out/rigs.log" &
   rigs=$!
   # They draw the stage's loop first.
   until grep -q '^ready:' "$out/ready" && [ "$(grep -ls 'publishing on' out/demo/rig?.log | wc -l)" -eq 4 ]; do

@@ -11,7 +11,7 @@ esac
 mkdir -p out
 report=out/soak.json samples=out/soak_memory.txt
 : >"$samples"
-tools/demo.sh --headless --seconds "$seconds" --json >"$report" 2>out/soak.log &
+build/release/bin/vantage demo --folder out --headless --seconds "$seconds" --json >"$report" 2>out/soak.log &
 demo=$!
 trap 'kill $demo 2>/dev/null || true; wait' EXIT
 
@@ -19,7 +19,7 @@ trap 'kill $demo 2>/dev/null || true; wait' EXIT
 started=$SECONDS
 while kill -0 $demo 2>/dev/null; do
   sleep 3
-  for pid in $(pgrep -P $demo vantage || true); do
+  for pid in $demo $(pgrep -P $demo vantage || true); do
     kib=$(awk '/VmRSS/ {print $2}' "/proc/$pid/status" 2>/dev/null) || continue
     [ -n "$kib" ] && echo "$((SECONDS - started)) $(cat "/proc/$pid/comm") $pid $kib" >>"$samples"
   done

@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-constexpr double max_radius_px = 15;
+constexpr double max_marker_radius_px = 15;
 constexpr int fewest_corners = 6;
 
 /// The corners of a marker on the board, metres, clockwise from the upper left.
@@ -189,7 +189,8 @@ BoardSighting find_charuco(const GreyImage& picture, const GreyImage& exposure,
         const double clear = 0.5 * (1 - pattern.marker_m / pattern.square_m);
         const double area = std::abs(row.x() * column.y() - row.y() * column.x());
         const double across = area / std::max(row.norm(), column.norm());
-        const double radius = std::clamp(std::max(1.35 * clear, 0.25) * across, 2.5, max_radius_px);
+        const double radius =
+            std::clamp(std::max(1.35 * clear, 0.25) * across, 2.5, max_marker_radius_px);
         if (start.x() < radius || start.y() < radius || start.x() > picture.cols - 1 - radius ||
             start.y() > picture.rows - 1 - radius)
             continue;

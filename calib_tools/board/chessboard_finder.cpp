@@ -28,7 +28,7 @@ std::optional<CornerGrid> to_grid(const std::vector<cv::Point2f>& corners, cv::S
     // Pixel centres are at integers, so an enlarged picture is shifted by half a pixel.
     for (const cv::Point2f& p : corners)
         grid.pixels.emplace_back((p.x + 0.5) / scale - 0.5, (p.y + 0.5) / scale - 0.5);
-    return grid;
+    return without_strays(grid);
 }
 
 /// Neither equalised nor thresholded by neighbourhood: on an even, noisy wall either makes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "calib_tools/board/median.h"
 
@@ -88,6 +89,37 @@ CornerGrid canonical(const GreyImage& picture, const CornerGrid& grid) {
     return *std::max_element(
         candidates.begin(), candidates.end(),
         [&](const CornerGrid& a, const CornerGrid& b) { return rank(a) < rank(b); });
+}
+
+CornerGrid without_strays(const CornerGrid& grid) {
+    constexpr double stray_share = 0.4;  // of the distance between corners
+    CornerGrid led = grid;
+    for (int r = 0; r < grid.rows; ++r)
+        for (int c = 0; c < grid.columns; ++c) {
+            std::vector<double> xs, ys;
+            int lines = 0, lead_here = 0;
+            for (const auto& [dc, dr] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+                const auto is_there = [&, dc = dc, dr = dr](int step) {
+                    const int c1 = c + step * dc, r1 = r + step * dr;
+                    return c1 >= 0 && r1 >= 0 && c1 < grid.columns && r1 < grid.rows;
+                };
+                // Three of a line tell its foreshortening too.
+                if (!is_there(3)) continue;
+                const Eigen::Vector2d &first = grid.at(c + dc, r + dr),
+                                      &second = grid.at(c + 2 * dc, r + 2 * dr),
+                                      &third = grid.at(c + 3 * dc, r + 3 * dr);
+                const Eigen::Vector2d there = 3 * first - 3 * second + third;
+                ++lines;
+                if ((grid.at(c, r) - there).norm() < stray_share * (second - first).norm())
+                    ++lead_here;
+                xs.push_back(there.x());
+                ys.push_back(there.y());
+            }
+            if (2 * lead_here < lines)
+                led.pixels[static_cast<std::size_t>(r * grid.columns + c)] = {median(xs),
+                                                                              median(ys)};
+        }
+    return led;
 }
 
 double clear_radius_px(const CornerGrid& grid, int column, int row, double share) {

@@ -34,6 +34,10 @@ double even_square_brightness(const GreyImage& picture, const CornerGrid& grid);
 /// the size of the board tells them apart, and then rows that run to the right.
 CornerGrid canonical(const GreyImage& picture, const CornerGrid& grid);
 
+/// A finder may take one crossing for another: a corner to which fewer than half of the lines of
+/// the others lead is put where they lead.
+CornerGrid without_strays(const CornerGrid& grid);
+
 /// Largest radius around a corner that reaches no other edge than the two that cross there, times
 /// `share`.
 double clear_radius_px(const CornerGrid& grid, int column, int row, double share);

@@ -43,8 +43,9 @@ std::string LiveRigOption::kept_pictures(const std::string& side) const {
     return (folder().folder / (side + "*.png")).string();
 }
 
-LiveRigs LiveOption::connect(const std::vector<RigFolder>& rigs) const {
+LiveRigs LiveOption::connect(const std::vector<RigFolder>& rigs, double pictures_per_second) const {
     LiveOptions options;
+    options.pictures_per_second = pictures_per_second;
     options.stage_file = stage_file;
     for (const RigFolder& rig : rigs) options.rigs.push_back(rig.name);
     options.patience = std::chrono::seconds(patience_s);

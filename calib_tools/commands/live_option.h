@@ -24,7 +24,7 @@ struct LiveOption {
     bool given() const { return !stage_file.empty(); }
     FilmOptions film() const { return {static_cast<std::size_t>(views), go_on}; }
     /// Throws Error as LiveRigs does.
-    LiveRigs connect(const std::vector<RigFolder>& rigs) const;
+    LiveRigs connect(const std::vector<RigFolder>& rigs, double pictures_per_second = 2) const;
 };
 
 /// The same for commands that film one rig only, whose --rig goes with --live.

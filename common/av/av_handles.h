@@ -22,11 +22,17 @@ struct AvFrameDeleter {
 struct AvPacketDeleter {
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
+struct AvCodecParametersDeleter {
+    void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
+};
 struct SwsContextDeleter {
     void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
 struct AvBufferDeleter {
     void operator()(AVBufferRef* buffer) const { av_buffer_unref(&buffer); }
+};
+struct AvInputDeleter {
+    void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
 };
 /// Closes the file too, where one is open.
 struct AvOutputDeleter {
@@ -39,6 +45,8 @@ struct AvOutputDeleter {
 using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvCodecContextDeleter>;
 using AvFramePtr = std::unique_ptr<AVFrame, AvFrameDeleter>;
 using AvPacketPtr = std::unique_ptr<AVPacket, AvPacketDeleter>;
+using AvCodecParametersPtr = std::unique_ptr<AVCodecParameters, AvCodecParametersDeleter>;
+using AvInputPtr = std::unique_ptr<AVFormatContext, AvInputDeleter>;
 using SwsContextPtr = std::unique_ptr<SwsContext, SwsContextDeleter>;
 using AvBufferPtr = std::unique_ptr<AVBufferRef, AvBufferDeleter>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;

@@ -61,4 +61,13 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
     return bytes;
 }
 
+void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
+    write_file_atomically(path, std::as_bytes(std::span(text)));
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+    const std::vector<std::byte> bytes = read_file(path, max_bytes);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace vantage

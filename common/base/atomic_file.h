@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace vantage {
@@ -13,5 +15,9 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
 
 /// Reads a whole file. Throws Error if it is missing, unreadable or larger than max_bytes.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t max_bytes);
+
+// The same of text.
+void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace vantage

@@ -55,6 +55,22 @@ std::string roff_options(const CLI::App& app) {
     return text;
 }
 
+/// The words that an option's type names in braces, "{auto,best}": what its value may be.
+std::vector<std::string> words_of(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    std::vector<std::string> words;
+    for (std::size_t open = type.find('{'); open != std::string::npos;
+         open = type.find('{', open)) {
+        const std::size_t close = std::min(type.find('}', open), type.size());
+        for (std::size_t at = ++open; at < close;) {
+            const std::size_t end = std::min(type.find(',', at), close);
+            words.push_back(type.substr(at, end - at));
+            at = end + 1;
+        }
+    }
+    return words;
+}
+
 }  // namespace
 
 std::string man_page(const CLI::App& program, std::string_view version) {
@@ -85,21 +101,25 @@ std::string bash_completion(const CLI::App& program) {
     const std::string& name = program.get_name();
     std::string function = "_" + name;
     std::replace(function.begin(), function.end(), '-', '_');
-    std::string places, words_of_places;
+    std::string places, words_of_places, values_of_options;
     visit(program, "", [&](const CLI::App& app, const std::string& words) {
         if (!words.empty()) places += fmt::format("{}'{}'", places.empty() ? "" : " | ", words);
         std::vector<std::string> commands, options;
         for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
         for (const CLI::Option* option : options_of(app))
-            for (const std::string& option_name : option->get_lnames())
+            for (const std::string& option_name : option->get_lnames()) {
                 options.push_back("--" + option_name);
+                if (const std::vector<std::string> values = words_of(*option); !values.empty())
+                    values_of_options += fmt::format("    '{} --{}') values='{}' ;;\n", words,
+                                                     option_name, fmt::join(values, " "));
+            }
         words_of_places += fmt::format("    '{}') commands='{}' options='{}' ;;\n", words,
                                        fmt::join(commands, " "), fmt::join(options, " "));
     });
     return fmt::format(
         R"(# Completes {0} in bash: commands, options, and files elsewhere. Made by: {0} --bash-completion
 {1}() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} place= commands= options= i next
+  local word=${{COMP_WORDS[COMP_CWORD]}} place= commands= options= values= i next
   for ((i = 1; i < COMP_CWORD; ++i)); do
     next=${{place:+$place }}${{COMP_WORDS[i]}}
     case $next in
@@ -108,14 +128,18 @@ std::string bash_completion(const CLI::App& program) {
   done
   case $place in
 {3}  esac
-  case $word in
+  case "$place ${{COMP_WORDS[COMP_CWORD - 1]}}" in
+{4}    *) ;;
+  esac
+  case ${{values:+values}}$word in
+    values*) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word") ;;
     -*) mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word") ;;
     *) mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$word") ;;
   esac
 }}
 complete -o default -F {1} {0}
 )",
-        name, function, places, words_of_places);
+        name, function, places, words_of_places, values_of_options);
 }
 
 }  // namespace vantage

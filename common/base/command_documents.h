@@ -13,7 +13,8 @@ namespace vantage {
 /// parser's own tables.
 std::string man_page(const CLI::App& program, std::string_view version);
 
-/// A script for bash that completes the program's commands and options, and files elsewhere.
+/// A script for bash that completes the program's commands and options, the values of options
+/// whose type names them in braces, and files elsewhere.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "common/base/folder.h"
 
+#include <cstdlib>
 #include <system_error>
 
 #include "common/base/error.h"
@@ -12,6 +13,14 @@ void make_folder(const std::filesystem::path& folder) {
     if (error)
         fail("cannot make the folder {} ({}); give one that can be written", folder.string(),
              error.message());
+}
+
+std::filesystem::path user_folder() {
+    if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder && *folder)
+        return std::filesystem::path(folder) / "vantage";
+    const char* home = std::getenv("HOME");
+    if (!home || !*home) fail("this user has no home: set HOME or XDG_CONFIG_HOME");
+    return std::filesystem::path(home) / ".config/vantage";
 }
 
 }  // namespace vantage

@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <deque>
+#include <mutex>
 #include <string>
 
 #include <sys/stat.h>
@@ -51,6 +53,24 @@ std::string time_of_day() {
                        now.tv_nsec / 1'000'000);
 }
 
+/// The one thing of the process that every thread adds to; a log is one by its nature.
+struct RecentLines {
+    std::mutex mutex;
+    std::deque<std::string> lines;
+};
+RecentLines& recent() {
+    static RecentLines lines;
+    return lines;
+}
+
+void remember(LogLevel level, std::string_view text) {
+    RecentLines& all = recent();
+    std::string line = fmt::format("{}{}{}", time_of_day(), level_name(level), text);
+    const std::lock_guard lock(all.mutex);
+    all.lines.push_back(std::move(line));
+    if (all.lines.size() > most_recent_lines) all.lines.pop_front();
+}
+
 void write_line(std::string_view time, LogLevel level, std::string_view text) {
     const std::string line =
         fmt::format("{}{}: {}{}\n", time, program_invocation_short_name, level_name(level), text);
@@ -71,7 +91,14 @@ LogLevel log_threshold() {
 }
 
 void log_line(LogLevel level, std::string_view text) {
+    remember(level, text);
     write_line(stderr_is_the_journal() ? "" : time_of_day(), level, text);
+}
+
+std::vector<std::string> recent_log_lines() {
+    RecentLines& all = recent();
+    const std::lock_guard lock(all.mutex);
+    return {all.lines.begin(), all.lines.end()};
 }
 
 void say_error(std::string_view text) { write_line("", LogLevel::error, text); }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,10 @@ void say_error(std::string_view text);
 /// Lines below this level are not written. The default is info; the environment variable
 /// VANTAGE_LOG=debug|info|warning|error sets it at start.
 LogLevel log_threshold();
+
+/// The last lines that were written, oldest first, with their time: for who asks what happened.
+std::vector<std::string> recent_log_lines();
+inline constexpr std::size_t most_recent_lines = 300;
 
 template <class... Args>
 void log_debug(fmt::format_string<Args...> format, Args&&... args) {

@@ -9,7 +9,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::int64_t nanoseconds_per_second = 1'000'000'000;
 __extension__ using Wide = __int128;
 
 }  // namespace

@@ -7,8 +7,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::int64_t nanoseconds_per_second = 1'000'000'000;
-
 std::int64_t read_clock_ns(clockid_t clock) {
     timespec t{};
     clock_gettime(clock, &t);

@@ -5,6 +5,8 @@
 
 namespace vantage {
 
+inline constexpr std::int64_t nanoseconds_per_second = 1'000'000'000;
+
 /// A point in time is an int64 count of nanoseconds that carries its clock in its type, so that
 /// readings of different clocks cannot be compared or subtracted by mistake.
 template <class Clock>
@@ -39,6 +41,24 @@ template <class Clock>
 std::int64_t to_ns(TimePoint<Clock> t) {
     return t.time_since_epoch().count();
 }
+/// To the nearest nanosecond.
+inline std::chrono::nanoseconds from_s(double s) {
+    return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(s));
+}
+/// To the nearest nanosecond.
+inline std::chrono::nanoseconds from_us(double us) {
+    return std::chrono::round<std::chrono::nanoseconds>(
+        std::chrono::duration<double, std::micro>(us));
+}
+inline double to_us(std::chrono::nanoseconds time) {
+    return std::chrono::duration<double, std::micro>(time).count();
+}
+inline double to_ms(std::chrono::nanoseconds time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+inline double ms_since(MonotonicTime start) { return to_ms(MonotonicClock::now() - start); }
+
 inline TaiTime tai_from_ns(std::int64_t ns) { return TaiTime(std::chrono::nanoseconds(ns)); }
 inline MonotonicTime monotonic_from_ns(std::int64_t ns) {
     return MonotonicTime(std::chrono::nanoseconds(ns));

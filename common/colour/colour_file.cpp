@@ -66,7 +66,7 @@ void save_colour(const std::filesystem::path& path, const ColourCorrection& corr
         fmt::join(std::span<const double>(correction.tone.data(), 3), ", "));
     if (std::filesystem::exists(path) && is_good(path))
         write_file_atomically(path.string() + ".last", read_file(path, max_file_bytes));
-    write_file_atomically(path, std::as_bytes(std::span(text)));
+    write_text_atomically(path, text);
 }
 
 }  // namespace vantage

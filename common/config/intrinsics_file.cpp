@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-constexpr YamlKind file_kind{"vantage camera intrinsics", "the lens of a camera", 2};
-constexpr const char* file_units =
+constexpr YamlKind intrinsics_kind{"vantage camera intrinsics", "the lens of a camera", 2};
+constexpr const char* intrinsics_units =
     "pixels, pixel centres at integers, origin top-left; distortion in OpenCV's order";
 
 std::string checksum_of(const CameraModel& camera, const CalibrationSigma::Camera& sigma) {
@@ -25,7 +25,7 @@ std::string first_checksum_of(const CameraModel& camera) {
     return checksum.hex();
 }
 
-CameraModel read_camera(const YamlSection& top) {
+CameraModel read_intrinsics(const YamlSection& top) {
     CameraModel camera;
     camera.width_px = top.integer("image_width");
     camera.height_px = top.integer("image_height");
@@ -42,14 +42,15 @@ CameraModel read_camera(const YamlSection& top) {
 }  // namespace
 
 CameraModel load_intrinsics(const std::filesystem::path& path) {
-    return read_yaml(path, file_kind, read_camera);
+    return read_yaml(path, intrinsics_kind, read_intrinsics);
 }
 
 void save_intrinsics(const std::filesystem::path& path, const CameraModel& camera,
                      const IntrinsicsRecord& record) {
     camera.validate();
     cv::FileStorage file("camera.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
-    file << "kind" << file_kind.kind << "version" << file_kind.version << "units" << file_units;
+    file << "kind" << intrinsics_kind.kind << "version" << intrinsics_kind.version << "units"
+         << intrinsics_units;
     file << "date" << record.date << "tool" << record.tool;
     file << "avg_reprojection_error" << record.rms_px << "views_used" << record.views_used;
     file << "checksum" << checksum_text(checksum_of(camera, record.sigma));

@@ -46,6 +46,13 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("set", rig.set, {0, 1000000});
     table.read("loop_mb", rig.loop_mb, {0, 1e6});
     table.read("loop_ahead", rig.loop_ahead);
+    constexpr double second_us = 1e6;
+    table.read("bar_leds", rig.bar_leds, {0, 20});
+    if (rig.bar_leds > 0 && rig.bar_leds < 5)
+        table.refuse("bar_leds", "must be 0, for no bar, or 5 to 20");
+    table.read("bar_step_us", rig.bar_step_us, {10, second_us});
+    table.read("left_skew_us", rig.left_skew_us, {-second_us, second_us});
+    table.read("right_skew_us", rig.right_skew_us, {-second_us, second_us});
 }
 
 void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {
@@ -105,6 +112,7 @@ void read_keep(TomlTable& table, RigConfig::Keep& keep) {
 
 RigConfig load_rig_config(const std::filesystem::path& path) {
     RigConfig config;
+    config.file = path;
     read_toml_file(path, rig_config_version, [&](TomlTable& top) {
         read_stream_name(top, config.name);
         std::string calibration;

@@ -12,7 +12,8 @@ namespace vantage {
 /// What one rig computer is told (rig.toml). Every key is documented in hw_config/rig.toml; unknown
 /// keys, wrong types and values out of range are refused with file, line and the nearest known key.
 struct RigConfig {
-    std::string name;  ///< of this rig, unique on the stage: letters, digits, '-', '_'
+    std::filesystem::path file;  ///< that it was read from; empty: none
+    std::string name;            ///< of this rig, unique on the stage: letters, digits, '-', '_'
 
     struct Source {
         std::string kind = "virtual";  ///< virtual | files | v4l2 | libcamera
@@ -50,6 +51,9 @@ struct RigConfig {
         int set = 0;              ///< of the virtual stage: 0 the show, others generated
         double loop_mb = 64;      ///< memory for pairs of the stage's loop; virtual only
         bool loop_ahead = false;  ///< the whole loop is drawn before the first pulse; virtual only
+        int bar_leds = 0;         ///< of a counting bar in every picture; 0: none
+        double bar_step_us = 127;
+        double left_skew_us = 0, right_skew_us = 0;  ///< from the pulse to the sensor's exposure
     } virtual_rig;
 
     struct Trigger {

@@ -100,4 +100,13 @@ StageConfig load_stage_config(const std::filesystem::path& path) {
     return config;
 }
 
+StageConfig::Flight stage_flight_from(std::string_view text, const std::filesystem::path& name) {
+    StageConfig::Flight flight;
+    read_toml_text(text, name, stage_config_version, [&](TomlTable& top) {
+        top.leave_others();
+        top.read_table("flight", [&](TomlTable& t) { read_flight(t, flight); });
+    });
+    return flight;
+}
+
 }  // namespace vantage

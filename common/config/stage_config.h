@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vantage {
@@ -48,5 +49,9 @@ struct StageConfig {
 
 /// Throws Error with file and line for whatever does not fit.
 StageConfig load_stage_config(const std::filesystem::path& path);
+
+/// How hands fly, of a stage's file that is a text in memory: files that it names need not be at
+/// hand. `name` stands for it in what is refused. Throws Error likewise.
+StageConfig::Flight stage_flight_from(std::string_view text, const std::filesystem::path& name);
 
 }  // namespace vantage

@@ -55,6 +55,10 @@ std::vector<std::string> TomlTable::keys() const {
     return names;
 }
 
+void TomlTable::leave_others() {
+    for (std::string& key : keys()) known_.push_back(std::move(key));
+}
+
 std::string TomlTable::place(std::string_view key) const {
     const auto entry = table_->find(key);
     const toml::source_region& region =

@@ -54,6 +54,8 @@ class TomlTable {
     bool has(std::string_view key) const;
     /// Of a table whose keys are whatever the file names.
     std::vector<std::string> keys() const;
+    /// Keys that are never asked for are no fault: they are somebody else's.
+    void leave_others();
 
     /// A table of this table; read_members is called only if the file has it.
     void read_table(std::string_view key, const std::function<void(TomlTable&)>& read_members);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "common/base/atomic_file.h"
 #include "common/geometry/opencv_bridge.h"
@@ -106,7 +105,7 @@ void write_yaml_keeping_last(const std::filesystem::path& path, const std::strin
     };
     if (std::filesystem::exists(path) && is_good())
         write_file_atomically(path.string() + ".last", read_file(path, max_yaml_bytes));
-    write_file_atomically(path, std::as_bytes(std::span(yaml)));
+    write_text_atomically(path, yaml);
 }
 
 cv::Mat to_yaml_matrix(const Eigen::Matrix3d& m) { return cv::Mat(to_cv(m)).clone(); }

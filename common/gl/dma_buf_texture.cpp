@@ -1,11 +1,14 @@
 #include "common/gl/dma_buf_texture.h"
 
+#include <cerrno>
 #include <utility>
 #include <vector>
 
 #include <EGL/eglext.h>
 #include <GLES2/gl2ext.h>
 #include <gbm.h>
+#include <linux/dma-buf.h>
+#include <sys/ioctl.h>
 
 #include "common/base/error.h"
 #include "common/gl/limits.h"
@@ -27,6 +30,17 @@ std::uint32_t kernel_format(TextureFormat format) {
         default:
             fail("a camera's buffer holds no texels of format {}", static_cast<int>(format));
     }
+}
+
+/// Some drivers (llvmpipe of Mesa 25) import whatever the number names, and die of it later.
+bool is_dma_buf(int fd) {
+    dma_buf_sync access{.flags = DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ};
+    // What a real one's driver has against it is of no interest here.
+    if (::ioctl(fd, DMA_BUF_IOCTL_SYNC, &access) != 0)
+        return errno != ENOTTY && errno != EBADF && errno != EINVAL;
+    access.flags = DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ;
+    ::ioctl(fd, DMA_BUF_IOCTL_SYNC, &access);
+    return true;
 }
 
 template <class Function>
@@ -51,6 +65,8 @@ DmaBufTexture::DmaBufTexture(const EglContext& context, const DmaBufPlane& plane
     : display_(context.display()) {
     if (const std::string missing = missing_extensions(context); !missing.empty())
         fail("the driver cannot import camera buffers: it lacks {}", missing);
+    if (!is_dma_buf(plane.fd))
+        fail("a camera's buffer cannot be imported: descriptor {} is no dma-buf", plane.fd);
     std::vector<EGLint> attributes = {EGL_WIDTH,
                                       plane.width_px,
                                       EGL_HEIGHT,

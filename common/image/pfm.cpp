@@ -16,13 +16,13 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t max_header_bytes = 128;
-constexpr std::size_t max_file_bytes =
+constexpr std::size_t max_pfm_bytes =
     std::size_t{max_image_side_px} * max_image_side_px * sizeof(float) + max_header_bytes;
 
 }  // namespace
 
 cv::Mat1f read_pfm(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
+    const std::vector<std::byte> bytes = read_file(path, max_pfm_bytes);
     // The header is three lines of text; whatever follows the newline after the scale is samples.
     const std::string head(reinterpret_cast<const char*>(bytes.data()),
                            std::min(bytes.size(), max_header_bytes));

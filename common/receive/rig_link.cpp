@@ -113,7 +113,8 @@ std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
 
 bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery) {
     const bool is_kept = parts.size() == 1 + kept_parts;
-    if (parts.size() != 1 && parts.size() != 1 + frame_parts && !is_kept)
+    const bool is_report = parts.size() == 2;
+    if (parts.size() != 1 && parts.size() != 1 + frame_parts && !is_kept && !is_report)
         fail("a message of {} parts came from rig {}", parts.size(), rig_.name);
     RigMessage message = decode_rig_message(bytes_of(parts.front()));
     if (message.refusal.empty() && message.rig != rig_.name)
@@ -127,6 +128,10 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     }
     if (is_kept && (!told_.fetch || !message.fetch || message.fetch->id != told_.fetch->id))
         fail("a frame that rig {} keeps came, and nobody asked for it", rig_.name);
+    if (is_report && (told_.report_id == 0 || message.report_id != told_.report_id ||
+                      parts[1].size() > max_report_bytes))
+        fail("a report of {} bytes came from rig {}, and none such was asked for", parts[1].size(),
+             rig_.name);
     const bool with_frame = parts.size() == 1 + frame_parts;
     account_.hear(message, with_frame);
     view_.heard = now;
@@ -140,7 +145,8 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.sync = message.sync;
     view_.health = message.health;
     view_.fetch = message.fetch;
-    if (parts.size() == 1) return false;
+    if (is_report) view_.report = std::make_shared<const std::string>(parts[1].to_string());
+    if (parts.size() <= 2) return false;
     delivery.message = std::move(message);
     delivery.arrival = now;
     delivery.arrival_tai = TaiClock::now();
@@ -180,8 +186,9 @@ void RigLink::watch(MonotonicTime now) {
                 next_heartbeat_ = now;
                 break;
             case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
-                refuse(fmt::format("rig {} at {} does not admit this host; add its public key {} "
-                                   "to the rig's authorized_hosts",
+                refuse(fmt::format("rig {} at {} does not admit this host; pair them (vantage-rig "
+                                   "pair there, vantage setup here), or add its public key {} to "
+                                   "the rig's authorized_hosts",
                                    rig_.name, rig_.endpoint,
                                    host_keys_ ? host_keys_->public_key : "(none)"),
                        now);
@@ -226,6 +233,7 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     message.first_pulse = wish.first_pulse;
     message.raw_pairs = wish.raw_pairs;
     message.fetch = wish.fetch;
+    message.report_id = wish.report_id;
     if (now < next_heartbeat_ && message == told_) return;
     // Not taken while the rig is away; then the heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

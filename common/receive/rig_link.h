@@ -38,6 +38,7 @@ class RigLink {
         std::uint64_t first_pulse = 0;  ///< of the take; 0: not announced yet
         bool raw_pairs = false;
         std::optional<FetchWish> fetch = {};
+        std::uint64_t report_id = 0;
         bool operator==(const Wish&) const = default;
     };
 
@@ -55,6 +56,7 @@ class RigLink {
         RigSync sync;
         RigHealth health;
         std::optional<FetchState> fetch;
+        std::shared_ptr<const std::string> report;  ///< the last that came; null: none did
     };
 
     /// Frames under way or waiting to be decoded.

@@ -15,6 +15,7 @@
 #include "common/base/kernel_clock.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
+#include "common/base/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
 #include "common/receive/outage_book.h"
@@ -24,6 +25,7 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/limits.h"
+#include "common/wire/random_id.h"
 #include "common/wire/wake_event.h"
 #include "common/wire/zmq_helpers.h"
 
@@ -41,10 +43,6 @@ constexpr std::chrono::milliseconds probe_limit{1000};
 
 /// Between lines about a rig's bad messages.
 constexpr std::chrono::seconds complaint_period{10};
-
-double ms_between(std::chrono::nanoseconds duration) {
-    return std::chrono::duration<double, std::milli>(duration).count();
-}
 
 std::vector<std::string> names_of(const StageConfig& stage) {
     if (stage.rigs.empty()) fail("the stage has no rigs; add a [[rig]] with name and endpoint");
@@ -95,6 +93,7 @@ struct StageReceiver::Impl {
         RigStatus status;
         std::uint64_t undecodable_frames = 0;
         RigLink::Wish wish;
+        std::shared_ptr<const std::string> report;
         OutageBook outages;
         LogLimiter complaints{complaint_period};
         PercentileRecorder latency_ms, network_ms, decode_ms;
@@ -261,9 +260,9 @@ struct StageReceiver::Impl {
         const TaiTime decoded = TaiClock::now();
 
         const std::lock_guard lock(mutex);
-        rig.decode_ms.add(ms_between(end - start));
-        rig.network_ms.add(ms_between(delivery.arrival_tai - frame->published));
-        rig.latency_ms.add(ms_between(decoded - frame->exposure));
+        rig.decode_ms.add(to_ms(end - start));
+        rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));
+        rig.latency_ms.add(to_ms(decoded - frame->exposure));
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
@@ -324,6 +323,7 @@ struct StageReceiver::Impl {
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
         if (const std::string rate = rate_worry(status); rate != rate_before && !rate.empty())
             log_warning("rig {}: {}", rig.name, rate);
+        rig.report = std::move(view.report);
         complain(rig, rig.undecodable_frames + view.malformed, now);
     }
 
@@ -398,6 +398,19 @@ void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t
         (*rig)->wish.rate_divisor = rate_divisor;
     }
     impl_->wake.notify();
+}
+
+void StageReceiver::ask_for_reports() {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        for (const auto& rig : impl_->rigs) rig->wish.report_id = random_id();
+    }
+    impl_->wake.notify();
+}
+
+std::shared_ptr<const std::string> StageReceiver::report_of(std::size_t rig) const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->rigs.at(rig)->report;
 }
 
 }  // namespace vantage

@@ -38,6 +38,11 @@ class StageReceiver {
     /// Error for a rig that is not of the stage or a divisor outside 1..max_rate_divisor.
     void ask(std::string_view rig, bool streaming, std::uint32_t rate_divisor);
 
+    /// Asks every rig to say how it is, for help (JSON).
+    void ask_for_reports();
+    /// What the rig of this number said; null: nothing yet. An older rig never does.
+    std::shared_ptr<const std::string> report_of(std::size_t rig) const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

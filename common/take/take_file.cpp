@@ -32,7 +32,7 @@ TakeFile::~TakeFile() {
     avio_context_free(&io_);
 }
 
-int TakeFile::write(void* opaque, std::uint8_t* bytes, int size) {
+int TakeFile::write(void* opaque, WrittenByte* bytes, int size) {
     TakeFile& self = *static_cast<TakeFile*>(opaque);
     // After a failure nothing more: what is there stays what it is.
     if (self.failure_ != 0) return AVERROR(self.failure_);
@@ -77,10 +77,11 @@ void TakeFile::cut_to_whole() {
 
 void TakeFile::sync() { ::fdatasync(fd_.get()); }
 
-void TakeFile::begin_sync() {
+bool TakeFile::begin_sync() {
     if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return;
+        return false;
     syncing_ = std::async(std::launch::async, [fd = fd_.get()] { ::fdatasync(fd); });
+    return true;
 }
 
 }  // namespace vantage

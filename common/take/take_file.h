@@ -29,11 +29,16 @@ class TakeFile {
     /// Waits until it is on the disk.
     void sync();
     /// Sees to it that it gets there; one at a time, so that what is written meanwhile need not
-    /// wait for a slow disk.
-    void begin_sync();
+    /// wait for a slow disk. False: the last one still goes on.
+    bool begin_sync();
 
   private:
-    static int write(void* self, std::uint8_t* bytes, int size);
+#if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7, as in Debian 13
+    using WrittenByte = const std::uint8_t;
+#else
+    using WrittenByte = std::uint8_t;
+#endif
+    static int write(void* self, WrittenByte* bytes, int size);
     static std::int64_t seek(void* self, std::int64_t offset, int whence);
 
     UniqueFd fd_;

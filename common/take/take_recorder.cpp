@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 #include "common/base/timecode.h"
 
 namespace vantage {
@@ -16,8 +17,13 @@ namespace {
 constexpr double disk_margin = 1.5;
 /// And has room for so much of it.
 constexpr double least_room_s = 10;
-/// How long the thread waits for something to do before it writes what it keeps back.
+/// How long the thread waits for something to do before it looks whether the disk is to follow.
 constexpr std::chrono::milliseconds patience{100};
+/// That are coded at one go. A thread that the system lets run seldom has to do much whenever it
+/// runs: one frame a go, and what waits would grow without end.
+constexpr std::size_t most_frames_a_rig = 16;
+/// What is in memory only for longer than that is worth a word.
+constexpr std::chrono::seconds long_unwritten{1};
 
 nlohmann::ordered_json calibration_json(const RigFrame& frame) {
     const RectifiedStereo& geometry = frame.geometry;
@@ -41,12 +47,14 @@ struct TakeRecorder::Take {
     nlohmann::ordered_json calibrations;       ///< of the rigs' first frames, for people
     std::vector<std::optional<TakeRig>> rigs;  ///< as the first frame of each says
     std::vector<std::unique_ptr<FrameStorer>> storers;
-    std::deque<Item> held;  ///< until the writer is there
+    std::vector<Item> held;  ///< until the writer is there
     std::optional<MonotonicTime> first_arrival;
     std::optional<TaiTime> origin;
     int tai_offset_s = 0;
     double bytes_a_pulse = 0;  ///< of the rigs' first frames
-    MonotonicTime begun = MonotonicClock::now();
+    MonotonicTime asked = MonotonicClock::now();
+    std::chrono::nanoseconds longest_unwritten{0};
+    bool is_lateness_told = false;
     double disk_mb_s = 0;
     std::vector<std::string> told;  ///< of each rig: why one was refused last
     bool is_dead = false;
@@ -104,17 +112,13 @@ void TakeRecorder::push(Item item) {
     }
 }
 
-/// What stands first, a frame a rig at most, so that they can be coded side by side. Precondition:
-/// mutex_ is held.
+/// What stands first, so many frames a rig at most. Precondition: mutex_ is held.
 std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
     std::vector<Item> items;
-    std::vector<bool> has(settings_.rigs.size());
+    std::vector<std::size_t> frames(settings_.rigs.size());
     while (!queue_.empty()) {
         Item& first = queue_.front();
-        if (first.frame) {
-            if (has[first.frame->rig]) break;
-            has[first.frame->rig] = true;
-        }
+        if (first.frame && ++frames[first.frame->rig] > most_frames_a_rig) break;
         queued_bytes_ -= first.bytes();
         items.push_back(std::move(first));
         queue_.pop_front();
@@ -205,8 +209,8 @@ void TakeRecorder::run() {
         if (!take) continue;
         try {
             work(*take, std::move(items));
-            if (take->writer) take->writer->flush_if_due();
             if (!take->writer) open_if_ready(*take);
+            if (take->writer) take->writer->hand_over();
             if (is_over) close(*take);
         } catch (const std::exception& error) {
             fail_take(*take, error.what());
@@ -300,31 +304,48 @@ void TakeRecorder::open(Take& take) {
         facts.rigs.back().name = settings_.rigs[i];
     }
     take.writer.emplace(take.path, facts);
-    take.begun = MonotonicClock::now();
     for (std::size_t i = 0; i < facts.rigs.size(); ++i)
         take.storers[i] = std::make_unique<FrameStorer>(facts.rigs[i]);
     log_info("recording {}: {:.1f} MB a second, of {:.0f} that its disk takes", take.path.string(),
              needed_mb_s, take.disk_mb_s);
-    for (const Item& item : std::exchange(take.held, {})) store(take, std::span(&item, 1));
+    const std::vector<Item> held = std::exchange(take.held, {});
+    for (std::size_t i = 0; i < held.size(); i += most_frames_a_rig)
+        store(take, std::span(held).subspan(i, std::min(most_frames_a_rig, held.size() - i)));
 }
 
+/// Codes frames a rig a thread, and writes them in the order in which they came. Before it waits
+/// for one the system gets those before it: what is lost with the process is what is not coded yet.
 void TakeRecorder::store(Take& take, std::span<const Item> items) {
-    std::vector<std::future<StoredFrame>> coding;
-    for (const Item& item : items)
-        coding.push_back(item.frame ? std::async(std::launch::async,
-                                                 [&] {
-                                                     return take.storers[item.frame->rig]->store(
-                                                         *item.frame->packed);
-                                                 })
-                                    : std::future<StoredFrame>());
+    std::vector<std::promise<StoredFrame>> coded(items.size());
+    std::vector<std::future<StoredFrame>> coming;
+    std::vector<std::vector<std::size_t>> of_rig(take.storers.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        coming.push_back(coded[i].get_future());
+        if (items[i].frame) of_rig[items[i].frame->rig].push_back(i);
+    }
+    std::vector<std::future<void>> coders;
+    for (std::size_t rig = 0; rig < of_rig.size(); ++rig) {
+        if (of_rig[rig].empty()) continue;
+        coders.push_back(std::async(std::launch::async, [&, rig] {
+            for (const std::size_t i : of_rig[rig]) {
+                try {
+                    coded[i].set_value(take.storers[rig]->store(*items[i].frame->packed));
+                } catch (...) {
+                    coded[i].set_exception(std::current_exception());
+                }
+            }
+        }));
+    }
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (!items[i].frame) {
             take.writer->add(items[i].camera);
             continue;
         }
+        if (coming[i].wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            take.writer->hand_over();
         std::optional<StoredFrame> stored;
         try {
-            stored = coding[i].get();
+            stored = coming[i].get();
         } catch (const Error& error) {
             refuse(take, *items[i].frame, error.what());
         }
@@ -344,6 +365,15 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
         refuse(take, frame, "its pulse is not after the one before it");
         return;
     }
+    // What was there before the take was asked for was to be kept from then on only.
+    const std::chrono::nanoseconds unwritten =
+        MonotonicClock::now() - std::max(frame.arrival, take.asked);
+    take.longest_unwritten = std::max(take.longest_unwritten, unwritten);
+    if (unwritten > long_unwritten && !std::exchange(take.is_lateness_told, true))
+        log_warning(
+            "{}: what comes is written {:.1f} s late, and would be lost if this program were "
+            "killed: its computer has too much to do",
+            take.path.string(), std::chrono::duration<double>(unwritten).count());
     const std::lock_guard lock(mutex_);
     ++state_.rigs[frame.rig].frames;
 }
@@ -378,6 +408,7 @@ void TakeRecorder::fail_take(Take& take, const std::string& sentence) {
 void TakeRecorder::note(const Take& take) {
     const std::lock_guard lock(mutex_);
     state_.disk_mb_s = take.disk_mb_s;
+    state_.longest_unwritten_ms = to_ms(take.longest_unwritten);
     if (!take.writer) return;
     if (state_.phase == TakePhase::opening) state_.phase = TakePhase::recording;
     state_.frames = take.writer->frames();

@@ -35,6 +35,8 @@ struct TakeState {
     double duration_s = 0;
     double mb_s = 0;       ///< that are written
     double disk_mb_s = 0;  ///< that the disk takes
+    /// The most that a frame was in memory only: what a killed program would have lost at worst.
+    double longest_unwritten_ms = 0;
     struct Rig {
         std::string name;
         std::uint64_t frames = 0;
@@ -56,10 +58,11 @@ class TakeRecorder {
         std::string program;
         nlohmann::ordered_json show;  ///< TakeFacts::show
         std::vector<TakeAttachment> attachments = {};
-        std::chrono::nanoseconds pre_roll{0};      ///< that a take begins before it is asked for
-        std::size_t queue_bytes = 256'000'000;     ///< that may wait to be written
-        std::chrono::milliseconds rig_wait{2000};  ///< for rigs that have not sent yet
-        bool may_be_empty = false;                 ///< a take that no frame came for is no failure
+        std::chrono::nanoseconds pre_roll{0};   ///< that a take begins before it is asked for
+        std::size_t queue_bytes = 256'000'000;  ///< that may wait to be written
+        /// For rigs that have not sent yet. Until then nothing is written.
+        std::chrono::milliseconds rig_wait{500};
+        bool may_be_empty = false;  ///< a take that no frame came for is no failure
         std::function<double(const std::filesystem::path&)> disk_mb_s = measure_disk_mb_s;
     };
     explicit TakeRecorder(Settings settings);

@@ -15,8 +15,9 @@ extern "C" {
 namespace vantage {
 namespace {
 
-/// What a failure may cost.
+/// What a failure may cost: of the program where it does not hand over before, of the computer.
 constexpr std::int64_t longest_unwritten_ms = 500;
+constexpr std::chrono::milliseconds longest_unsynced{500};
 
 AVCodecID codec_id(TakePictures::Codec codec) {
     return codec == TakePictures::Codec::jpeg ? AV_CODEC_ID_MJPEG : AV_CODEC_ID_FFV1;
@@ -25,7 +26,7 @@ AVCodecID codec_id(TakePictures::Codec codec) {
 void set_setup(AVCodecParameters& parameters, std::span<const std::byte> bytes) {
     parameters.extradata =
         static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
-    std::memcpy(parameters.extradata, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::byte*>(parameters.extradata));
     parameters.extradata_size = static_cast<int>(bytes.size());
 }
 
@@ -145,7 +146,7 @@ bool TakeWriter::add(std::size_t rig, StoredFrame frame) {
     tracks.last_pulse = record.pulse;
     tracks.last_ms = at_ms;
     // FFmpeg opens no file that has tracks and no picture.
-    if (frames_ == 1) flush();
+    if (frames_ == 1) hand_over();
     return true;
 }
 
@@ -181,6 +182,19 @@ void TakeWriter::flush_if_due() {
                           MonotonicClock::now() - unwritten_since_ >=
                               std::chrono::milliseconds(longest_unwritten_ms)))
         flush();
+    sync_if_due();
+}
+
+void TakeWriter::hand_over() {
+    if (unwritten_ms_) flush();
+    sync_if_due();
+}
+
+void TakeWriter::sync_if_due() {
+    const MonotonicTime now = MonotonicClock::now();
+    if (!is_unsynced_ || now - synced_at_ < longest_unsynced || !file_->begin_sync()) return;
+    is_unsynced_ = false;
+    synced_at_ = now;
 }
 
 void TakeWriter::flush() {
@@ -189,7 +203,7 @@ void TakeWriter::flush() {
     avio_flush(output_->pb);
     if (code < 0 || file_->failure() != 0) fail_writing(code);
     file_->mark_whole();
-    file_->begin_sync();
+    is_unsynced_ = true;
 }
 
 void TakeWriter::finish() {

@@ -21,9 +21,9 @@ struct StoredFrame {
     std::vector<std::byte> colour, depth;  ///< empty: the frame has none
 };
 
-/// Writes a take. The file stands under its own name from the start, and what it holds is on the
-/// disk half a second later: what ends the program or the computer leaves a file that opens, but
-/// for that half second. Not thread-safe.
+/// Writes a take. The file stands under its own name from the start. What is handed over outlives
+/// the program, and is on the disk half a second later: what ends the computer leaves a file that
+/// opens, but for that half second. Not thread-safe.
 class TakeWriter {
   public:
     /// Throws Error if there is such a file already, or none can be made there.
@@ -39,7 +39,10 @@ class TakeWriter {
     /// False: the tick is before the take.
     bool add(const CameraRecord& camera);
 
-    /// Writes what is kept back. To be called often.
+    /// Gives the system all that was added: a program that is killed loses nothing of it.
+    void hand_over();
+    /// Does so with what was kept back for half a second, and has the disk follow. To be called
+    /// often.
     void flush_if_due();
     /// Writes the index and closes. Throws Error if the disk fails; the file opens all the same.
     void finish();
@@ -64,6 +67,7 @@ class TakeWriter {
     void attach(const TakeAttachment& attachment);
     void write(int track, std::int64_t time_ms, std::span<const std::byte> bytes);
     void flush();
+    void sync_if_due();
     [[noreturn]] void fail_writing(int code);
 
     std::filesystem::path path_;
@@ -79,6 +83,8 @@ class TakeWriter {
     std::int64_t first_ms_ = 0, last_ms_ = 0;
     std::optional<std::int64_t> unwritten_ms_;  ///< time of the first that may not be on the disk
     MonotonicTime unwritten_since_{};
+    bool is_unsynced_ = false;  ///< the system has what the disk may not have
+    MonotonicTime synced_at_{};
     bool is_finished_ = false;
 };
 

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/virtual_stage/tau.h"
+
 namespace vantage {
 namespace {
 
 using Eigen::Affine3f;
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
-
-constexpr float tau = 2 * std::numbers::pi_v<float>;
 
 // A figure of 1.75 m: y up, facing +z, its left is +x. Bones hang from the joints along -y, the
 // trunk rises along +y. Other heights are scaled.

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
+#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {
@@ -13,8 +13,6 @@ namespace {
 using Eigen::Affine3f;
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
-
-constexpr float tau = 2 * std::numbers::pi_v<float>;
 
 /// Numbers from a seed, the same with every standard library (unlike its distributions).
 class Dice {

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float tau = 2 * std::numbers::pi_v<float>;
 
 std::uint8_t to_byte(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));

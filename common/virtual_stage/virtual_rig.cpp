@@ -175,10 +175,11 @@ VirtualStereoFrame VirtualRig::render(VirtualStage& stage, std::chrono::nanoseco
 }
 
 VirtualStereoFrame VirtualRig::render_noiseless(VirtualStage& stage,
-                                                std::chrono::nanoseconds stage_time) const {
+                                                std::chrono::nanoseconds stage_time,
+                                                std::chrono::nanoseconds right_later) const {
     VirtualStereoFrame frame;
     frame.left = see(left_, stage, stage_time);
-    frame.right = see(right_, stage, stage_time);
+    frame.right = see(right_, stage, stage_time + right_later);
     if (with_exact_disparity_) {
         const StageRendering exact = stage.render(
             rectified_left_, stage_time, {.pictures = StagePictures::depth, .stands_still = true});

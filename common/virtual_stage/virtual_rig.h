@@ -52,8 +52,9 @@ class VirtualRig {
                               std::uint64_t frame_index) const;
 
     /// The same in two steps: what is the same a whole loop of the stage later, and the noise.
-    VirtualStereoFrame render_noiseless(VirtualStage& stage,
-                                        std::chrono::nanoseconds stage_time) const;
+    /// The right sensor may see the stage later than the left one.
+    VirtualStereoFrame render_noiseless(VirtualStage& stage, std::chrono::nanoseconds stage_time,
+                                        std::chrono::nanoseconds right_later = {}) const;
     void add_noise(VirtualStereoFrame& frame, std::uint64_t frame_index) const;
 
   private:

@@ -26,11 +26,6 @@ constexpr int key_file_version = 1;
 
 using Z85Buffer = std::array<char, z85_chars + 1>;
 
-std::string read_text(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path, max_key_file_bytes);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// The user and the group that a rig's daemon runs as, where its package is installed.
 constexpr const char* service_name = "vantage";
 
@@ -108,7 +103,7 @@ CurveKeys load_key_file(const std::filesystem::path& path) {
     refuse_if_others_can_read(path);
     toml::table table;
     try {
-        table = toml::parse(read_text(path));
+        table = toml::parse(read_text_file(path, max_key_file_bytes));
     } catch (const toml::parse_error& error) {
         fail("key file {} line {} is not TOML: {}", path.string(), error.source().begin.line,
              error.description());
@@ -146,7 +141,7 @@ bool is_curve_key(std::string_view text) {
 
 std::map<std::string, std::string> load_authorized_hosts(const std::filesystem::path& path) {
     std::map<std::string, std::string> hosts;
-    std::istringstream text(read_text(path));
+    std::istringstream text(read_text_file(path, max_key_file_bytes));
     std::string line;
     for (int number = 1; std::getline(text, line); ++number) {
         std::istringstream words(line);

@@ -18,6 +18,9 @@ inline constexpr int max_picture_side_px = 4096;
 /// Serialised FrameHeader, RigMessage or HostMessage.
 inline constexpr std::size_t max_header_bytes = 4096;
 
+/// What a rig says of itself for help, as JSON.
+inline constexpr std::size_t max_report_bytes = std::size_t{1} << 20;
+
 /// A compressed payload may be this much larger than the picture it holds, and no more.
 inline constexpr std::size_t payload_slack_bytes = 64 * 1024;
 

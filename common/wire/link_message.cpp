@@ -18,7 +18,7 @@ void check_printable(std::string_view what, std::string_view text) {
 
 /// Of a refusal, and of what is wrong with a fetch.
 constexpr std::size_t max_refusal_chars = 512;
-constexpr std::size_t max_date_chars = 40;
+constexpr std::size_t max_date_chars = 40, max_version_chars = 40;
 
 void to_wire(const RigHealth& health, wire::Health& out) {
     if (health.temperature_c) out.set_temperature_c(*health.temperature_c);
@@ -28,6 +28,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_calibration_id(health.calibration_id);
     out.set_calibration_date(health.calibration_date.substr(0, max_date_chars));
     out.set_calibration_row_rms_px(health.calibration_row_rms_px);
+    out.set_program_version(health.program_version.substr(0, max_version_chars));
 }
 
 RigHealth from_wire(const wire::Health& in) {
@@ -40,6 +41,10 @@ RigHealth from_wire(const wire::Health& in) {
         fail("a calibration date of {} characters is beyond the limit of {}", date.size(),
              max_date_chars);
     check_printable("calibration date", date);
+    if (in.program_version().size() > max_version_chars)
+        fail("a program version of {} characters is beyond the limit of {}",
+             in.program_version().size(), max_version_chars);
+    check_printable("program version", in.program_version());
     RigHealth health;
     if (in.has_temperature_c()) health.temperature_c = in.temperature_c();
     health.under_voltage = in.under_voltage();
@@ -48,6 +53,7 @@ RigHealth from_wire(const wire::Health& in) {
     health.calibration_id = in.calibration_id();
     health.calibration_date = date;
     health.calibration_row_rms_px = in.calibration_row_rms_px();
+    health.program_version = in.program_version();
     return health;
 }
 
@@ -88,6 +94,7 @@ std::vector<std::byte> encode(const HostMessage& message) {
         fetch.set_to_pulse(message.fetch->to_pulse);
         fetch.set_granted(message.fetch->granted);
     }
+    out.set_report_id(message.report_id);
     return serialise(out);
 }
 
@@ -106,6 +113,7 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
     HostMessage message{in.host_id(),   in.link(),         in.handled(),     in.credit_window(),
                         in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
     if (in.has_fetch()) message.fetch = from_wire(in.fetch());
+    message.report_id = in.report_id();
     return message;
 }
 
@@ -129,6 +137,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
         fetch.set_over(message.fetch->is_over);
         fetch.set_trouble(message.fetch->trouble.substr(0, max_refusal_chars));
     }
+    out.set_report_id(message.report_id);
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
     return serialise(out);
 }
@@ -152,6 +161,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.sync = from_wire(in.sync());
     message.health = from_wire(in.health());
     if (in.has_fetched()) message.fetch = from_wire(in.fetched());
+    message.report_id = in.report_id();
     message.refusal = in.refusal();
     return message;
 }

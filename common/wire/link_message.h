@@ -42,6 +42,7 @@ struct HostMessage {
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
     bool raw_pairs = false;          ///< what the sensors saw instead of views
     std::optional<FetchWish> fetch = {};
+    std::uint64_t report_id = 0;  ///< random: asks for a report; 0: asks for none
 
     bool operator==(const HostMessage&) const = default;
 };
@@ -54,6 +55,7 @@ struct RigHealth {
     std::string calibration_id;
     std::string calibration_date;      ///< ISO 8601; empty: not from a file
     float calibration_row_rms_px = 0;  ///< row error after rectification, when it was made
+    std::string program_version;       ///< of the daemon, "0.2.0"; empty: it does not say
 
     bool operator==(const RigHealth&) const = default;
 };
@@ -69,7 +71,8 @@ struct RigMessage {
     RigSync sync;
     RigHealth health;
     std::optional<FetchState> fetch;
-    std::string refusal;  ///< a sentence, when the rig does not serve this host; else empty
+    std::uint64_t report_id = 0;  ///< that the report which follows answers; 0: none follows
+    std::string refusal;          ///< a sentence, when the rig does not serve this host; else empty
 };
 
 /// Decoders take nothing on trust: they throw Error with one sentence for what is truncated,

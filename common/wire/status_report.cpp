@@ -58,6 +58,7 @@ nlohmann::ordered_json to_json(const RigHealth& health) {
                                 {"temperature_c", nullptr},
                                 {"under_voltage", health.under_voltage},
                                 {"calibration", nullptr}};
+    if (!health.program_version.empty()) json["version"] = health.program_version;
     if (health.temperature_c) json["temperature_c"] = *health.temperature_c;
     if (!health.calibration_date.empty())
         json["calibration"] = {{"id", health.calibration_id},
@@ -81,6 +82,7 @@ std::string health_text(const RigHealth& health) {
                                    health.published_hz);
     if (health.temperature_c) text += fmt::format("; {:.0f} C", *health.temperature_c);
     if (health.under_voltage) text += "; UNDER-VOLTAGE: use a stronger supply or a shorter cable";
+    if (!health.program_version.empty()) text += "; version " + health.program_version;
     if (health.calibration_date.empty()) return text + "; no calibration file";
     return text + fmt::format("; calibrated {}, rows to {:.2f} px", health.calibration_date,
                               health.calibration_row_rms_px);

@@ -11,6 +11,11 @@ std::span<const std::byte> bytes_of(const zmq::message_t& part) {
     return {part.data<std::byte>(), part.size()};
 }
 
+std::string property_of(zmq::message_t& part, const char* name) {
+    const char* value = zmq_msg_gets(part.handle(), name);
+    return value ? value : "";
+}
+
 void wait_for(std::vector<zmq::pollitem_t>& items, std::chrono::nanoseconds timeout) {
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(timeout);
     try {

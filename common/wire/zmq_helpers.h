@@ -3,12 +3,17 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 #include <zmq.hpp>
 
 namespace vantage {
 
 std::span<const std::byte> bytes_of(const zmq::message_t& part);
+
+/// What ZeroMQ knows of a message besides its bytes ("User-Id", "Peer-Address"); empty where it
+/// knows nothing.
+std::string property_of(zmq::message_t& part, const char* name);
 
 /// Waits until one of the items is ready, the time is up or a signal comes; a time in the past is
 /// none.

@@ -21,11 +21,6 @@ struct Lens {
     cv::Size size_px;
 };
 
-std::string text_of(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = read_file(file, most_bytes);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::filesystem::path cameras_beside(const std::filesystem::path& images) {
     return images.parent_path() / "cameras.txt";
 }
@@ -80,8 +75,8 @@ void write(const CameraPath& path, const std::filesystem::path& file) {
             "{} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {} {:06}.png\n\n", i + 1,
             q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), angles_rad.size(), i);
     }
-    write_file_atomically(cameras_beside(file), std::as_bytes(std::span(cameras)));
-    write_file_atomically(file, std::as_bytes(std::span(images)));
+    write_text_atomically(cameras_beside(file), cameras);
+    write_text_atomically(file, images);
 }
 
 }  // namespace
@@ -134,7 +129,9 @@ CameraPathForm colmap_form() {
     return {"colmap", "images.txt, COLMAP's, with cameras.txt beside it",
             [](const std::filesystem::path& file) { return file.filename() == "images.txt"; },
             [](const std::filesystem::path& file, const CameraPathSettings& settings) {
-                return colmap_path_of(text_of(file), text_of(cameras_beside(file)), file, settings);
+                return colmap_path_of(read_text_file(file, most_bytes),
+                                      read_text_file(cameras_beside(file), most_bytes), file,
+                                      settings);
             },
             write};
 }

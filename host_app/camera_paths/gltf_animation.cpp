@@ -351,7 +351,7 @@ void write(const CameraPath& path, const std::filesystem::path& file) {
         {"bufferViews", views},
         {"buffers", nlohmann::ordered_json::array({buffer})}};
     const std::string bytes = is_glb ? glb_of(json.dump(), binary) : json.dump(1) + '\n';
-    write_file_atomically(file, std::as_bytes(std::span(bytes)));
+    write_text_atomically(file, bytes);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
 #include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/camera_paths/omaf_camera.h"
 
 namespace vantage {
 namespace {
@@ -53,29 +54,33 @@ Eigen::Vector3d vector_of(const nlohmann::json& json, const char* key) {
 
 void write(const CameraPath& path, const std::filesystem::path& file) {
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < path.cameras.size(); ++i) {
-        const CameraState& camera = path.cameras[i];
-        const auto numbers = [](const Eigen::Vector3d& v) {
-            return nlohmann::ordered_json{v[0], v[1], v[2]};
-        };
-        const double f_px = camera.K(path.size_px.width, path.size_px.height)(0, 0);
-        cameras.push_back(
-            {{"Name", fmt::format("p{:06}", i)},
-             {"Projection", "Perspective"},
-             {"Position", numbers(omaf_from_stage() * camera.world_from_camera.translation())},
-             {"Rotation", numbers(euler_deg(omaf_from_stage() * camera.world_from_camera.linear() *
-                                            omaf_from_opencv().transpose()))},
-             {"Resolution", {path.size_px.width, path.size_px.height}},
-             {"Focal", {f_px, f_px}},
-             {"Principle_point", {0.5 * path.size_px.width, 0.5 * path.size_px.height}}});
-    }
+    for (std::size_t i = 0; i < path.cameras.size(); ++i)
+        cameras.push_back(omaf_camera(fmt::format("p{:06}", i), path.cameras[i].world_from_camera,
+                                      path.cameras[i].K(path.size_px.width, path.size_px.height),
+                                      path.size_px));
     const nlohmann::ordered_json json{
         {"Version", "4.0"}, {"Fps", path.rate_hz}, {"cameras", cameras}};
     const std::string text = json.dump(1) + '\n';
-    write_file_atomically(file, std::as_bytes(std::span(text)));
+    write_text_atomically(file, text);
 }
 
 }  // namespace
+
+nlohmann::ordered_json omaf_camera(const std::string& name, const Pose& world_from_camera,
+                                   const Eigen::Matrix3d& K, cv::Size size_px) {
+    const auto numbers = [](const Eigen::Vector3d& v) {
+        return nlohmann::ordered_json{v[0], v[1], v[2]};
+    };
+    constexpr double half_px = 0.5;
+    return {{"Name", name},
+            {"Projection", "Perspective"},
+            {"Position", numbers(omaf_from_stage() * world_from_camera.translation())},
+            {"Rotation", numbers(euler_deg(omaf_from_stage() * world_from_camera.linear() *
+                                           omaf_from_opencv().transpose()))},
+            {"Resolution", {size_px.width, size_px.height}},
+            {"Focal", {K(0, 0), K(1, 1)}},
+            {"Principle_point", {K(0, 2) + half_px, K(1, 2) + half_px}}};
+}
 
 CameraPath omaf_path_of(const std::string& text, const std::filesystem::path& file,
                         const CameraPathSettings& settings) {

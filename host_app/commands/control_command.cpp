@@ -22,7 +22,10 @@ CommandEntry control_command_entry() {
             if (*json)
                 std::cout << control_json().dump() << '\n';
             else
-                std::cout << command_table() << '\n' << lamp_table();
+                for (const ControlPage page : {ControlPage::replay, ControlPage::control})
+                    std::cout << (page == ControlPage::replay ? "" : "\n") << command_table(page)
+                              << '\n'
+                              << lamp_table(page);
         });
     }};
 }

@@ -25,6 +25,7 @@ void FilmOptions::add_to(CLI::App& command) {
         ->group("Film");
     command
         .add_option("--synth", synthesiser, "Synthesiser (default: the stage's; see render --help)")
+        ->type_name(synthesisers_type_name())
         ->group("Film");
     stereoscopic.add_to(command, "the camera's distance from its pivot")->group("Film");
 }
@@ -63,9 +64,9 @@ ExportBooks FilmOptions::write(const std::filesystem::path& take_file, const Tak
     }
     const auto is_wanted = [&] { return !stop.requested(); };
     const ExportBooks books = export_film(take, pictures, settings, file, is_wanted, progress);
-    if (books.written < pictures.size())
-        fail("{} was ended before its time: it has {} of {} pictures", file.string(), books.written,
-             pictures.size());
+    if (books.written + books.there < pictures.size())
+        fail("{} is not there yet: {} of its {} pictures are; the same command goes on with them",
+             file.string(), books.written + books.there, pictures.size());
     return books;
 }
 

@@ -18,8 +18,8 @@ struct FilmOptions {
     void add_to(CLI::App& command);
     /// One was given; they say nothing of another export.
     bool is_any() const;
-    /// Throws Error as film_of(), film_of_cameras() and export_film(). Ctrl-C ends the film where
-    /// it is, and throws Error then. `has_part`: somebody said which part.
+    /// Throws Error as film_of(), film_of_cameras() and export_film(). Ctrl-C leaves the
+    /// film's parts to go on with, and throws Error then. `has_part`: somebody said which part.
     ExportBooks write(const std::filesystem::path& take, const TakePart& part, bool has_part,
                       const std::filesystem::path& file,
                       const std::function<void(double)>& progress) const;

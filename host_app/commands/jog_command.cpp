@@ -64,7 +64,7 @@ void print_places(const std::vector<JogPlace>& places, bool json) {
 }
 
 void list(const JogOptions& options) {
-    const std::vector<WheelProfile> profiles = load_wheel_profiles(options.wheels);
+    const std::vector<WheelProfile> profiles = load_all_wheel_profiles(options.wheels);
     const std::unique_ptr<JogBus> bus = make_system_jog_bus();
     const std::vector<JogPlace> places = bus->list();
     if (options.all) {
@@ -155,7 +155,7 @@ nlohmann::ordered_json for_machines(const DeckEvent& event) {
 void monitor(const JogOptions& options) {
     // Before the deck's threads, so that they leave the signals to it.
     StopSignal stop;
-    JogDeck deck(make_system_jog_bus(), load_wheel_profiles(options.wheels),
+    JogDeck deck(make_system_jog_bus(), load_all_wheel_profiles(options.wheels),
                  {.raw_reports = options.raw});
     log_info("waiting for jog wheels, plugged in now or later, to be moved; Ctrl-C ends");
     const MonotonicTime start = MonotonicClock::now();

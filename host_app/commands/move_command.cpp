@@ -57,7 +57,7 @@ void convert(const MoveOptions& options) {
         book.lowest_m = flight.move.limits().min_eye_height_m;
         book.move = flight.move;
         const std::string text = to_toml(book);
-        write_file_atomically(to, std::as_bytes(std::span(text)));
+        write_text_atomically(to, text);
         result["keyframes"] = flight.move.keyframes().size();
         result["worst_mm"] = flight.worst * options.tolerance_mm;
         result["worst_deg"] = flight.worst * options.tolerance_deg;

@@ -9,6 +9,7 @@
 #include "common/base/time_zone.h"
 #include "host_app/commands/show_session.h"
 #include "host_app/commands/take_time.h"
+#include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_sets.h"
 #include "host_app/takes/take_show.h"
 
@@ -48,10 +49,12 @@ void play(const PlayOptions& options) {
     const auto sets = std::make_shared<const TakeSets>(take);
     FlightStore flights = options.show.flight_store(options.take);
     FlightPlan plan = options.show.plan(told.view, flights);
+    plan.habits = habits_of(*take);
     LiveSettings settings = options.show.settings(told.view, take->facts().pulse_rate_hz);
     settings.colours = told.colours;
     settings.take = sets;
-    settings.transport = transport_of(options, *take, *sets->span());
+    ClipStore clips = options.show.clip_store(options.take, take->facts().pulse_rate_hz);
+    settings.replay = Replay(transport_of(options, *take, *sets->span()), clips.book());
     // What nobody steers ends with the take.
     const bool has_hands = options.show.jog.value_or(!options.show.headless);
     // A flight that says where in the take it is ends by itself.
@@ -64,11 +67,15 @@ void play(const PlayOptions& options) {
         fail("what loops or stands has no end: say --frames or --seconds with --headless");
     const std::unique_ptr<JogDeck> deck = options.show.make_deck();
     LiveShow show(settings, plan, feed_of(*take), deck.get());
-    ShowSession session{
-        options.show, show,
-        plan,         deck.get(),
-        flights,      nullptr,
-        options.take, [&](StopSignal& signal) {
+    ShowSession session{options.show,
+                        show,
+                        plan,
+                        deck.get(),
+                        flights,
+                        clips,
+                        nullptr,
+                        options.take,
+                        [&](StopSignal& signal) {
             return show.wait_for_first_set(signal); }};
     session.run(stop);
 }

@@ -31,18 +31,19 @@ struct RenderOptions {
     StereoscopicOptions stereoscopic;
 };
 
-/// One camera, or two eyes beside each other; plain, or with the novelty overlay.
+/// One camera, or the eyes of a 3D display; plain, or with the novelty overlay.
 class Rendering {
   public:
     Rendering(const RenderOptions& options, const std::vector<ViewSet>& earlier, const ViewSet& set,
               const VirtualView& target, const ShaderLibrary& shaders)
-        : synthesiser_(make_synthesiser(options.synthesiser, shaders)), overlay_(shaders) {
+        : synthesiser_(make_synthesiser(options.synthesiser, shaders)),
+          overlay_(shaders),
+          mosaic_(shaders) {
         eyes_ = {target};
         if (const auto asked = options.stereoscopic.stereoscopy()) {
             settled_ = asked->settled(target, typical_depth_m(set.views, target));
-            const EyeViews both = eye_views(target, *settled_);
-            eyes_ = {both.left, both.right};
-            side_by_side_.resize({target.width_px, target.height_px});
+            eyes_ = eye_views(target, *settled_);
+            mosaic_.begin({target.width_px, target.height_px}, *settled_);
         }
         if (options.novelty) {
             NoveltyOverlay::require(synthesiser_->note_origins(true), options.synthesiser);
@@ -60,14 +61,14 @@ class Rendering {
     const std::optional<Stereoscopy>& stereoscopy() const { return settled_; }
 
     const Texture& plain() {
-        return both([](const Texture& eye) -> const Texture& { return eye; });
+        return all([](const Texture& eye) -> const Texture& { return eye; });
     }
 
     /// The overlay and, in `result`, what it says in numbers.
     const Texture& novelty(nlohmann::ordered_json& result) {
         NoveltyShares sum;
         synthesiser_->note_origins(true);
-        const Texture& picture = both([&](const Texture& eye) -> const Texture& {
+        const Texture& picture = all([&](const Texture& eye) -> const Texture& {
             const PixelOrigins& origins = *synthesiser_->origins();
             const NoveltyShares shares = novelty_shares(eye.download(), origins);
             const auto eyes = static_cast<double>(eyes_.size());
@@ -86,19 +87,18 @@ class Rendering {
 
   private:
     template <class Finish>
-    const Texture& both(const Finish& finish) {
-        const Texture& first = finish(synthesiser_->render(eyes_.front()));
-        if (eyes_.size() == 1) return first;
-        side_by_side_.put_left(first);
-        side_by_side_.put_right(finish(synthesiser_->render(eyes_.back())));
-        return side_by_side_.picture();
+    const Texture& all(const Finish& finish) {
+        if (!settled_) return finish(synthesiser_->render(eyes_.front()));
+        for (std::size_t i = 0; i < eyes_.size(); ++i)
+            mosaic_.put(finish(synthesiser_->render(eyes_[i])), i);
+        return mosaic_.picture();
     }
 
     std::unique_ptr<Synthesiser> synthesiser_;
     NoveltyOverlay overlay_;
     std::optional<Stereoscopy> settled_;
     std::vector<VirtualView> eyes_;
-    SideBySide side_by_side_;
+    EyeMosaic mosaic_;
 };
 
 void render(const RenderOptions& options) {
@@ -120,7 +120,8 @@ void render(const RenderOptions& options) {
     } else {
         target = load_virtual_view(options.pose);
     }
-    if (std::none_of(set.views.begin(), set.views.end(),
+    if (find_synthesiser(options.synthesiser).needs_depth &&
+        std::none_of(set.views.begin(), set.views.end(),
                      [](const DepthView& view) { return !view.depth_m.empty(); }))
         fail(
             "{}: no view that is left has 'disparity' or 'depth'; give at least one of them "
@@ -163,17 +164,13 @@ CommandEntry render_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<RenderOptions>();
         CLI::App* command = program.add_subcommand("render", "One novel view from a view set");
-        std::string synthesisers;
-        for (const SynthesiserEntry& entry : synthesiser_entries())
-            synthesisers += fmt::format("\n  {}: {}", entry.name, entry.summary);
         command->footer(
             "A pose file is JSON (or TOML, by its extension) with the keys of views.json:\n"
             "  {\"width\": 640, \"height\": 360,\n"
             "   \"K\": [[fx, skew, cx], [0, fy, cy], [0, 0, 1]],\n"
             "   \"world_from_camera\": [[r, r, r, x], [r, r, r, y], [r, r, r, z]]}\n"
-            "Pixel centres are at integer coordinates; x right, y down, z forward; metres.\n"
-            "Synthesisers:" +
-            synthesisers);
+            "Pixel centres are at integer coordinates; x right, y down, z forward; metres.\n" +
+            synthesisers_help());
         command->add_option("--views", options->views, "Folder with a views.json")->required();
         command->add_option("--earlier", options->earlier,
                             "Folders with the same rigs' views at instants before, oldest first: "
@@ -186,7 +183,9 @@ CommandEntry render_command_entry() {
         target->require_option(1);
         options->stereoscopic.add_to(*command, "the median depth of what is in view")
             ->excludes(hold_out);
-        command->add_option("--synth", options->synthesiser, "Synthesiser")->capture_default_str();
+        command->add_option("--synth", options->synthesiser, "Synthesiser; see below")
+            ->type_name(synthesisers_type_name())
+            ->capture_default_str();
         command->add_option("-o,--output", options->output, "Picture to write (.png or .jpg)")
             ->required();
         command

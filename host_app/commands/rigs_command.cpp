@@ -13,13 +13,18 @@
 #include "common/base/folder.h"
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
+#include "common/base/time.h"
 #include "common/base/time_zone.h"
 #include "common/config/stage_config.h"
-#include "common/receive/stage_receiver.h"
 #include "common/take/take_pulses.h"
 #include "common/wire/status_report.h"
+#include "host_app/commands/rigs_bugreport.h"
+#include "host_app/commands/rigs_look.h"
+#include "host_app/commands/rigs_plan.h"
+#include "host_app/commands/rigs_update.h"
 #include "host_app/commands/take_time.h"
 #include "host_app/live/live_report.h"
+#include "host_app/live/sync_proof.h"
 #include "host_app/takes/clock_time.h"
 #include "host_app/takes/kept_fetch.h"
 
@@ -40,48 +45,13 @@ struct Options {
     bool json = false;
 };
 
-/// Looks until every rig has answered, or the time is up. Frames are not asked for.
-ReceiverStatus look(const StageConfig& stage, double wait_s) {
-    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
-    StopSignal stop;
-    constexpr std::chrono::milliseconds look_every(50);
-    const MonotonicTime end =
-        MonotonicClock::now() +
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(wait_s));
-    while (MonotonicClock::now() < end && !stop.wait_for(look_every)) {
-        const ReceiverStatus status = receiver.status();
-        bool all = true;
-        for (const RigStatus& rig : status.rigs)
-            all = all && (rig.connected || !rig.refused.empty());
-        if (all) break;
-    }
-    return receiver.status();
-}
-
-/// Whether it gives pictures, as far as its own numbers say.
-bool delivers(const RigStatus& rig) {
-    return trouble_of(rig).empty() && rig.health.published_hz > 0;
-}
-
 /// Of the stage as a whole. Onlookers get no pictures, so there is nothing to be stale.
 SignalState signal_of(const ReceiverStatus& status) {
     return std::any_of(status.rigs.begin(), status.rigs.end(), delivers) ? SignalState::live
                                                                          : SignalState::no_signal;
 }
 
-nlohmann::ordered_json to_json(const RigStatus& rig) {
-    nlohmann::ordered_json json{{"name", rig.rig}, {"state", state_of(rig)}};
-    if (const std::string trouble = trouble_of(rig); !trouble.empty()) json["trouble"] = trouble;
-    json["delivers"] = delivers(rig);
-    json["clock"] = clock_text(rig);
-    json["same_clock"] = rig.same_clock;
-    json["sync"] = to_json(rig.sync);
-    json["health"] = to_json(rig.health);
-    json["frames"] = to_json(rig.since_start);
-    return json;
-}
-
-void print(const ReceiverStatus& status) {
+void print(const ReceiverStatus& status, const std::string& synchronisation) {
     for (const RigStatus& rig : status.rigs) {
         std::cout << fmt::format("{}: {}\n", rig.rig, full_state_of(rig));
         if (!rig.connected) continue;
@@ -93,21 +63,27 @@ void print(const ReceiverStatus& status) {
         if (const std::string pulses = pulse_text(rig.sync); !pulses.empty())
             std::cout << "    " << pulses << '\n';
     }
+    std::cout << "synchronisation: " << synchronisation << '\n';
     std::cout << "signal: " << title_of(signal_of(status)) << '\n';
 }
 
 void run(const Options& options) {
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
-    const ReceiverStatus status = look(stage, options.wait_s);
+    StopSignal stop;
+    const ReceiverStatus status = look_at(stage, options.wait_s, LookUntil::all_answered, stop);
+    const SyncProof proof = sync_proof_of(options.stage);
+    const auto now = std::chrono::system_clock::now();
     if (options.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const RigStatus& rig : status.rigs) all.push_back(to_json(rig));
-        std::cout
-            << nlohmann::ordered_json{{"signal", key_of(signal_of(status))}, {"rigs", all}}.dump()
-            << '\n';
+        std::cout << nlohmann::ordered_json{{"signal", key_of(signal_of(status))},
+                                            {"sync_proof", to_json(proof, now)},
+                                            {"rigs", all}}
+                         .dump()
+                  << '\n';
     } else {
-        print(status);
+        print(status, sync_words(proof, now));
     }
     std::string troubles;
     std::size_t troubled = 0;
@@ -176,8 +152,7 @@ void fetch_kept(const FetchOptions& options) {
     fetch.folder = options.folder;
     constexpr double bytes_a_mb = 1e6;
     fetch.bytes_s = bytes_a_mb * options.mb_s;
-    fetch.patience = std::chrono::duration_cast<std::chrono::nanoseconds>(
-        std::chrono::duration<double>(options.wait_s));
+    fetch.patience = from_s(options.wait_s);
     make_folder(options.folder);
     StopSignal stop;
     const std::vector<FetchBooks> all = fetch.run(
@@ -253,6 +228,9 @@ CommandEntry rigs_command_entry() {
             ->capture_default_str();
         fetch->add_flag("--json", fetched->json, "Print it as JSON");
         fetch->callback([fetched] { fetch_kept(*fetched); });
+        add_rigs_plan(*rigs);
+        add_rigs_update(*rigs);
+        add_rigs_bugreport(*rigs);
     }};
 }
 

@@ -19,8 +19,11 @@
 #include "host_app/live/output_switch.h"
 #include "host_app/live/progress_log.h"
 #include "host_app/live/surface_pick.h"
+#include "host_app/metrics/open_metrics.h"
 #include "host_app/output/picture_encoder.h"
 #include "host_app/output/picture_target.h"
+#include "host_app/output/set_timecode.h"
+#include "host_app/replay/past_time.h"
 
 namespace vantage {
 namespace {
@@ -75,6 +78,10 @@ FlightStore ShowOptions::flight_store(const std::string& beside) const {
     return FlightStore(flight.empty() ? flight_file_of(beside) : std::filesystem::path(flight));
 }
 
+ClipStore ShowOptions::clip_store(const std::string& beside, double pulse_rate_hz) const {
+    return {clips.empty() ? clip_file_of(beside) : std::filesystem::path(clips), pulse_rate_hz};
+}
+
 FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights) const {
     FlightPlan plan;
     plan.book = flights.book();
@@ -95,7 +102,7 @@ FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights
 
 std::unique_ptr<JogDeck> ShowOptions::make_deck() const {
     if (!jog.value_or(!headless)) return nullptr;
-    return std::make_unique<JogDeck>(make_system_jog_bus(), load_wheel_profiles(wheels));
+    return std::make_unique<JogDeck>(make_system_jog_bus(), load_all_wheel_profiles(wheels));
 }
 
 void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
@@ -112,6 +119,9 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
         "--flight", flight,
         "Keep shots and move in this flight file, and have them from there (default: "
         "NAME.flight.toml beside the stage or the take)");
+    command.add_option("--clips", clips,
+                       "Keep clips and play list in this file, and have them from there (default: "
+                       "NAME.clips.toml beside the stage or the take)");
     command.add_option("--snapshot", snapshot,
                        "Write the last picture (.png, .jpg); of a window, the whole desk");
     std::string kinds;
@@ -132,6 +142,12 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
                         ports)
         ->type_name("URL")
         ->allow_extra_args(false);
+    command
+        .add_option(
+            "--metrics", metrics,
+            "Tell Prometheus how the show stands, at http://HOST:PORT/metrics (:9464 listens "
+            "at 127.0.0.1; ?open=yes)")
+        ->type_name("URL");
     command.add_option("--record", film,
                        "Write the programme as a film (.mkv, .mp4), with the house's time code: "
                        "--output of a file");
@@ -155,8 +171,10 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
         "Pictures a second, such as 50, 29.97 or 30000/1001 (default: " + default_rate + " rate)");
     command.add_option("--size", size,
                        "Of the picture, WIDTHxHEIGHT (default: " + default_rate + ")");
-    command.add_option("--synth", synthesiser,
-                       "Synthesiser (default: " + default_rate + "; see render --help)");
+    command
+        .add_option("--synth", synthesiser,
+                    "Synthesiser (default: " + default_rate + "; see render --help)")
+        ->type_name(synthesisers_type_name());
     command.add_flag("--overwrite", overwrite, "Let films replace files that are there");
     command.add_flag_callback(
         "--no-harmonise", [this] { harmonise = false; },
@@ -186,6 +204,7 @@ void ShowSession::run(StopSignal& stop) {
         if (is_freed_url(url)) show.add(make_freed_sink(url));
     SetDesk sets(show, options.saved_set);
     ControlRoom room(options.controls, show);
+    if (!options.metrics.empty()) metrics.emplace(options.metrics);
     if (options.headless)
         run_headless(stop, room, sets);
     else
@@ -201,10 +220,13 @@ void ShowSession::finish(ControlRoom& room, SetDesk& sets, const CorridorWatch& 
     show.finish();
     if (takes) takes->finish();
     show.controls().end_recording();
+    for (const std::string& wheel : show.controls().wheels().unsaved())
+        log_warning("the map of {} was changed and not saved: it is gone", wheel);
     keep_flights(show.controls().take_wishes());
     flights.finish();
-    LiveReport report = show.report();
-    if (takes && takes->state().takes > 0) report.take = takes->state();
+    clips.follow(show.state().replay.book, MonotonicClock::now());
+    clips.finish();
+    LiveReport report = report_now();
     report.saved_set = sets.state().path;
     report.played = played;
     report.ports = room.close();
@@ -229,6 +251,42 @@ void ShowSession::finish(ControlRoom& room, SetDesk& sets, const CorridorWatch& 
 void ShowSession::keep_flights(const SessionWishes& wishes) {
     if (wishes.change) flights.keep(*wishes.change);
     if (!wishes.flight.empty()) flights.simplify(wishes.flight, wishes.limits);
+}
+
+/// To a time that somebody has typed.
+void ShowSession::cue_time(const std::string& words) {
+    const ProgrammeState state = show.state();
+    if (!state.past || !state.picture) return log_warning("there is no past to go to {} in", words);
+    const std::optional<int> offset_s = tai_offset_s_of(*state.picture->job.instant->set);
+    try {
+        show.controls().seek(static_cast<double>(pulse_in_past(
+            words, *state.past, show.settings().pulse_rate_hz, offset_s.value_or(0))));
+    } catch (const Error& error) {
+        log_warning("{}", error.what());
+    }
+}
+
+void ShowSession::follow_replay(MonotonicTime now) {
+    const ReplayState replay = show.state().replay;
+    clips.follow(replay.book, now);
+    if (replay.notices != told_notices) log_warning("{}", replay.notice);
+    told_notices = replay.notices;
+}
+
+LiveReport ShowSession::report_now() const {
+    LiveReport report = show.report();
+    if (takes && takes->state().takes > 0) report.take = takes->state();
+    return report;
+}
+
+void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
+    // Prometheus looks a few times a minute.
+    constexpr std::chrono::seconds period{1};
+    if (!metrics || now - metrics_shown < period) return;
+    metrics_shown = now;
+    LiveReport report = report_now();
+    report.ports = room.ports();
+    metrics->show(to_open_metrics(report));
 }
 
 /// Finds surfaces for hands that name them by a place in the picture, and the performer whom the
@@ -262,12 +320,15 @@ void ShowSession::follow_wishes(OutputSwitch& outputs, SetDesk& sets, ControlRoo
     const SessionWishes wishes = show.controls().take_wishes();
     keep_flights(wishes);
     find_pivots(wishes, now);
+    if (!wishes.cue_time.empty()) cue_time(wishes.cue_time);
+    follow_replay(now);
     if (std::optional<Move> move = flights.follow(now))
         show.controls().keep_flight(*std::move(move));
     if (takes && wishes.toggle_take) takes->toggle();
     for (const int number : wishes.outputs) outputs.press(number, now);
     if (wishes.learn_set) show.learn_set_anew();
     if (wishes.save_set) sets.save();
+    show_metrics(room, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, sets.state().path,
                     now);
 }
@@ -303,6 +364,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
     const PictureFormat& format = show.settings().format;
     OperatorWindow window("Vantage", std::max(least_width_px, format.width_px),
                           std::max(least_height_px, format.height_px));
+    show.controls().wheels().serve_desk();
     show.start();
     DeskFeed desk;
     ProgressLog progress(plan);
@@ -320,6 +382,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
         const MonotonicTime now = MonotonicClock::now();
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
         if (const std::optional<double> pulse = window.take_seek()) show.controls().seek(*pulse);
+        for (const WheelCall& call : window.take_wheel_calls()) show.controls().wheels().obey(call);
         follow_wishes(outputs, sets, room, now);
         screens.follow(show.outputs().screens());
         show.controls().hands().put(input, now);

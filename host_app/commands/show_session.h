@@ -15,15 +15,18 @@
 #include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
 #include "host_app/live/set_desk.h"
+#include "host_app/metrics/metrics_server.h"
+#include "host_app/replay/clip_store.h"
 #include "host_app/takes/take_desk.h"
 
 namespace vantage {
 
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
-    std::string path, flight, snapshot, film, contact_sheet, size, synthesiser, wheels, encoder,
-        rate;
+    std::string path, flight, clips, snapshot, film, contact_sheet, size, synthesiser, wheels,
+        encoder, rate;
     std::string set, saved_set;
+    std::string metrics;  ///< where they are told; empty: nowhere
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
@@ -41,6 +44,8 @@ struct ShowOptions {
     FlightPlan plan(const StageConfig::View& view, FlightStore& flights) const;
     /// `beside`: the stage or the take. Throws Error as load_flight().
     FlightStore flight_store(const std::string& beside) const;
+    /// Likewise, as load_clips().
+    ClipStore clip_store(const std::string& beside, double pulse_rate_hz) const;
     std::unique_ptr<JogDeck> make_deck() const;
 };
 
@@ -51,10 +56,14 @@ struct ShowSession {
     const FlightPlan& plan;
     const JogDeck* deck;
     FlightStore& flights;
+    ClipStore& clips;
     TakeDesk* takes;     ///< null: nothing can be recorded
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.
     std::function<bool(StopSignal&)> wait;
+    std::uint64_t told_notices = 0;  ///< of replay, in the log
+    std::optional<MetricsServer> metrics = {};
+    MonotonicTime metrics_shown{};
     MonotonicTime followed{};  ///< the set in which a performer was looked for last
 
     void run(StopSignal& stop);
@@ -63,6 +72,10 @@ struct ShowSession {
     void run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets);
     void run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets);
     void keep_flights(const SessionWishes& wishes);
+    void cue_time(const std::string& words);
+    void follow_replay(MonotonicTime now);
+    LiveReport report_now() const;
+    void show_metrics(const ControlRoom& room, MonotonicTime now);
     void find_pivots(const SessionWishes& wishes, MonotonicTime now);
     void follow_wishes(class OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
                        MonotonicTime now);

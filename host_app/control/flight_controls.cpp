@@ -74,19 +74,17 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight) helm_.keep_within(corridor);
     auto [hands, since] = hands_.take();
-    if (deck_) {
-        while (const std::optional<DeckEvent> event = deck_->next()) {
-            mapper_.take(*event);
-            if (event->kind == DeckEvent::Kind::control && (!since || event->time < *since))
-                since = event->time;
-        }
-        hands.add(mapper_.input(dt_s));
+    if (deck_) hands.add(take_wheels(dt_s, since));
+    if (hands.toggle_jog_map) {
+        wheels_.toggle();
+        mapper_.let_go();
     }
     PilotStep step;
     step.hand = since;
     step.next_synthesiser = hands.next_synthesiser;
     step.toggle_source_map = hands.toggle_novelty;
     step.time = {.pulses = hands.past_steps,
+                 .shuttle_pulses = 0,
                  .speed_steps = hands.speed_steps,
                  .toggle_hold = hands.toggle_freeze,
                  .to_live = hands.to_live,
@@ -94,9 +92,12 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
                  .mark_out = hands.mark_out,
                  .clear_marks = hands.clear_marks,
                  .toggle_loop = hands.toggle_loop,
-                 .cue = hands.cue};
-    if (helm_.wheel_mode() == WheelMode::past)
-        step.time.pulses += hands.wheel_steps + hands.shuttle_s * settings_.pulse_rate_hz;
+                 .cue = hands.cue,
+                 .calls = hands.replay};
+    if (helm_.wheel_mode() == WheelMode::past) {
+        step.time.pulses += hands.wheel_steps;
+        step.time.shuttle_pulses = hands.shuttle_s * settings_.pulse_rate_hz;
+    }
     const auto take_s_of = [&](double pulse) {
         return (pulse - *settings_.take_begin) / settings_.pulse_rate_hz;
     };
@@ -120,6 +121,7 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     }
     if (!is_recording_) pass_flight_on();
     if (hands.pick) wishes_.pick = hands.pick;
+    if (!hands.cue_time.empty()) wishes_.cue_time = hands.cue_time;
     wishes_.save_set |= hands.save_set;
     wishes_.learn_set |= hands.learn_set;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
@@ -164,6 +166,14 @@ void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<do
     step.view = helm_.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
+}
+
+PilotStep FlightControls::fly_to_shot(int number) {
+    FlightInput hands;
+    hands.recall_shot = number;
+    PilotStep step;
+    fly(hands, 0, std::nullopt, step);
+    return step;
 }
 
 void FlightControls::seek(double pulse) {
@@ -253,6 +263,18 @@ FlightControls::Lines FlightControls::lines() const {
     return lines_;
 }
 
+FlightInput FlightControls::take_wheels(double dt_s, std::optional<MonotonicTime>& since) {
+    const bool is_map_open = wheels_.is_open();
+    while (std::optional<DeckEvent> event = deck_->next()) {
+        wheels_.note(*event);
+        if (is_map_open) continue;
+        mapper_.take(*event);
+        if (event->kind == DeckEvent::Kind::control && (!since || event->time < *since))
+            since = event->time;
+    }
+    return mapper_.input(dt_s);
+}
+
 std::string FlightControls::wheel_line() const {
     if (!deck_) return "";
     std::string names, fault;
@@ -263,8 +285,12 @@ std::string FlightControls::wheel_line() const {
             fault = device.fault;
     }
     if (names.empty()) return fault;
-    return fmt::format("{} drives the {}{}", names, name_of(helm_.wheel_mode()),
-                       mapper_.is_storing() ? "; the next shot button stores" : "");
+    return fmt::format("{} {}{}{}", names,
+                       wheels_.is_open()
+                           ? "moves nothing while its map is open"
+                           : fmt::format("drives the {}", name_of(helm_.wheel_mode())),
+                       mapper_.is_storing() ? "; the next shot button stores" : "",
+                       wheels_.unsaved().empty() ? "" : "; its map is changed and not saved");
 }
 
 }  // namespace vantage

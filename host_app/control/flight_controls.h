@@ -10,6 +10,7 @@
 
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/control/hid/jog_mapper.h"
+#include "host_app/control/hid/wheel_desk.h"
 #include "host_app/control/tracked_camera.h"
 #include "host_app/flight/corridor_books.h"
 #include "host_app/flight/flight_plan.h"
@@ -42,6 +43,7 @@ class HandsBox {
 /// What hands ask of the session and not of the programme, on its way to the session's thread.
 struct SessionWishes {
     bool toggle_take = false, save_set = false, learn_set = false;
+    std::string cue_time = {};                 ///< see FlightInput
     std::optional<Eigen::Vector2d> pick = {};  ///< see FlightInput
     std::vector<int> outputs;                  ///< pressed, 1 and on, in their order
     std::optional<Helm::Change> change = {};   ///< of shots and move, by hand
@@ -75,8 +77,11 @@ class FlightControls final : public Pilot {
     HandsBox& hands() { return hands_; }
     /// One that speaks flies, until a hand steers.
     TrackedCamera& tracked() { return tracked_; }
+    /// The maps of the wheels, to be shown and changed.
+    WheelDesk& wheels() { return wheels_; }
     /// Throws what the deck throws.
     PilotStep step(double time_s, std::optional<double> past_pulse) override;
+    PilotStep fly_to_shot(int number) override;
 
     /// A flight that was recorded: the move from the next step on. From any thread.
     void keep_flight(Move move);
@@ -113,6 +118,8 @@ class FlightControls final : public Pilot {
     Lines lines() const;
 
   private:
+    /// What the wheels ask for; `since`: when the first of it was moved.
+    FlightInput take_wheels(double dt_s, std::optional<MonotonicTime>& since);
     std::string wheel_line() const;
     /// Whoever flies, tracked camera or helm.
     void fly(const FlightInput& hands, double dt_s, std::optional<double> take_s, PilotStep& step);
@@ -133,6 +140,7 @@ class FlightControls final : public Pilot {
     CorridorNow corridor_now_;
     CorridorBooks corridor_books_;
     JogMapper mapper_;
+    WheelDesk wheels_;
     HandsBox hands_;
     TrackedCamera tracked_;
     CameraGlide glide_;

@@ -38,7 +38,8 @@ float letter_height_px(float width_px, float height_px, float content_scale) {
         std::max(std::min(height_px / rows, width_px / columns), least * content_scale));
 }
 
-DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect) {
+DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
+                       bool has_clips) {
     const float width = width_px / em_px, height = height_px / em_px;
     DeskLayout layout;
     layout.status = {0, 0, width, status_height};
@@ -62,17 +63,19 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
     if (width >= least_width_with_side) {
         const float shot_height = middle / shot_places - gap;
         const float shot_width = std::min(shot_height / aspect, 0.11f * width);
+        const float bins = has_clips ? 2 : 1;
         // The side takes what the picture leaves.
         const float picture_width =
-            std::min(middle / aspect, right - side_width - shot_width - 3 * gap);
-        const float side_left = 3 * gap + picture_width + shot_width;
+            std::min(middle / aspect, right - side_width - bins * (shot_width + gap) - 2 * gap);
+        const float side_left = 2 * gap + picture_width + bins * (shot_width + gap);
         layout.shots = {2 * gap + picture_width, top, shot_width, middle};
+        if (has_clips) layout.clips = {layout.shots.right() + gap, top, shot_width, middle};
         layout.side = {side_left, top, right - side_left, middle};
         right = gap + picture_width;
     }
     layout.programme = {gap, top, right - gap, middle};
-    for (DeskRect* part : {&layout.status, &layout.programme, &layout.shots, &layout.side,
-                           &layout.time_line, &layout.rigs})
+    for (DeskRect* part : {&layout.status, &layout.programme, &layout.shots, &layout.clips,
+                           &layout.side, &layout.time_line, &layout.rigs})
         *part = {part->left * em_px, part->top * em_px, part->width * em_px, part->height * em_px};
     return layout;
 }

@@ -25,12 +25,13 @@ float letter_height_px(float width_px, float height_px, float content_scale);
 
 /// Where the parts of the desk stand. What a small window has no room for is empty.
 struct DeskLayout {
-    DeskRect status, programme, shots, side, time_line, rigs;
+    DeskRect status, programme, shots, clips, side, time_line, rigs;
     int rig_rows = 1;
 };
 
 /// `em_px`: height of letters; `rigs`: how many are to be shown; `aspect`: height by width of the
-/// programme's picture.
-DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect);
+/// programme's picture; `has_clips`: there are clips to be shown.
+DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
+                       bool has_clips = false);
 
 }  // namespace vantage

@@ -20,7 +20,9 @@ struct DeskSpots {
         DeskRect rect;
         DeskTime time;
     };
-    std::vector<Numbered> shots, outputs;
+    std::vector<Numbered> shots, outputs, clips, entries;
+    /// Of a wheel's map, which lies over all else: by the control's place in it.
+    std::vector<Numbered> wheel_controls;
     std::optional<Time> time;
     DeskRect live;  ///< empty: there is no live to go back to
 };
@@ -31,8 +33,11 @@ void draw_multiview(const Pen& pen, const DeskRect& rect, int rows, const DeskSt
 void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state);
 void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
+void draw_clips(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
-/// In the middle of the window, over everything else.
+// In the middle of the window, over everything else.
+void draw_wheel_map(const Pen& pen, float width_px, float height_px, const DeskWheel& wheel,
+                    DeskSpots& spots);
 void draw_help(const Pen& pen, float width_px, float height_px);
 
 }  // namespace vantage

@@ -121,6 +121,71 @@ struct DeskShot {
     bool is_kept = false;              ///< by somebody; else it is what a rig sees
 };
 
+/// A clip of the bin.
+struct DeskClip {
+    int number = 1;
+    std::string name;
+    double in = 0, out = 0;            ///< pulses; `out` is the first that is left out
+    double duration_s = 0, speed = 1;  ///< as it was filmed, and that it is played at
+    bool is_in_hand = false, is_played = false;
+    std::string loss = {};             ///< what the past lacks of it; empty: nothing
+    const Texture* picture = nullptr;  ///< null: not seen yet
+};
+
+/// A line of the play list.
+struct DeskEntry {
+    std::string name;
+    double duration_s = 0, speed = 1;  ///< as it is played
+    bool is_selected = false, is_playing = false, is_gone = false;
+};
+
+struct DeskReplay {
+    std::vector<DeskClip> clips;
+    std::vector<DeskEntry> entries;
+    bool list_loops = false, fast_jog = false;
+    double programme_speed = 0.5;
+    int clip = 0;  ///< that is cued or played; 0: none
+    std::optional<double> clip_left_s, list_left_s;
+};
+
+/// The map of a jog wheel while it is open, and how what is in hand feels.
+struct DeskWheel {
+    enum class Kind { turns, axis, button };
+    struct Control {
+        Kind kind = Kind::button;
+        std::string name, does;
+        bool is_held = false;
+        double at = 0;  ///< of an axis -1..1; of what turns all detents so far
+    };
+    /// Of a control that is no button.
+    struct Feel {
+        double steps = 1, dead_zone = 0, curve = 1;
+        bool inverted = false;
+        /// What it asks for over its way from one end to the other, or from that many detents back
+        /// to as many on; and where it is now. `most`: of what is asked for.
+        std::vector<float> response;
+        double from = -1, to = 1, most = 1, at = 0, asks = 0;
+        std::string unit;  ///< of what it asks for
+    };
+    std::string name;  ///< of the wheel; empty: none has been plugged in
+    std::string file;  ///< that the map is saved in
+    std::vector<Control> controls;
+    std::size_t selected = 0;
+    std::optional<Feel> feel;
+    bool is_changed = false;  ///< and not saved
+    std::string remark;       ///< what the last change came to; empty: nothing to say
+
+    // What hands are about to change of it, which the window adds (see WheelPanel).
+    struct Choice {
+        std::string action, does;
+    };
+    bool is_choosing = false;      ///< what the control in hand is to do
+    std::string typed;             ///< how its name begins
+    std::vector<Choice> choices;   ///< that are left
+    std::size_t chosen = 0;        ///< of them
+    std::size_t feel_in_hand = 0;  ///< of steps, dead zone, curve, inverted
+};
+
 struct DeskState {
     const Texture* picture = nullptr;  ///< the virtual view
     std::string timecode;
@@ -134,7 +199,10 @@ struct DeskState {
     bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says
     std::string question;            ///< that a second press of a key answers; empty: none
     std::optional<double> behind_s;  ///< while in a stage's past: how far
-    std::optional<DeskTime> time;    ///< nothing: there is no past
+    std::string typed;               ///< the line in which a command is typed; empty: none
+    std::string notice;              ///< what replay could not do a moment ago; empty: nothing
+    DeskReplay replay;
+    std::optional<DeskTime> time;  ///< nothing: there is no past
     double picture_rate_hz = 0;
     double latency_ms = 0;            ///< from exposure to this window; 0: not known
     std::vector<float> latencies_ms;  ///< oldest first
@@ -142,12 +210,16 @@ struct DeskState {
     int render_level = 0, prepare_level = 0;  ///< of quality; 0 is the best
     std::vector<DeskStep> steps;
     std::vector<DeskRig> rigs;
+    std::string synchronisation;  ///< what light last said of it; empty: of no stage
+    bool is_sync_doubtful = false;
     OrbitView view;
     bool follows_performer = false, holds_horizon = true;
     std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
     std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
     std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
+    std::optional<DeskWheel> wheel_map;   ///< nothing: it is not open
+    bool has_unsaved_wheel = false;       ///< a map was changed and not saved
     std::optional<DeskSources> sources;   ///< while the source map is asked for
     std::vector<DeskShot> shots;          ///< 1 and on
 

@@ -19,6 +19,7 @@ std::vector<std::pair<std::string, std::string>> help_rows() {
         if (std::string words = key_words(command); !words.empty())
             rows.emplace_back(std::move(words), command.does);
     rows.insert(rows.end(), {{"Tab", "the picture alone, or the desk"},
+                             {"Enter", "type a command with its argument, or a time"},
                              {"F1", "show or hide this help"},
                              {"Esc", "end; asks first"}});
     return rows;
@@ -42,7 +43,7 @@ void draw_help(const Pen& pen, float width_px, float height_px) {
     const float height = static_cast<float>(lines) * row_height + title_height + 2 * pad;
     const DeskRect box{0.5f * (width_px - width), std::max(0.0f, 0.5f * (height_px - height)),
                        width, std::min(height, height_px)};
-    const Clip clip(pen, box);
+    const Clipping clipping(pen, box);
     pen.fill(box, palette::panel, 0.3f * em);
     pen.outline(box, palette::line);
     pen.text(box.left + pad, box.top + pad, palette::text, "Keys and mouse", true);

@@ -27,7 +27,7 @@ float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture,
 
 /// Under the depth picture, the most important first.
 void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) {
-    const Clip clip(pen, rect);
+    const Clipping clipping(pen, rect);
     float y = rect.top;
     const auto row = [&](const ImVec4& colour, const std::string& words) {
         if (words.empty() || y + pen.em() > rect.bottom()) return;

@@ -36,7 +36,12 @@ constexpr double double_press_s = 0.35;
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
     if (name == "Space") return GLFW_KEY_SPACE;
-    if (name == "Home") return GLFW_KEY_HOME;
+    constexpr std::pair<std::string_view, int> named[] = {
+        {"Home", GLFW_KEY_HOME},          {"End", GLFW_KEY_END},      {"Insert", GLFW_KEY_INSERT},
+        {"Delete", GLFW_KEY_DELETE},      {"PgUp", GLFW_KEY_PAGE_UP}, {"PgDn", GLFW_KEY_PAGE_DOWN},
+        {"Backspace", GLFW_KEY_BACKSPACE}};
+    for (const auto& [known, key] : named)
+        if (name == known) return key;
     if (name.size() > 1) return GLFW_KEY_F1 + std::atoi(name.data() + 1) - 1;
     return name.empty() ? GLFW_KEY_UNKNOWN : name.front();
 }
@@ -98,6 +103,7 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     glfwSetWindowUserPointer(window_.get(), this);
     // Every event by itself: between two pictures a whole drag may begin and end.
     glfwSetKeyCallback(window_.get(), on_key);
+    glfwSetCharCallback(window_.get(), on_letter);
     glfwSetMouseButtonCallback(window_.get(), on_button);
     glfwSetCursorPosCallback(window_.get(), on_cursor);
     glfwSetScrollCallback(window_.get(), on_scroll);
@@ -122,7 +128,9 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
     OperatorWindow& self = of(window);
     if (action == GLFW_RELEASE) return;
     self.is_changed_ = true;
+    if (self.prompt_.is_open()) return self.type(key);
     const bool with_control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    if (self.panel_.is_open()) return self.press_in_panel(key, with_control);
     for (const ControlCommand& command : control_commands()) {
         const int number = number_of_key(command, key, with_control);
         if (number == 0 || (action != GLFW_PRESS && !command.key.repeats)) continue;
@@ -131,6 +139,56 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
             apply({&command, static_cast<double>(number)}, self.input_);
     }
     if (action == GLFW_PRESS) self.take_key(key);
+}
+
+void OperatorWindow::on_letter(GLFWwindow* window, unsigned codepoint) {
+    OperatorWindow& self = of(window);
+    if (self.prompt_.is_open())
+        self.prompt_.type(codepoint);
+    else
+        self.panel_.type(codepoint);
+}
+
+void OperatorWindow::type(int key) {
+    switch (key) {
+        case GLFW_KEY_ESCAPE:
+            return prompt_.close();
+        case GLFW_KEY_BACKSPACE:
+            return prompt_.erase();
+        case GLFW_KEY_TAB:
+            return prompt_.complete();
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            if (const std::optional<CommandCall> call = prompt_.call()) {
+                const std::string question =
+                    question_of(*call->command, static_cast<int>(call->argument));
+                if (!question.empty() && !guard_.confirms(question, glfwGetTime())) return;
+                apply(*call, input_);
+                prompt_.close();
+            }
+            return;
+        default:
+            return;
+    }
+}
+
+void OperatorWindow::press_in_panel(int key, bool with_control) {
+    using Key = WheelPanel::Key;
+    constexpr std::pair<int, Key> keys[] = {{GLFW_KEY_UP, Key::up},
+                                            {GLFW_KEY_DOWN, Key::down},
+                                            {GLFW_KEY_LEFT, Key::left},
+                                            {GLFW_KEY_RIGHT, Key::right},
+                                            {GLFW_KEY_TAB, Key::tab},
+                                            {GLFW_KEY_ENTER, Key::enter},
+                                            {GLFW_KEY_KP_ENTER, Key::enter},
+                                            {GLFW_KEY_ESCAPE, Key::escape},
+                                            {GLFW_KEY_BACKSPACE, Key::backspace}};
+    std::optional<WheelCall> call;
+    for (const auto& [known, meant] : keys)
+        if (key == known) call = panel_.press(meant);
+    if (with_control && key == GLFW_KEY_S) call = WheelCall{WheelCall::What::save};
+    if (with_control && key == GLFW_KEY_M) call = WheelCall{WheelCall::What::close};
+    if (call) wheel_calls_.push_back(*call);
 }
 
 std::string OperatorWindow::question_of(const ControlCommand& command, int number) const {
@@ -149,11 +207,19 @@ void OperatorWindow::take_key(int key) {
         case GLFW_KEY_F1:
             switches_.help = !switches_.help;
             break;
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            prompt_.open();
+            break;
         case GLFW_KEY_TAB:
             switches_.panels = !switches_.panels;
             break;
         case GLFW_KEY_ESCAPE:
-            if (guard_.confirms("Esc again to end the programme", glfwGetTime()))
+            if (guard_.confirms(has_unsaved_wheel_
+                                    ? "the wheel's map is not saved (Ctrl + M, then Ctrl + S); Esc "
+                                      "again to end without it"
+                                    : "Esc again to end the programme",
+                                glfwGetTime()))
                 glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
             break;
         default:
@@ -166,8 +232,9 @@ void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) 
     if (button < 0 || button >= static_cast<int>(self.drags_.size())) return;
     // What begins beside the picture is none of the camera's until the button is up.
     self.drags_[static_cast<std::size_t>(button)] =
-        action == GLFW_PRESS && self.drawn_.picture.contains(static_cast<float>(self.cursor_x_),
-                                                             static_cast<float>(self.cursor_y_));
+        action == GLFW_PRESS && !self.panel_.is_open() &&
+        self.drawn_.picture.contains(static_cast<float>(self.cursor_x_),
+                                     static_cast<float>(self.cursor_y_));
     if (button != GLFW_MOUSE_BUTTON_LEFT) return;
     self.drags_time_ = false;
     if (action == GLFW_PRESS) self.press_at_cursor();
@@ -178,10 +245,19 @@ void OperatorWindow::press_at_cursor() {
         return rect.contains(static_cast<float>(cursor_x_), static_cast<float>(cursor_y_));
     };
     is_changed_ = true;
+    if (panel_.is_open()) {
+        for (const DeskSpots::Numbered& control : drawn_.spots.wheel_controls)
+            if (is_on(control.rect)) wheel_calls_.push_back(panel_.press_control(control.number));
+        return;
+    }
     for (const DeskSpots::Numbered& shot : drawn_.spots.shots)
         if (is_on(shot.rect)) input_.recall_shot = shot.number;
     for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
         if (is_on(output.rect)) input_.toggle_output = output.number;
+    for (const DeskSpots::Numbered& clip : drawn_.spots.clips)
+        if (is_on(clip.rect)) input_.replay.push_back({ReplayAction::hold_clip, clip.number});
+    for (const DeskSpots::Numbered& entry : drawn_.spots.entries)
+        if (is_on(entry.rect)) input_.replay.push_back({ReplayAction::select_entry, entry.number});
     if (is_on(drawn_.spots.live)) input_.to_live = true;
     if (is_on(drawn_.picture)) press_on_picture();
     if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
@@ -234,6 +310,7 @@ void OperatorWindow::take_cursor(double x, double y) {
 
 void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
     OperatorWindow& self = of(window);
+    if (self.panel_.is_open()) return;
     const auto is_on = [&](const DeskRect& rect) {
         return rect.contains(static_cast<float>(self.cursor_x_),
                              static_cast<float>(self.cursor_y_));
@@ -262,11 +339,15 @@ void OperatorWindow::take_held_keys(double dt_s) {
 FlightInput OperatorWindow::poll(double dt_s) {
     input_ = {};
     glfwPollEvents();
-    take_held_keys(dt_s);
+    if (!prompt_.is_open() && !panel_.is_open()) take_held_keys(dt_s);
     return input_;
 }
 
 std::optional<double> OperatorWindow::take_seek() { return std::exchange(seek_, std::nullopt); }
+
+std::vector<WheelCall> OperatorWindow::take_wheel_calls() {
+    return std::exchange(wheel_calls_, {});
+}
 
 bool OperatorWindow::is_desk_due(MonotonicTime now) const {
     return now >= (is_changed_ ? next_desk_in_hand_ : next_desk_);
@@ -296,6 +377,9 @@ void OperatorWindow::show(DeskState state) {
     is_changed_ = false;
     if (!fit_to_window()) return;
     if (state.question.empty()) state.question = guard_.question(glfwGetTime());
+    if (prompt_.is_open()) state.typed = prompt_.line();
+    panel_.follow(state.wheel_map);
+    has_unsaved_wheel_ = state.has_unsaved_wheel;
     take_runs_ = state.take && state.take->is_running;
     for (std::size_t i = 0; i < kept_shots_.size(); ++i)
         kept_shots_[i] = i < state.shots.size() && state.shots[i].is_kept;
@@ -308,6 +392,8 @@ void OperatorWindow::show(DeskState state) {
     next_desk_ = end + std::clamp<std::chrono::nanoseconds>(idle_times * (end - start),
                                                             least_desk_period, most_desk_period);
     next_desk_in_hand_ = std::min(next_desk_, end + idle_times_in_hand * (end - start));
+    // A wheel is watched as it turns.
+    if (panel_.is_open()) next_desk_ = next_desk_in_hand_;
 }
 
 void OperatorWindow::show_picture(const Texture& picture) {

@@ -4,15 +4,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/time.h"
 #include "common/gl/framebuffer.h"
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
+#include "host_app/desk/command_prompt.h"
 #include "host_app/desk/desk_screen.h"
 #include "host_app/desk/key_guard.h"
 #include "host_app/desk/shot_places.h"
 #include "host_app/desk/ui_renderer.h"
+#include "host_app/desk/wheel_panel.h"
 #include "host_app/flight/flight_input.h"
 
 struct GLFWwindow;
@@ -47,6 +50,8 @@ class OperatorWindow {
     FlightInput poll(double dt_s);
     /// The pulse that the mouse went to on the line of time since the last call.
     std::optional<double> take_seek();
+    /// What hands asked of a wheel's map since the last call, in their order.
+    std::vector<WheelCall> take_wheel_calls();
     bool closed() const;
 
     /// Whether show() is to come next, since hands changed what is shown or it is time again.
@@ -74,7 +79,12 @@ class OperatorWindow {
     };
     static OperatorWindow& of(GLFWwindow* window);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+    static void on_letter(GLFWwindow* window, unsigned codepoint);
+    /// While a command is typed all keys are its.
+    void type(int key);
     void take_key(int key);
+    /// While a wheel's map is open all keys are its.
+    void press_in_panel(int key, bool with_control);
     /// What a command's key has to be asked before it is obeyed; empty: nothing.
     std::string question_of(const ControlCommand& command, int number) const;
     void press_on_picture();
@@ -99,16 +109,19 @@ class OperatorWindow {
     std::unique_ptr<Screen> screen_;
     DrawnDesk drawn_;
     DeskSwitches switches_;
+    bool take_runs_ = false, drags_time_ = false;
+    bool is_changed_ = true;  ///< by hands, since the desk was drawn
     KeyGuard guard_;
-    bool take_runs_ = false;
+    CommandPrompt prompt_;
+    WheelPanel panel_;
+    std::vector<WheelCall> wheel_calls_;
+    bool has_unsaved_wheel_ = false;
     std::bitset<shot_places> kept_shots_;
 
     FlightInput input_;
     std::optional<double> seek_;
-    std::bitset<3> drags_;  ///< by button: it went down on the picture
-    bool drags_time_ = false;
+    std::bitset<3> drags_;                ///< by button: it went down on the picture
     double cursor_x_ = 0, cursor_y_ = 0;  ///< in pixels of what is shown
-    bool is_changed_ = true;              ///< by hands, since the desk was drawn
     MonotonicTime next_desk_{}, next_desk_in_hand_{};
     double pressed_s_ = -1;  ///< when the left button went down on the picture last
 };

@@ -123,10 +123,10 @@ float Pen::badge(float x, float y, float height, std::string_view words,
     return x + width + 0.5f * em();
 }
 
-Clip::Clip(const Pen& pen, const DeskRect& rect) : list_(&pen.list()) {
+Clipping::Clipping(const Pen& pen, const DeskRect& rect) : list_(&pen.list()) {
     list_->PushClipRect({rect.left, rect.top}, {rect.right(), rect.bottom()}, true);
 }
 
-Clip::~Clip() { list_->PopClipRect(); }
+Clipping::~Clipping() { list_->PopClipRect(); }
 
 }  // namespace vantage

@@ -55,12 +55,12 @@ class Pen {
 };
 
 /// Nothing outside the rectangle is drawn while it lives.
-class Clip {
+class Clipping {
   public:
-    Clip(const Pen& pen, const DeskRect& rect);
-    ~Clip();
-    Clip(const Clip&) = delete;
-    Clip& operator=(const Clip&) = delete;
+    Clipping(const Pen& pen, const DeskRect& rect);
+    ~Clipping();
+    Clipping(const Clipping&) = delete;
+    Clipping& operator=(const Clipping&) = delete;
 
   private:
     ImDrawList* list_;

@@ -74,6 +74,52 @@ void draw_camera(Column& column, const DeskState& state) {
     if (!state.wheel.empty()) column.wrapped(palette::dim, state.wheel);
 }
 
+/// Entries around the one that plays, or the one that is selected: there is not room for many.
+void draw_play_list(Column& column, const DeskReplay& replay, DeskSpots* spots) {
+    if (replay.entries.empty()) return;
+    double all_s = 0;
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < replay.entries.size(); ++i) {
+        all_s += replay.entries[i].duration_s;
+        if (replay.entries[i].is_selected) middle = i;
+    }
+    for (std::size_t i = 0; i < replay.entries.size(); ++i)
+        if (replay.entries[i].is_playing) middle = i;
+    column.heading(
+        replay.list_left_s
+            ? fmt::format("PLAY LIST, {:.1f} s left{}", *replay.list_left_s,
+                          replay.list_loops ? ", loops" : "")
+            : fmt::format("PLAY LIST, {:.1f} s{}", all_s, replay.list_loops ? ", loops" : ""));
+    constexpr std::size_t rows = 6;
+    const std::size_t shown = std::min(rows, replay.entries.size());
+    const std::size_t first =
+        std::min(middle - std::min(middle, rows / 2), replay.entries.size() - shown);
+    const Pen& pen = column.pen;
+    const float left = column.left, em = pen.em();
+    for (std::size_t i = first; i < first + shown; ++i) {
+        const DeskEntry& entry = replay.entries[i];
+        const float top = column.y;
+        const DeskRect row{left, top, column.right - left, pen.line()};
+        if (entry.is_selected)
+            pen.outline({row.left - 0.2f * em, top - 0.1f * em, row.width + 0.4f * em, row.height},
+                        palette::accent);
+        const ImVec4& colour = entry.is_playing ? palette::on_air
+                               : entry.is_gone  ? palette::warn
+                                                : palette::text;
+        column.left = left + 0.2f * em;
+        column.row_of_two(fmt::format("{}{}. {}{}", entry.is_playing ? "> " : "", i + 1, entry.name,
+                                      entry.is_gone ? ", GONE" : ""),
+                          colour,
+                          entry.speed == 1 ? fmt::format("{:.1f} s", entry.duration_s)
+                                           : fmt::format("{:.1f} s, {:.0f} %", entry.duration_s,
+                                                         100 * entry.speed));
+        column.left = left;
+        if (spots) spots->entries.push_back({row, static_cast<int>(i) + 1});
+    }
+    if (shown < replay.entries.size())
+        column.row(palette::dim, fmt::format("{} entries in all", replay.entries.size()));
+}
+
 void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
     if (state.outputs.empty() && !state.take) return;
     column.heading("OUTPUTS");
@@ -124,6 +170,9 @@ void draw_worries(Column& column, const DeskState& state) {
     for (const DeskRig& rig : state.rigs)
         for (const std::string& worry : rig.worries)
             column.wrapped(palette::warn, fmt::format("{}: {}", rig.name, worry));
+    if (!state.synchronisation.empty())
+        column.wrapped(state.is_sync_doubtful ? palette::warn : palette::dim,
+                       "synchronisation: " + state.synchronisation);
 }
 
 /// One bar of all steps, as long as each takes, and their names under it.
@@ -168,6 +217,7 @@ float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, D
     const float pad = 0.6f * pen.em();
     Column column{pen, rect.left + pad, rect.right() - pad, rect.top};
     draw_camera(column, state);
+    draw_play_list(column, state.replay, spots);
     draw_outputs(column, state, spots);
     if (state.sources) draw_sources(column, *state.sources);
     draw_worries(column, state);
@@ -187,7 +237,7 @@ void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, Des
     draw_stage_plan(pen, plan, state);
     const DeskRect words{rect.left, plan.bottom() + gap, rect.width,
                          rect.bottom() - plan.bottom() - gap};
-    const Clip clip(pen, words);
+    const Clipping clipping(pen, words);
     pen.fill(words, palette::panel);
     draw_words(pen, words, state, &spots);
 }

@@ -158,7 +158,7 @@ void draw_scale(const Pen& pen, const DeskRect& rect, const PlanMap& map) {
 
 void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state) {
     if (rect.is_empty()) return;
-    const Clip clip(pen, rect);
+    const Clipping clipping(pen, rect);
     pen.fill(rect, palette::panel);
     if (!state.plan) {
         pen.text(rect.left + 0.6f * pen.em(), rect.top + 0.5f * pen.em(), palette::dim,

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "host_app/desk/air_verdict.h"
@@ -60,6 +62,23 @@ float draw_time(const Pen& pen, float x, float y, float height, const DeskState&
     return pen.badge(x, y, height, speed + (time.loops ? " LOOP" : ""), palette::accent);
 }
 
+/// What of clips and list plays, and for how long yet.
+float draw_replay(const Pen& pen, float x, float y, float height, const DeskReplay& replay) {
+    if (replay.fast_jog) x = pen.badge(x, y, height, "JOG 10x", palette::accent);
+    if (replay.clip == 0 || !replay.clip_left_s) return x;
+    const auto playing = std::find_if(replay.entries.begin(), replay.entries.end(),
+                                      [](const DeskEntry& entry) { return entry.is_playing; });
+    if (playing == replay.entries.end())
+        return pen.badge(x, y, height,
+                         fmt::format("CLIP {}  -{:.1f} s", replay.clip, *replay.clip_left_s),
+                         palette::on_air);
+    return pen.badge(
+        x, y, height,
+        fmt::format("LIST {}/{}  -{:.1f}  -{:.1f} s", playing - replay.entries.begin() + 1,
+                    replay.entries.size(), *replay.clip_left_s, replay.list_left_s.value_or(0)),
+        palette::on_air);
+}
+
 float draw_recordings(const Pen& pen, float x, float y, float height, const DeskState& state) {
     if (state.recording) x = pen.badge(x, y, height, "REC FILM", palette::bad);
     if (state.recording_flight) x = pen.badge(x, y, height, "REC FLIGHT", palette::bad);
@@ -100,18 +119,22 @@ void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state) {
     if (state.preview_tally) x = pen.badge(x, top, height, "PREVIEW", palette::good);
     x = draw_verdict(pen, x, y, x + 0.42f * rect.width, state);
     x = draw_time(pen, x, top, height, state);
+    x = draw_replay(pen, x, top, height, state.replay);
     x = draw_recordings(pen, x, top, height, state);
     if (!state.waiting) {
         x = pen.text_until(right, x, y, palette::text, state.timecode, true) + pad;
         const std::string pulse = fmt::format("pulse {}", state.pulse);
         if (rect.width > 80 * pen.em()) x = pen.text(x, y, palette::dim, pulse) + pad;
     }
-    if (state.question.empty()) return draw_numbers(pen, x, right, y, state);
-    // A question goes before whatever stands there.
-    const DeskRect box{right - pen.width_of(state.question, true) - pad, top,
-                       pen.width_of(state.question, true) + pad, height};
-    pen.fill(box, palette::warn, 0.2f * pen.em());
-    pen.text(box.left + 0.5f * pad, y, palette::on_badge, state.question, true);
+    // What is typed, asked or could not be done goes before whatever stands there.
+    const std::string& words = !state.question.empty() ? state.question
+                               : !state.typed.empty()  ? state.typed
+                                                       : state.notice;
+    if (words.empty()) return draw_numbers(pen, x, right, y, state);
+    const float width = std::min(pen.width_of(words, true) + pad, rect.width - pad);
+    const DeskRect box{right - width, top, width, height};
+    pen.fill(box, state.typed.empty() ? palette::warn : palette::text, 0.2f * pen.em());
+    pen.text_until(box.right(), box.left + 0.5f * pad, y, palette::on_badge, words, true);
 }
 
 }  // namespace vantage

@@ -60,7 +60,28 @@ void draw_mark(const Pen& pen, const DeskRect& bar, float x, bool is_in) {
     pen.fill({left, bar.bottom() - thick, arm, thick}, palette::warn);
 }
 
-void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
+/// Along the upper edge, each as long as it is; the one in hand and the one that plays with their
+/// numbers.
+void draw_clips_of(const Pen& pen, const DeskRect& bar, const DeskTime& time,
+                   const DeskReplay& replay) {
+    const float height = 0.22f * bar.height;
+    for (const DeskClip& clip : replay.clips) {
+        if (clip.out <= time.oldest || clip.in > time.newest) continue;
+        const float from = bar.left + static_cast<float>(time.share_of(clip.in)) * bar.width;
+        const float to = bar.left + static_cast<float>(time.share_of(clip.out)) * bar.width;
+        const bool is_told = clip.is_in_hand || clip.is_played;
+        const ImVec4& colour = clip.is_played    ? palette::on_air
+                               : clip.is_in_hand ? palette::accent
+                                                 : palette::dim;
+        // Neighbours are told apart by the gap.
+        pen.fill({from, bar.top, std::max(2.0f, to - from - 1), height}, colour);
+        if (is_told)
+            pen.text(from + 0.2f * pen.em(), bar.top + height, colour,
+                     fmt::format("{}", clip.number), true);
+    }
+}
+
+void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time, const DeskReplay& replay) {
     const auto x_of = [&](double pulse) {
         return bar.left + static_cast<float>(time.share_of(pulse)) * bar.width;
     };
@@ -76,6 +97,7 @@ void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
         pen.fill({from, bar.bottom() - height, bar.right() - from, height}, palette::bad);
     }
     draw_ticks(pen, bar, time);
+    draw_clips_of(pen, bar, time, replay);
     if (time.in) draw_mark(pen, bar, x_of(*time.in), true);
     if (time.out) draw_mark(pen, bar, x_of(*time.out), false);
     const float x = x_of(time.at.value_or(time.newest)), half = 0.35f * pen.em();
@@ -101,7 +123,7 @@ void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state
     }
     const DeskTime& time = *state.time;
     pen.text(rect.left, y, time.at ? palette::accent : palette::text, place_words(time), true);
-    draw_bar(pen, bar, time);
+    draw_bar(pen, bar, time, state.replay);
     // As high as the words under the bar, so that it is easily met.
     spots.time = {{bar.left, rect.top, bar.width, rect.height}, time};
     if (time.is_of_take) return;

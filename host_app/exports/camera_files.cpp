@@ -44,7 +44,7 @@ void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> came
             at.y(), at.z(), turn.pan_rad * deg, turn.tilt_rad * deg, turn.roll_rad * deg, q.w(),
             q.x(), q.y(), q.z(), camera.field_of_view_rad * deg, camera.focus_m);
     }
-    write_file_atomically(file, std::as_bytes(std::span(text)));
+    write_text_atomically(file, text);
 }
 
 void write_camera_freed(std::span<const CameraRecord> cameras, const std::filesystem::path& file) {

@@ -2,14 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/version.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/limits.h"
 #include "common/take/take_pulses.h"
 #include "host_app/exports/camera_files.h"
+#include "host_app/exports/export_claim.h"
+#include "host_app/exports/film_parts.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/depth_views.h"
+#include "host_app/motion/between_sets.h"
 #include "host_app/output/set_timecode.h"
 #include "host_app/output/video_writer.h"
 #include "host_app/takes/take_sets.h"
@@ -20,6 +27,8 @@ namespace {
 
 /// Before the first picture: what is learnt along time needs some.
 constexpr double learning_s = 5;
+/// Of the time between two pulses: what is nearer to one is that pulse.
+constexpr double least_share = 0.01;
 /// Instants further apart have nothing to say to each other.
 constexpr double longest_gap_s = 1;
 /// x264's constant rate factor of a film that is worked on further.
@@ -44,16 +53,21 @@ class FilmInstants {
           sets_(std::move(take)),
           preparer_(synthesiser.make_preparer(shaders)) {}
 
+    /// A moment between two pulses is made of both, where they are next to each other.
     void go_to(double pulse, const VirtualView& target) {
         const std::uint64_t there = *sets_.pulse_at(pulse);
-        if (set_ && set_->trigger_index == there) return;
-        const double dt_s = set_ && there > set_->trigger_index
-                                ? static_cast<double>(there - set_->trigger_index) / rate_hz_
-                                : 2 * longest_gap_s;
-        set_ = sets_.at(static_cast<double>(there));
+        const double passed = pulse - static_cast<double>(there);
+        const double share = passed > least_share && passed < 1 - least_share ? passed : 0;
+        const double moment = static_cast<double>(there) + share;
+        if (moment_ && *moment_ == moment) return;
+        const double dt_s =
+            moment_ && moment > *moment_ ? (moment - *moment_) / rate_hz_ : 2 * longest_gap_s;
+        moment_ = moment;
+        const FrameSet set =
+            share > 0 ? *between_.at(sets_, there, share) : *sets_.at(static_cast<double>(there));
         if (dt_s > longest_gap_s) preparer_->forget();
-        std::vector<DepthView> views = depth_views_of(*set_, show_.colours);
-        harmoniser_.see(views, std::min(dt_s, longest_gap_s));
+        std::vector<DepthView> views = depth_views_of(set, show_.colours);
+        if (share == 0) harmoniser_.see(views, std::min(dt_s, longest_gap_s));
         for (DepthView& view : views) harmoniser_.apply(view);
         preparer_->take(views, std::min(dt_s, longest_gap_s));
         for (std::size_t rig = 0; rig < views.size(); ++rig) preparer_->improve(target);
@@ -61,16 +75,124 @@ class FilmInstants {
     std::shared_ptr<const Instant> prepared(const VirtualView& target) {
         return preparer_->prepare(target, prepare_levels().front());
     }
-    const FrameSet& set() const { return *set_; }
     const TakeSets& sets() const { return sets_; }
 
   private:
     TakeShow show_;
     double rate_hz_;
     TakeSets sets_;
+    BetweenSets between_;
     ColourHarmoniser harmoniser_;
     std::unique_ptr<InstantPreparer> preparer_;
-    std::optional<FrameSet> set_;
+    std::optional<double> moment_;  ///< pulses
+};
+
+/// What film it is: parts of another are not gone on with.
+nlohmann::ordered_json claim_of(const std::vector<FilmPicture>& pictures,
+                                const FilmSettings& settings) {
+    std::string all;
+    for (const FilmPicture& picture : pictures) {
+        const auto add = [&](const double* numbers, std::size_t count) {
+            all.append(reinterpret_cast<const char*>(numbers), count * sizeof *numbers);
+        };
+        const CameraState& camera = picture.camera;
+        add(&picture.pulse, 1);
+        add(camera.world_from_camera.matrix().data(), 16);
+        add(&camera.field_of_view_rad, 1);
+        add(&camera.focus_m, 1);
+    }
+    const PictureFormat& format = settings.format;
+    nlohmann::ordered_json claim{{"film", version()},
+                                 {"pictures", pictures.size()},
+                                 {"pictures_crc32", crc32(std::as_bytes(std::span(all)))},
+                                 {"width_px", format.width_px},
+                                 {"height_px", format.height_px},
+                                 {"rate_hz", settings.rate_hz},
+                                 {"synthesiser", settings.synthesiser}};
+    if (format.stereoscopy) claim["stereoscopy"] = to_json(*format.stereoscopy);
+    return claim;
+}
+
+/// Renders the pictures of a film that are not there yet.
+class FilmWork {
+  public:
+    FilmWork(std::shared_ptr<const TakeReader> take, const std::vector<FilmPicture>& pictures,
+             const FilmSettings& settings)
+        : pictures_(pictures),
+          settings_(settings),
+          pulse_rate_hz_(take->facts().pulse_rate_hz),
+          synthesiser_(find_synthesiser(settings.synthesiser)),
+          instants_(std::move(take), synthesiser_, shaders_),
+          painter_(synthesiser_, settings.format, shaders_) {}
+
+    void render(FilmParts& parts, const std::function<bool()>& is_wanted,
+                const std::function<void(double)>& progress) {
+        learn(parts.pictures(), is_wanted);
+        while (parts.pictures() < pictures_.size() && render_part(parts, is_wanted, progress)) {
+        }
+    }
+
+  private:
+    /// A context that can do what Vantage needs.
+    struct Gl {
+        EglContext context;
+        Gl() { GlInfo::query().require_vantage_minimum(); }
+    };
+
+    VirtualView view(const FilmPicture& picture) const {
+        return view_of(picture.camera, {settings_.format.width_px, settings_.format.height_px});
+    }
+
+    /// What pictures before the one at `begin` show, or what was before the first.
+    void learn(std::uint64_t begin, const std::function<bool()>& is_wanted) {
+        const auto before =
+            static_cast<std::uint64_t>(std::llround(learning_s * settings_.rate_hz));
+        if (begin < before) {
+            const std::uint64_t first = *instants_.sets().pulse_at(pictures_.front().pulse);
+            const auto learning =
+                static_cast<std::uint64_t>(std::llround(learning_s * pulse_rate_hz_));
+            const std::uint64_t oldest = instants_.sets().span()->oldest;
+            for (std::uint64_t pulse = std::max(oldest, first - std::min(first, learning));
+                 pulse < first && is_wanted(); ++pulse)
+                instants_.go_to(static_cast<double>(pulse), view(pictures_.front()));
+        }
+        for (std::uint64_t i = begin - std::min(begin, before); i < begin && is_wanted(); ++i)
+            instants_.go_to(pictures_[i].pulse, view(pictures_[i]));
+    }
+
+    /// False: it is shorter than it might be, since it is not wanted any more.
+    bool render_part(FilmParts& parts, const std::function<bool()>& is_wanted,
+                     const std::function<void(double)>& progress) {
+        const std::uint64_t begin = parts.pictures();
+        const std::uint64_t end =
+            std::min<std::uint64_t>(begin + settings_.part_pictures, pictures_.size());
+        VideoWriter part(parts.next(), {.width_px = settings_.format.width_px,
+                                        .height_px = settings_.format.height_px,
+                                        .rate_hz = settings_.rate_hz,
+                                        .quality = film_quality});
+        std::uint64_t i = begin;
+        for (; i < end && is_wanted(); ++i) {
+            if (progress) progress(static_cast<double>(i) / static_cast<double>(pictures_.size()));
+            const VirtualView target = view(pictures_[i]);
+            instants_.go_to(pictures_[i].pulse, target);
+            const std::shared_ptr<const Instant> instant = instants_.prepared(target);
+            part.add(painter_.paint(*instant, pictures_[i].camera, render_levels().front()),
+                     static_cast<std::int64_t>(i - begin));
+        }
+        if (i == begin) return false;
+        part.finish();
+        parts.add(i - begin);
+        return i == end;
+    }
+
+    const std::vector<FilmPicture>& pictures_;
+    const FilmSettings& settings_;
+    double pulse_rate_hz_;
+    SynthesiserEntry synthesiser_;
+    Gl gl_;
+    ShaderLibrary shaders_;
+    FilmInstants instants_;
+    ViewPainter painter_;
 };
 
 }  // namespace
@@ -131,41 +253,21 @@ ExportBooks export_film(std::shared_ptr<const TakeReader> take,
     if (std::filesystem::exists(file))
         fail("{} is there already: give the film another name", file.string());
     const SynthesiserEntry synthesiser = find_synthesiser(settings.synthesiser);
-    const PictureFormat& format = settings.format;
-    VideoWriter film(file, {.width_px = format.width_px,
-                            .height_px = format.height_px,
-                            .rate_hz = settings.rate_hz,
-                            .quality = film_quality});
-    const EglContext context;
-    GlInfo::query().require_vantage_minimum();
-    const ShaderLibrary shaders;
-    const double pulse_rate_hz = take->facts().pulse_rate_hz;
-    const SetTimecode timecodes(pulse_rate_hz, settings.rate_hz);
-    FilmInstants instants(std::move(take), synthesiser, shaders);
-    ViewPainter painter(synthesiser, format, shaders);
-    const auto view = [&](const FilmPicture& picture) {
-        return view_of(picture.camera, {format.width_px, format.height_px});
-    };
-    const std::uint64_t first = *instants.sets().pulse_at(pictures.front().pulse);
-    const auto learning = static_cast<std::uint64_t>(std::llround(learning_s * pulse_rate_hz));
-    const std::uint64_t oldest = instants.sets().span()->oldest;
-    for (std::uint64_t pulse = std::max(oldest, first - std::min(first, learning));
-         pulse < first && is_wanted(); ++pulse)
-        instants.go_to(static_cast<double>(pulse), view(pictures.front()));
-    ExportBooks books;
-    for (const FilmPicture& picture : pictures) {
-        if (!is_wanted()) break;
-        if (progress)
-            progress(static_cast<double>(books.written) / static_cast<double>(pictures.size()));
-        const VirtualView target = view(picture);
-        instants.go_to(picture.pulse, target);
-        const std::shared_ptr<const Instant> instant = instants.prepared(target);
-        film.add(painter.paint(*instant, picture.camera, render_levels().front()),
-                 static_cast<std::int64_t>(books.written), timecodes.of(instants.set()));
-        ++books.written;
-    }
-    if (books.written == 0) fail("{} is not written: it was ended before", file.string());
-    film.finish();
+    require_film_name(file);
+    const std::filesystem::path folder = FilmParts::folder_of(file);
+    claim_folder(folder, *take, claim_of(pictures, settings));
+    FilmParts parts(folder, settings.rate_hz);
+    ExportBooks books{0, parts.pictures(), 0};
+    const TakeSets sets(take);
+    const SetTimecode timecodes(take->facts().pulse_rate_hz, settings.rate_hz);
+    const std::string timecode = timecodes.of(*sets.at(pictures.front().pulse));
+    if (parts.pictures() < pictures.size())
+        FilmWork(std::move(take), pictures, settings).render(parts, is_wanted, progress);
+    books.written = parts.pictures() - books.there;
+    if (parts.pictures() < pictures.size()) return books;
+    parts.join(file, timecode);
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
     return books;
 }
 

@@ -33,12 +33,16 @@ struct FilmSettings {
     PictureFormat format;
     double rate_hz = 30;
     std::string synthesiser;
+    /// That one is rendered after the other; what is killed loses the part that it is at.
+    std::uint64_t part_pictures = 100;
 };
 
 /// Renders them at the best level, however long that takes, into a film (see VideoWriter) that is
-/// there when it is whole. `is_wanted` is asked before every picture; a film that is not wanted any
-/// more ends there. Throws Error if there is such a file already. What is learnt along time is
-/// learnt from up to five seconds before the first picture on.
+/// there when it is whole; until then its parts are in FILE.parts (see FilmParts), where a film of
+/// the same take, pictures and settings goes on. `is_wanted` is asked before every picture; one
+/// that is not wanted any more is left there. What is learnt along time is learnt from up to five
+/// seconds before the first picture on, or before the one that it goes on with. Throws Error if
+/// there is such a file already.
 ExportBooks export_film(std::shared_ptr<const TakeReader> take,
                         const std::vector<FilmPicture>& pictures, const FilmSettings& settings,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 
+#include <opencv2/imgproc.hpp>
+
 #include "common/base/log.h"
 #include "host_app/instants/depth_views.h"
 #include "host_app/instants/projection.h"
 
 namespace vantage {
 namespace {
+
+/// Neighbouring pixels whose depths are further apart than this, of the nearer one, are of two
+/// surfaces: a surface of one would be steeper than 80 degrees, at a rig's usual field of view.
+constexpr float one_surface_share = 0.03f;
 
 /// A view without disparity has an empty map.
 DepthImage depth_of(const RigFrame& frame) {
@@ -23,6 +29,13 @@ DepthImage depth_of(const RigFrame& frame) {
 Eigen::Matrix3d MomentView::depth_K() const {
     return scaled_intrinsics(K, static_cast<double>(depth_m.cols) / colour.cols,
                              static_cast<double>(depth_m.rows) / colour.rows);
+}
+
+DepthImage MomentView::depth_of_pixels() const {
+    if (depth_m.empty() || depth_m.size() == colour.size()) return depth_m;
+    DepthImage depth;
+    cv::resize(depth_m, depth, colour.size(), 0, 0, cv::INTER_NEAREST);
+    return depth;
 }
 
 std::vector<SurfacePoint> surface_points(const Moment& moment, int step) {
@@ -43,6 +56,33 @@ std::vector<SurfacePoint> surface_points(const Moment& moment, int step) {
     return points;
 }
 
+std::vector<std::array<std::uint32_t, 3>> surface_triangles(const Moment& moment) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::uint32_t points = 0;
+    for (const MomentView& view : moment.views) {
+        cv::Mat1i numbers(view.depth_m.size(), 0);
+        for (int y = 0; y < numbers.rows; ++y)
+            for (int x = 0; x < numbers.cols; ++x)
+                if (view.depth_m(y, x) > 0) numbers(y, x) = static_cast<int>(points++);
+        const auto join = [&](cv::Point a, cv::Point b, cv::Point c) {
+            const auto [near, far] =
+                std::minmax({view.depth_m(a), view.depth_m(b), view.depth_m(c)});
+            if (near <= 0 || far > near * (1 + one_surface_share)) return;
+            const auto number = [&](cv::Point at) {
+                return static_cast<std::uint32_t>(numbers(at));
+            };
+            triangles.push_back({number(a), number(b), number(c)});
+        };
+        for (int y = 0; y + 1 < numbers.rows; ++y)
+            for (int x = 0; x + 1 < numbers.cols; ++x) {
+                const cv::Point here(x, y), right(x + 1, y), below(x, y + 1), across(x + 1, y + 1);
+                join(here, below, right);
+                join(right, below, across);
+            }
+    }
+    return triangles;
+}
+
 MomentReader::MomentReader(const TakeReader& take)
     : take_(take), show_(take_show_from(take.facts().show)) {
     for (const TakeRig& rig : take.facts().rigs) restorers_.emplace_back(rig);
@@ -51,6 +91,7 @@ MomentReader::MomentReader(const TakeReader& take)
 Moment MomentReader::at(std::uint64_t pulse) {
     Moment moment;
     moment.pulse = pulse;
+    moment.pulse_rate_hz = take_.facts().pulse_rate_hz;
     for (std::size_t rig = 0; rig < restorers_.size(); ++rig) {
         const std::vector<TakeReader::Frame>& frames = take_.frames(rig);
         const auto there =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -27,11 +28,14 @@ struct MomentView {
 
     /// K of the depth map.
     Eigen::Matrix3d depth_K() const;
+    /// The depth map in as many pixels as the colour picture has; empty as it is.
+    DepthImage depth_of_pixels() const;
 };
 
 /// What all rigs saw at one pulse, for other programs.
 struct Moment {
     std::uint64_t pulse = 0;
+    double pulse_rate_hz = 30;
     std::vector<MomentView> views;
     std::uint64_t damaged = 0;  ///< rigs whose frame is not what was written
 };
@@ -43,6 +47,9 @@ struct SurfacePoint {
 };
 /// Of every `step`th pixel either way that has a depth.
 std::vector<SurfacePoint> surface_points(const Moment& moment, int step);
+/// Triangles between them, step 1, by their numbers: of neighbours in a rig's picture that are on
+/// one surface. Counterclockwise as the rig sees them.
+std::vector<std::array<std::uint32_t, 3>> surface_triangles(const Moment& moment);
 
 /// Gives moments of a take. Not thread-safe.
 class MomentReader {

@@ -2,13 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "common/base/atomic_file.h"
 #include "common/base/folder.h"
@@ -18,10 +16,6 @@
 
 namespace vantage {
 namespace {
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    write_file_atomically(file, std::as_bytes(std::span(text)));
-}
 
 /// Beside `stem`; the JPEG as it came where there is one.
 std::filesystem::path write_picture(const MomentView& view, std::filesystem::path stem) {
@@ -35,14 +29,13 @@ std::filesystem::path write_picture(const MomentView& view, std::filesystem::pat
 
 /// Millimetres, in as many pixels as the colour picture has.
 cv::Mat1w depth_mm(const MomentView& view) {
-    cv::Mat1w depth(view.depth_m.size(), std::uint16_t{0});
+    const DepthImage depth_m = view.depth_of_pixels();
+    cv::Mat1w depth(depth_m.size(), std::uint16_t{0});
     constexpr double mm = 1000, most_mm = 65535;
     for (int y = 0; y < depth.rows; ++y)
         for (int x = 0; x < depth.cols; ++x)
-            if (const double value = view.depth_m(y, x) * mm; value > 0 && value <= most_mm)
+            if (const double value = depth_m(y, x) * mm; value > 0 && value <= most_mm)
                 depth(y, x) = static_cast<std::uint16_t>(std::lround(value));
-    if (depth.size() != view.colour.size())
-        cv::resize(depth, depth, view.colour.size(), 0, 0, cv::INTER_NEAREST);
     return depth;
 }
 
@@ -107,11 +100,11 @@ void write_training_folder(const Moment& moment, const std::filesystem::path& fo
         points += fmt::format("{} {:.5f} {:.5f} {:.5f} {} {} {} 0\n", ++point, each.position_m[0],
                               each.position_m[1], each.position_m[2], each.rgb[0], each.rgb[1],
                               each.rgb[2]);
-    write_text(model / "cameras.txt", cameras);
-    write_text(model / "images.txt", images);
-    write_text(model / "points3D.txt", points);
+    write_text_atomically(model / "cameras.txt", cameras);
+    write_text_atomically(model / "images.txt", images);
+    write_text_atomically(model / "points3D.txt", points);
     write_ply(surface, folder / "points.ply");
-    write_text(folder / "transforms.json", transforms.dump(1) + '\n');
+    write_text_atomically(folder / "transforms.json", transforms.dump(1) + '\n');
 }
 
 void write_view_set(const Moment& moment, const std::filesystem::path& folder) {

@@ -1,8 +1,8 @@
 #include "host_app/exports/point_files.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,27 +23,37 @@ void append_number(std::string& bytes, std::uint32_t number) {
     append(bytes, &number, sizeof number);
 }
 
-void write(const std::filesystem::path& file, const std::string& bytes) {
-    write_file_atomically(file, std::as_bytes(std::span(bytes)));
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+std::string ply_of(const std::vector<SurfacePoint>& points, const Triangles& triangles) {
+    std::string bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        points.size());
+    if (!triangles.empty())
+        bytes += fmt::format("element face {}\nproperty list uchar int vertex_indices\n",
+                             triangles.size());
+    bytes += "end_header\n";
+    for (const SurfacePoint& point : points) {
+        append(bytes, point.position_m.data(), 3 * sizeof(float));
+        append(bytes, point.rgb.val, 3);
+    }
+    for (const std::array<std::uint32_t, 3>& triangle : triangles) {
+        bytes += '\3';
+        append(bytes, triangle.data(), sizeof triangle);
+    }
+    return bytes;
 }
 
 }  // namespace
 
 void write_ply(const std::vector<SurfacePoint>& points, const std::filesystem::path& file) {
-    std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-        "property float x\nproperty float y\nproperty float z\n"
-        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-        points.size());
-    for (const SurfacePoint& point : points) {
-        append(bytes, point.position_m.data(), 3 * sizeof(float));
-        append(bytes, point.rgb.val, 3);
-    }
-    write(file, bytes);
+    write_text_atomically(file, ply_of(points, {}));
 }
 
 void write_ply(const Moment& moment, const std::filesystem::path& file) {
-    write_ply(surface_points(moment, 1), file);
+    write_text_atomically(file, ply_of(surface_points(moment, 1), surface_triangles(moment)));
 }
 
 void write_glb(const Moment& moment, const std::filesystem::path& file) {
@@ -64,15 +74,25 @@ void write_glb(const Moment& moment, const std::filesystem::path& file) {
         least = least.cwiseMin(point.position_m);
         most = most.cwiseMax(point.position_m);
     }
-    constexpr int of_float = 5126, of_16_bit = 5123, as_points = 0, array_buffer = 34962;
-    const nlohmann::ordered_json json{
+    const Triangles triangles = surface_triangles(moment);
+    const std::size_t triangles_bytes = triangles.size() * sizeof triangles.front();
+    constexpr int of_float = 5126, of_16_bit = 5123, of_32_bit = 5125, as_points = 0,
+                  as_triangles = 4, array_buffer = 34962, index_buffer = 34963;
+    nlohmann::ordered_json primitive{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
+                                     {"material", 0},
+                                     {"mode", triangles.empty() ? as_points : as_triangles}};
+    if (!triangles.empty()) primitive["indices"] = 2;
+    nlohmann::ordered_json json{
         {"asset", {{"version", "2.0"}, {"generator", "vantage"}}},
+        {"extensionsUsed", {"KHR_materials_unlit"}},
         {"scene", 0},
         {"scenes", {{{"nodes", {0}}}}},
         {"nodes", {{{"mesh", 0}, {"name", fmt::format("pulse {}", moment.pulse)}}}},
-        {"meshes",
-         {{{"primitives",
-            {{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}, {"mode", as_points}}}}}}},
+        {"materials",
+         {{{"name", "as filmed"},
+           {"doubleSided", true},
+           {"extensions", {{"KHR_materials_unlit", nlohmann::ordered_json::object()}}}}}},
+        {"meshes", {{{"primitives", {primitive}}}}},
         {"accessors",
          {{{"bufferView", 0},
            {"componentType", of_float},
@@ -94,11 +114,21 @@ void write_glb(const Moment& moment, const std::filesystem::path& file) {
            {"byteOffset", positions.size()},
            {"byteLength", colours.size()},
            {"target", array_buffer}}}},
-        {"buffers", {{{"byteLength", positions.size() + colours.size()}}}}};
+        {"buffers", {{{"byteLength", positions.size() + colours.size() + triangles_bytes}}}}};
+    if (!triangles.empty()) {
+        json["accessors"].push_back({{"bufferView", 2},
+                                     {"componentType", of_32_bit},
+                                     {"count", 3 * triangles.size()},
+                                     {"type", "SCALAR"}});
+        json["bufferViews"].push_back({{"buffer", 0},
+                                       {"byteOffset", positions.size() + colours.size()},
+                                       {"byteLength", triangles_bytes},
+                                       {"target", index_buffer}});
+    }
     std::string text = json.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     constexpr std::uint32_t header_bytes = 12, chunk_header_bytes = 8, version = 2;
-    const std::size_t binary_bytes = positions.size() + colours.size();
+    const std::size_t binary_bytes = positions.size() + colours.size() + triangles_bytes;
     const std::size_t all = header_bytes + 2 * chunk_header_bytes + text.size() + binary_bytes;
     if (all > ~std::uint32_t{0})
         fail("{} is not written: {} points are more than a GLB file holds", file.string(),
@@ -110,7 +140,8 @@ void write_glb(const Moment& moment, const std::filesystem::path& file) {
     bytes += "JSON" + text;
     append_number(bytes, static_cast<std::uint32_t>(binary_bytes));
     bytes += std::string("BIN\0", 4) + positions + colours;
-    write(file, bytes);
+    append(bytes, triangles.data(), triangles_bytes);
+    write_text_atomically(file, bytes);
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/config/toml_reader.h"
+#include "common/config/toml_text.h"
 #include "host_app/flight/flight_book.h"
 #include "host_app/flight/pan_tilt_roll.h"
 
@@ -177,12 +178,8 @@ void read_shot(TomlTable& table, FlightBook& book, const FlightLimits& limits) {
     if (place) table.refuse("number", fmt::format("is {} a second time", number));
     Shot shot;
     table.read("name", shot.name);
-    constexpr std::size_t longest_name = 40;
-    if (shot.name.size() > longest_name)
-        table.refuse("name", fmt::format("is longer than {} bytes", longest_name));
-    for (const char c : shot.name)
-        if (static_cast<unsigned char>(c) < ' ')
-            table.refuse("name", "has a character that cannot be shown");
+    if (const std::string fault = fault_of_name(shot.name); !fault.empty())
+        table.refuse("name", fault);
     if (shot.name.empty()) shot.name = fmt::format("shot {}", number);
     table.read("duration_s", shot.duration_s, {0, longest_shot_s});
     std::string easing = name_of(shot.easing);
@@ -214,16 +211,6 @@ std::string camera_text(const OrbitView& view, bool is_head) {
     }
     return text + fmt::format("roll_deg = {}\nfield_of_view_deg = {}\n", degrees(view.roll_rad),
                               degrees(view.field_of_view_rad));
-}
-
-/// A TOML string; names have no control characters.
-std::string quoted(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
-    }
-    return quoted + '"';
 }
 
 }  // namespace
@@ -290,7 +277,7 @@ std::string to_toml(const FlightBook& book) {
         if (const std::optional<Shot>& shot = book.shots[i])
             text += fmt::format(
                 "\n[[shot]]\nnumber = {}\nname = {}\nduration_s = {}\neasing = \"{}\"\n{}", i + 1,
-                quoted(shot->name), number_text(shot->duration_s), name_of(shot->easing),
+                toml_string(shot->name), number_text(shot->duration_s), name_of(shot->easing),
                 camera_text(shot->view, false));
     return text;
 }

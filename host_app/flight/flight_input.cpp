@@ -25,6 +25,7 @@ void FlightInput::add(const FlightInput& other) {
     toggle_novelty ^= other.toggle_novelty;
     toggle_take ^= other.toggle_take;
     toggle_tracking ^= other.toggle_tracking;
+    toggle_jog_map ^= other.toggle_jog_map;
     toggle_recording ^= other.toggle_recording;
     add_keyframe |= other.add_keyframe;
     set_keyframe |= other.set_keyframe;
@@ -43,6 +44,8 @@ void FlightInput::add(const FlightInput& other) {
     clear_marks |= other.clear_marks;
     toggle_loop ^= other.toggle_loop;
     cue |= other.cue;
+    replay.insert(replay.end(), other.replay.begin(), other.replay.end());
+    if (!other.cue_time.empty()) cue_time = other.cue_time;
     next_wheel_mode |= other.next_wheel_mode;
     if (other.recall_shot != 0) recall_shot = other.recall_shot;
     if (other.toggle_output != 0) toggle_output = other.toggle_output;
@@ -54,16 +57,17 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
     return both(&FlightInput::toggle_freeze) || both(&FlightInput::toggle_move) ||
            both(&FlightInput::toggle_novelty) || both(&FlightInput::toggle_take) ||
            both(&FlightInput::save_set) || both(&FlightInput::learn_set) ||
-           both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_loop) ||
-           both(&FlightInput::reset) || both(&FlightInput::next_synthesiser) ||
-           both(&FlightInput::next_wheel_mode) || both(&FlightInput::to_live) ||
-           both(&FlightInput::mark_in) || both(&FlightInput::mark_out) ||
-           both(&FlightInput::clear_marks) || both(&FlightInput::cue) ||
-           both(&FlightInput::recall_shot) || both(&FlightInput::store_shot) ||
-           both(&FlightInput::toggle_output) || both(&FlightInput::toggle_recording) ||
-           both(&FlightInput::add_keyframe) || both(&FlightInput::set_keyframe) ||
-           both(&FlightInput::remove_keyframe) || both(&FlightInput::toggle_horizon) ||
-           both(&FlightInput::toggle_follow);
+           both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_jog_map) ||
+           both(&FlightInput::toggle_loop) || both(&FlightInput::reset) ||
+           both(&FlightInput::next_synthesiser) || both(&FlightInput::next_wheel_mode) ||
+           both(&FlightInput::to_live) || both(&FlightInput::mark_in) ||
+           both(&FlightInput::mark_out) || both(&FlightInput::clear_marks) ||
+           both(&FlightInput::cue) || both(&FlightInput::recall_shot) ||
+           both(&FlightInput::store_shot) || both(&FlightInput::toggle_output) ||
+           both(&FlightInput::toggle_recording) || both(&FlightInput::add_keyframe) ||
+           both(&FlightInput::set_keyframe) || both(&FlightInput::remove_keyframe) ||
+           both(&FlightInput::toggle_horizon) || both(&FlightInput::toggle_follow) ||
+           ((!replay.empty() || !cue_time.empty()) && other.commands_time());
 }
 
 FlightInput FlightInput::turns() const {

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
+
+#include "host_app/replay/replay_call.h"
 
 namespace vantage {
 
@@ -17,6 +21,7 @@ struct FlightInput {
     double roll_rad = 0;
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
     bool toggle_tracking = false;
+    bool toggle_jog_map = false;  ///< on the desk
     bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
     bool save_set = false, learn_set = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
@@ -40,6 +45,10 @@ struct FlightInput {
 
     /// Frames back (negative) or on, through the past.
     double past_steps = 0;
+    /// Of clips, play list and playback, in their order, after what else there is of time.
+    std::vector<ReplayCall> replay = {};
+    /// A time code, or seconds, that the past is asked for; empty: none.
+    std::string cue_time = {};
 
     /// True if the operator has the camera itself in hand.
     bool steers() const {
@@ -61,12 +70,18 @@ struct FlightInput {
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
                next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
-               toggle_tracking || toggle_take || save_set || learn_set || toggle_output != 0 ||
-               mark_in || mark_out || clear_marks || toggle_loop || cue || speed_steps != 0 ||
-               edits_move() || toggle_recording || keyframe_jump != 0 || pick || toggle_horizon ||
-               toggle_follow;
+               toggle_tracking || toggle_jog_map || toggle_take || save_set || learn_set ||
+               toggle_output != 0 || mark_in || mark_out || clear_marks || toggle_loop || cue ||
+               speed_steps != 0 || !replay.empty() || !cue_time.empty() || edits_move() ||
+               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow;
     }
-    /// Whether the same thing is commanded in both, so that one of them would be lost in add().
+    /// True if it says where in time to be, or marks it.
+    bool commands_time() const {
+        return toggle_freeze || to_live || mark_in || mark_out || clear_marks || toggle_loop ||
+               cue || speed_steps != 0 || past_steps != 0 || !replay.empty() || !cue_time.empty();
+    }
+    /// Whether the same thing is commanded in both, so that one of them would be lost in add(), or
+    /// the order of what was asked of replay.
     bool commands_twice(const FlightInput& other) const;
     /// Without its commands: what it turns and shifts.
     FlightInput turns() const;

@@ -1,21 +1,13 @@
 #include "host_app/flight/flight_store.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numbers>
-#include <span>
 #include <utility>
 
-#include "common/base/atomic_file.h"
-#include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/output_path.h"
 
 namespace vantage {
 namespace {
-
-constexpr std::size_t most_bytes = 1 << 20;
-constexpr std::chrono::seconds patience{1};
 
 /// Along an orbit, unless the camera was where no orbit is allowed, as a tracked one may be.
 MovePath path_of(const FlightRecording& flight, const FlightLimits& limits) {
@@ -31,10 +23,8 @@ SimplifiedFlight simplify_whole(const FlightRecording& flight, const FlightLimit
 
 }  // namespace
 
-FlightStore::FlightStore(std::filesystem::path file) : file_(std::move(file)) {
-    if (!std::filesystem::exists(file_)) return;
-    book_ = load_flight(file_);
-    bytes_ = read_file(file_, most_bytes);
+FlightStore::FlightStore(std::filesystem::path file) : file_(std::move(file), "shots and move") {
+    if (file_.is_there()) book_ = load_flight(file_.path());
 }
 
 FlightStore::~FlightStore() {
@@ -48,7 +38,7 @@ void FlightStore::keep(const Helm::Change& change) {
         if (std::exchange(flies_another_, false)) is_file_move_ = !book_.move;
         book_.move = change.book.move;
     }
-    if (!changed_) changed_ = MonotonicClock::now();
+    file_.note_change();
 }
 
 void FlightStore::simplify(FlightRecording flight, const FlightLimits& limits) {
@@ -79,53 +69,29 @@ std::optional<Move> FlightStore::take_simplified(bool waits) {
 
 void FlightStore::replace_move(std::optional<Move> move) {
     // What waits to be written is of the move that goes.
-    if (changed_) write();
+    if (file_.is_changed()) write();
     is_file_move_ = !book_.move;
     flies_another_ = false;
     book_.lowest_m = std::min(book_.lowest_m, move->limits().min_eye_height_m);
     book_.move = std::move(move);
-    changed_ = MonotonicClock::now();
+    file_.note_change();
 }
 
 std::optional<Move> FlightStore::follow(MonotonicTime now) {
     std::optional<Move> flight = take_simplified(false);
-    if (changed_ && now - *changed_ >= patience) write();
+    if (file_.is_due(now)) write();
     return flight;
 }
 
 void FlightStore::finish() {
     while (take_simplified(true))
         ;
-    if (changed_) write();
-}
-
-void FlightStore::put_aside(const char* why) {
-    const std::filesystem::path aside = free_path(file_);
-    std::filesystem::rename(file_, aside);
-    log_info("{} is {} now, since {}", file_.string(), aside.string(), why);
+    if (file_.is_changed()) write();
 }
 
 void FlightStore::write() {
-    const std::string text = to_toml(book_);
-    const auto fresh = std::as_bytes(std::span(text));
-    try {
-        if (std::filesystem::exists(file_)) {
-            const bool is_ours = read_file(file_, most_bytes) == bytes_;
-            if (!is_ours)
-                put_aside("another program has changed it");
-            else if (!is_file_move_)
-                put_aside("another move takes its place");
-        }
-        write_file_atomically(file_, fresh);
-        bytes_.assign(fresh.begin(), fresh.end());
+    if (file_.write(to_toml(book_), is_file_move_ ? nullptr : "another move takes its place"))
         is_file_move_ = true;
-        changed_.reset();
-        has_failed_ = false;
-    } catch (const std::exception& error) {
-        if (!std::exchange(has_failed_, true))
-            log_error("shots and move are not kept, and it is tried again: {}", error.what());
-        changed_ = MonotonicClock::now();
-    }
 }
 
 std::filesystem::path flight_file_of(std::filesystem::path file) {

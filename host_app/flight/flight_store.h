@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/kept_file.h"
 #include "common/base/time.h"
 #include "host_app/flight/flight_book.h"
 #include "host_app/flight/flight_recording.h"
@@ -41,16 +42,11 @@ class FlightStore {
     std::optional<Move> take_simplified(bool waits);
     void replace_move(std::optional<Move> move);
     void write();
-    /// Gives the file that is there a free name.
-    void put_aside(const char* why);
 
-    std::filesystem::path file_;
+    KeptFile file_;
     FlightBook book_;
-    std::vector<std::byte> bytes_;  ///< that this session read or wrote; empty: none
-    bool flies_another_ = false;    ///< than the file's move
-    bool is_file_move_ = true;      ///< what is to be written has the file's move, as hands made it
-    std::optional<MonotonicTime> changed_;  ///< and not written yet
-    bool has_failed_ = false;
+    bool flies_another_ = false;  ///< than the file's move
+    bool is_file_move_ = true;    ///< what is to be written has the file's move, as hands made it
     std::future<SimplifiedFlight> simplified_;
     std::vector<std::pair<FlightRecording, FlightLimits>> waiting_;
 };

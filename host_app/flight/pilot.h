@@ -26,6 +26,9 @@ class Pilot {
     /// The camera at `time_s` after the start of the programme; times grow. `past_pulse`: where in
     /// the past, or in a take, the programme is.
     virtual PilotStep step(double time_s, std::optional<double> past_pulse) = 0;
+    /// The camera of the step before, which flies to this shot from now on; one that takes no time
+    /// is there at once.
+    virtual PilotStep fly_to_shot(int number) = 0;
 };
 
 }  // namespace vantage

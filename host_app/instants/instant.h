@@ -22,10 +22,16 @@ struct InstantRig {
     std::span<const Eigen::Vector3d> sample_points_m() const { return surface->sample_points_m(); }
 };
 
+/// What a preparer tells beside the rigs' surfaces, to the renderer of the same synthesiser.
+struct InstantExtra {
+    virtual ~InstantExtra() = default;
+};
+
 /// A frame set made ready to be rendered. Immutable: any thread may hold and render it.
 struct Instant {
     std::vector<InstantRig> rigs;
     int level = 0;  ///< the rank of the PrepareLevel that it was made at
+    std::shared_ptr<const InstantExtra> extra = nullptr;  ///< null where there is nothing to tell
 };
 
 }  // namespace vantage

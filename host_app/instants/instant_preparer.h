@@ -12,14 +12,11 @@ namespace vantage {
 /// How well an instant is prepared, and so at what cost. The governor moves along
 /// prepare_levels().
 struct PrepareLevel {
-    enum class Refinement {
-        none,   ///< every rig's depth as it is
-        carve,  ///< what other rigs see through is taken away
-        sweep,  ///< and depth is moved to where the rigs' pictures agree
-    };
     int rank = 0;  ///< 0: the best; a higher one is cheaper
     std::size_t rigs = most_drawn_rigs;
-    Refinement refinement = Refinement::sweep;
+    /// Performers' depth is held against the other rigs: what those see through is taken away, and
+    /// depth is moved to where the rigs' pictures agree.
+    bool is_refined = true;
     bool has_fine_grid = true;  ///< surfaces may be drawn by every pixel, with their rims
 };
 

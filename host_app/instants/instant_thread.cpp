@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/time.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/limits.h"
 #include "common/gl/sliced_drawing.h"
@@ -31,10 +32,6 @@ constexpr std::uint64_t no_pulse = ~std::uint64_t{0};
 
 /// Something else is wished for.
 struct GaveWay {};
-
-double ms_since(MonotonicTime start) {
-    return std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
-}
 
 std::optional<TaiTime> exposure_of(const FrameSet& set) {
     std::optional<TaiTime> exposure;
@@ -366,7 +363,7 @@ void InstantThread::prepare_instants() {
                 next.exposure = exposure_of(*next.set);
                 next.is_live = is_live;
                 next.taken_up = taken_up;
-                next.fetch_ms = std::chrono::duration<double, std::milli>(start - taken_up).count();
+                next.fetch_ms = to_ms(start - taken_up);
                 publish(std::move(next), wish, preparer, start);
             };
             if (is_sought)

@@ -62,9 +62,7 @@ void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all) {
     close(carve(rig, all), rig, rig.performer_depth().target());
 }
 
-const Texture& PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
-                                      PrepareLevel::Refinement refinement) {
-    if (refinement == PrepareLevel::Refinement::none) return rig.performer_depth();
+const Texture& PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all) {
     const auto performers = [](const RigHistory& one) {
         return ComparedView{&one.camera(), &one.fresh_colour(), &one.performer_depth(),
                             &one.samples()};
@@ -72,7 +70,7 @@ const Texture& PerformerDepth::better(const RigHistory& rig, std::span<RigHistor
     std::vector<ComparedView> views;
     for (const RigHistory* one : all) views.push_back(performers(*one));
     bettered_.resize(rig.depth().size());
-    close(consensus_.better(performers(rig), views, refinement), rig, bettered_.target());
+    close(consensus_.better(performers(rig), views), rig, bettered_.target());
     return bettered_.texture();
 }
 

@@ -22,8 +22,7 @@ class PerformerDepth {
 
     /// That depth, bettered by the other rigs; valid until the next call. Precondition:
     /// find() of all rigs.
-    const Texture& better(const RigHistory& rig, std::span<RigHistory* const> all,
-                          PrepareLevel::Refinement refinement);
+    const Texture& better(const RigHistory& rig, std::span<RigHistory* const> all);
 
   private:
     static constexpr std::size_t max_others = 3;

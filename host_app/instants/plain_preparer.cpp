@@ -5,7 +5,7 @@ namespace vantage {
 void PlainPreparer::take(std::span<const DepthView> views, double /*dt_s*/) {
     auto instant = std::make_shared<Instant>();
     for (const DepthView& view : views) {
-        if (!view.has_depth() || view.colour.empty()) continue;
+        if (view.colour.empty() || !(view.has_depth() || takes_all_)) continue;
         const std::shared_ptr<RigSurface> surface = surfaces_.take();
         surface->upload(view, corrector_, uploader_);
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse})

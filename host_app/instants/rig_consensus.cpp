@@ -182,8 +182,7 @@ void RigConsensus::compare(const ComparedView& view, double parallax_px) {
     agreement_.generate_mipmaps();
 }
 
-const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all,
-                                    PrepareLevel::Refinement refinement) {
+const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all) {
     const Texture& depth_m = *view.depth_m;
     std::vector<const ComparedView*> looked_at;
     for (const ComparedView& one : all)
@@ -195,8 +194,7 @@ const Texture& RigConsensus::better(const ComparedView& view, std::span<const Co
     judged_.resize(depth_m.size());
 
     const double own_px = own_parallax_px(view), parallax = parallax_px(view);
-    const bool moves = refinement == PrepareLevel::Refinement::sweep && own_px > 0 &&
-                       parallax > least_news * own_px;
+    const bool moves = own_px > 0 && parallax > least_news * own_px;
     compare(view, parallax);
     if (moves) refine(view, parallax);
     FullscreenPass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];

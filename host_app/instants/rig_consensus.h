@@ -44,8 +44,7 @@ class RigConsensus {
     /// The view's depth, bettered; as it is where no other view looks at the same things.
     /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
     /// view itself; their depths are those of the same instant.
-    const Texture& better(const ComparedView& view, std::span<const ComparedView> all,
-                          PrepareLevel::Refinement refinement = PrepareLevel::Refinement::sweep);
+    const Texture& better(const ComparedView& view, std::span<const ComparedView> all);
 
   private:
     /// How unlike the pictures are at sixteen depths, four a texture.

@@ -36,8 +36,12 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
 
 void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                         std::unique_ptr<DepthUploader>& uploader) {
-    begin(view, view.colour.size(), view.depth_size(), surface_samples(view));
-    upload_depth(view, uploader, drawn_);
+    begin(view, view.colour.size(), view.has_depth() ? view.depth_size() : cv::Size(1, 1),
+          surface_samples(view));
+    if (view.has_depth())
+        upload_depth(view, uploader, drawn_);
+    else
+        drawn_.texture().upload(DepthImage(1, 1, 0.0f));
     upload_colour(view, corrector, colour_.texture());
     colour_.generate_mipmaps();
 }

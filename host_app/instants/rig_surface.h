@@ -49,7 +49,7 @@ class RigSurface {
     /// Begins anew for an instant of this camera, whose picture and depth map have these sizes.
     void begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
                const SurfaceSamples& samples);
-    /// The view as it came. Precondition: it has depth.
+    /// The view as it came; without depth, its map is one unknown pixel.
     void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                 std::unique_ptr<DepthUploader>& uploader);
     const Framebuffer& depth_target() const { return drawn_.target(); }

@@ -104,9 +104,7 @@ void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
     model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
     rig.generate_mipmaps();
     const Texture& bettered =
-        level.refinement == PrepareLevel::Refinement::none
-            ? rig.steady_depth()
-            : consensus_.better(compared(rig), compared(rigs_), level.refinement);
+        level.is_refined ? consensus_.better(compared(rig), compared(rigs_)) : rig.steady_depth();
     closer_.close(bettered, rig.steady_depth(), rig.colour(), model->depth_target());
     rig.set_model({model, level.rank, now_s_, instant_});
 }
@@ -146,10 +144,8 @@ void StagedPreparer::find_performers(RigHistory& rig, const PrepareLevel& level)
         has_depths_.insert(&one);
     };
     // The others' are asked for only where they are compared.
-    if (level.refinement == PrepareLevel::Refinement::none)
-        find(rig);
-    else
-        for (RigHistory* one : uploaded_) find(*one);
+    if (!level.is_refined) return find(rig);
+    for (RigHistory* one : uploaded_) find(*one);
 }
 
 void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
@@ -158,7 +154,8 @@ void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
         (is_best && (rig.model()->rank > 0 || now_s_ - rig.model()->made_s >= model_period_s)))
         make_model(rig, level);
     find_performers(rig, level);
-    const Texture& performers = performers_.better(rig, uploaded_, level.refinement);
+    const Texture& performers =
+        level.is_refined ? performers_.better(rig, uploaded_) : rig.performer_depth().texture();
     const std::shared_ptr<RigSurface> surface = surfaces_.take();
     surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
     Program& over = over_.use();

@@ -1,6 +1,7 @@
 #include "host_app/live/control_room.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -49,6 +50,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.render_level = state.render_level;
     lamps.prepare_level = state.prepare_level;
     lamps.repeated_ticks = static_cast<double>(show.books().repeated);
+    show_replay(state);
     lamps.film = false;
     const std::vector<OutputState> outputs = show.outputs().states();
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -64,10 +66,47 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps_.show(lamps);
 }
 
+void ControlRoom::show_replay(const ProgrammeState& state) {
+    // As people read it, and not more often than that changes.
+    const auto tenths = [](const std::optional<double>& seconds) {
+        return seconds ? std::round(10 * *seconds) / 10 : -1;
+    };
+    const auto place = [](const std::optional<std::size_t>& at) {
+        return at ? static_cast<double>(*at + 1) : 0;
+    };
+    const ReplayState& replay = state.replay;
+    ShowLamps& lamps = shown_;
+    lamps.replay_mode = state.picture ? name_of(replay.mode) : "";
+    lamps.clip = replay.hand;
+    lamps.played_clip = replay.clip;
+    lamps.entry = place(replay.selected);
+    lamps.played_entry = place(replay.playing);
+    lamps.clip_left_s = tenths(replay.clip_left_s);
+    lamps.list_left_s = tenths(replay.list_left_s);
+    if (replay.book) {
+        lamps.clips = static_cast<double>(replay.book->clips.size());
+        lamps.entries = static_cast<double>(replay.book->list.size());
+        lamps.preset_percent = std::round(100 * replay.book->programme_speed);
+        lamps.list_loops = replay.book->list_loops;
+    }
+    lamps.programme_speed = replay.is_at_programme_speed;
+    lamps.fast_jog = replay.fast_jog;
+    lamps.notice = replay.notice;
+    lamps.question = replay.question;
+    if (!state.picture) return;
+    const std::uint64_t pulse = state.picture->job.instant->set->trigger_index;
+    lamps.pulse = std::to_string(pulse);
+    lamps.at_in = state.time.in == pulse;
+    lamps.at_out = state.time.out == pulse;
+}
+
+std::vector<PortState> ControlRoom::ports() const {
+    return desk_ ? desk_->states() : std::vector<PortState>();
+}
+
 std::vector<PortState> ControlRoom::close() {
-    if (!desk_) return {};
-    desk_->close();
-    return desk_->states();
+    if (desk_) desk_->close();
+    return ports();
 }
 
 }  // namespace vantage

@@ -21,10 +21,14 @@ class ControlRoom {
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                     const std::string& saved_set, MonotonicTime now);
     Tally::State tally() const { return tally_.state(); }
+    /// What the ports have counted so far.
+    std::vector<PortState> ports() const;
     /// Ends the ports; what they counted.
     std::vector<PortState> close();
 
   private:
+    void show_replay(const ProgrammeState& state);
+
     Tally tally_;
     LampBoard lamps_;
     std::optional<SetTimecode> timecodes_;

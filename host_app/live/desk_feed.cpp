@@ -7,6 +7,8 @@
 
 #include "common/gl/limits.h"
 #include "host_app/desk/shot_places.h"
+#include "host_app/live/desk_replay.h"
+#include "host_app/live/desk_wheel.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/rig_words.h"
 
@@ -20,6 +22,8 @@ constexpr std::chrono::seconds path_length{10};
 constexpr double least_path_step_m = 0.02;
 /// Of the planned move, for its line.
 constexpr int move_steps = 96;
+/// For what replay could not do.
+constexpr std::chrono::seconds notice_stands{5};
 constexpr double corridor_reach = 1.3;  ///< of the farthest rig's distance from the pivot
 
 RigState state_in(const FrameSet* set, const RigStatus& status) {
@@ -150,6 +154,11 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
 
     state_.rigs.clear();
     for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set, now));
+    if (!show.settings().take) {
+        const auto date = std::chrono::system_clock::now();
+        state_.synchronisation = sync_words(show.settings().sync_proof, date);
+        state_.is_sync_doubtful = is_doubtful(show.settings().sync_proof, date);
+    }
     state_.steps.clear();
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
@@ -224,6 +233,17 @@ void DeskFeed::follow_shots(const LiveShow& show, const ProgrammeState& programm
     }
 }
 
+void DeskFeed::follow_replay(const ProgrammeState& programme, const FrameSet* set,
+                             MonotonicTime now) {
+    const ReplayState& replay = programme.replay;
+    if (programme.picture && replay.book)
+        clip_pictures_.follow(*replay.book, *programme.picture, now);
+    state_.replay =
+        desk_replay(programme, clip_pictures_, set ? tai_offset_s_of(*set).value_or(0) : 0);
+    if (std::exchange(notices_, replay.notices) != replay.notices) noticed_ = now;
+    state_.notice = notices_ > 0 && now - noticed_ < notice_stands ? replay.notice : "";
+}
+
 const Texture* DeskFeed::picture(const ProgrammeState& programme) {
     if (programme.picture && programme.picture != uploaded_) {
         uploaded_ = programme.picture;
@@ -263,7 +283,8 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
         state_.pulse = set->trigger_index;
         state_.timecode = timecodes_->of(*set);
     }
-    state_.question = question;
+    state_.question = question.empty() ? programme.replay.question : question;
+    follow_replay(programme, set, now);
     state_.take = take ? desk_take(*take) : std::nullopt;
     state_.behind_s = programme.behind_s;
     state_.time = desk_time(show, programme, take);
@@ -278,6 +299,8 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.holds_horizon = lines.holds_horizon;
     state_.move_progress = lines.move_progress;
     state_.wheel = lines.wheel;
+    state_.wheel_map = desk_wheel(show.controls().wheels().view(now));
+    state_.has_unsaved_wheel = !show.controls().wheels().unsaved().empty();
     state_.coverage = lines.corridor.now;
     follow_plan(show, programme, now);
     follow_shots(show, programme, now);

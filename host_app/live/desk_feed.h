@@ -9,6 +9,7 @@
 
 #include "common/base/rate_meter.h"
 #include "host_app/desk/desk_state.h"
+#include "host_app/live/clip_pictures.h"
 #include "host_app/live/corridor_fields.h"
 #include "host_app/live/live_show.h"
 #include "host_app/live/rig_pictures.h"
@@ -37,6 +38,7 @@ class DeskFeed {
     DeskRig rig_of(const RigAccount& account, const FrameSet* set, MonotonicTime now);
     void follow_move(const LiveShow& show);
     void follow_plan(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
+    void follow_replay(const ProgrammeState& programme, const FrameSet* set, MonotonicTime now);
     void follow_shots(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
 
     struct Placed {
@@ -49,6 +51,9 @@ class DeskFeed {
     std::map<std::string, MonotonicTime> rigs_seen_;  ///< in a set, last
     RigPictures rig_pictures_;
     ShotPictures shot_pictures_;
+    ClipPictures clip_pictures_;
+    std::uint64_t notices_ = 0;  ///< of replay, that were seen
+    MonotonicTime noticed_{};    ///< the last of them
     CorridorFields corridor_;
     std::deque<Placed> path_;
     std::shared_ptr<const Move> move_;  ///< of which these are

@@ -15,49 +15,6 @@ std::string times(std::uint64_t n) {
     return n == 1 ? std::string("once") : fmt::format("{} times", n);
 }
 
-/// One counter of a rig: its key for machines and its heading for people.
-struct Counter {
-    const char *key, *heading;
-    std::uint64_t value;
-};
-
-/// Counters of one place on the way, which together say what became of every frame there.
-struct CounterGroup {
-    const char *key, *title;
-    std::vector<Counter> counters;
-};
-
-std::vector<CounterGroup> counters_of(const RigAccount& rig) {
-    const RigStatus& s = rig.status;
-    const RigCounters& r = s.rig_counters;
-    return {{"rig",
-             "at the rig, since this host came",
-             {{"captured", "captured", r.captured},
-              {"missed", "missed", r.missed},
-              {"late", "late", r.late},
-              {"published", "published", r.published}}},
-            {"link",
-             "on the way to this host",
-             {{"offered", "offered", s.link.offered},
-              {"send_dropped", "pushed out", s.link.send_dropped},
-              {"thinned", "thinned", s.link.thinned},
-              {"sent", "sent", s.link.sent},
-              {"lost", "lost", s.lost}}},
-            {"host",
-             "at this host",
-             {{"received", "received", s.received},
-              {"undecodable", "damaged", s.undecodable},
-              {"queue_dropped", "host busy", s.queue_dropped},
-              {"late", "late", s.late},
-              {"duplicate", "duplicate", s.duplicate},
-              {"unsynchronized", "unsynced", s.unsynchronized},
-              {"out_of_step", "out of step", s.out_of_step},
-              {"in_sets", "in sets", s.in_sets},
-              {"fused", "fused", rig.fused},
-              {"superseded", "superseded", rig.superseded},
-              {"in_dropped_sets", "set dropped", s.in_dropped_sets}}}};
-}
-
 std::string rig_tables(const LiveReport& report) {
     if (report.rigs.empty()) return "";
     std::size_t name_width = 4;
@@ -159,6 +116,11 @@ nlohmann::ordered_json time_json(const LiveReport& report) {
     if (time.in) json["in"] = *time.in;
     if (time.out) json["out"] = *time.out;
     json["loops"] = time.loops;
+    json["replay"] = name_of(report.replay.mode);
+    if (report.replay.book)
+        json["clips"] = {{"clips", report.replay.book->clips.size()},
+                         {"entries", report.replay.book->list.size()},
+                         {"programme_speed", report.replay.book->programme_speed}};
     if (!report.played.empty()) json["take"] = report.played;
     if (report.past)
         json["past"] = {
@@ -184,11 +146,17 @@ const char* key_of(TakePhase phase) {
 }
 
 nlohmann::ordered_json take_json(const TakeState& take) {
-    nlohmann::ordered_json json{
-        {"path", take.path},          {"takes", take.takes},   {"state", key_of(take.phase)},
-        {"failure", take.failure},    {"frames", take.frames}, {"gaps", take.gaps},
-        {"bytes", take.bytes},        {"mb_s", take.mb_s},     {"duration_s", take.duration_s},
-        {"disk_mb_s", take.disk_mb_s}};
+    nlohmann::ordered_json json{{"path", take.path},
+                                {"takes", take.takes},
+                                {"state", key_of(take.phase)},
+                                {"failure", take.failure},
+                                {"frames", take.frames},
+                                {"gaps", take.gaps},
+                                {"bytes", take.bytes},
+                                {"mb_s", take.mb_s},
+                                {"duration_s", take.duration_s},
+                                {"disk_mb_s", take.disk_mb_s},
+                                {"longest_unwritten_ms", take.longest_unwritten_ms}};
     for (const TakeState::Rig& rig : take.rigs)
         json["rigs"].push_back({{"name", rig.name},
                                 {"frames", rig.frames},
@@ -199,8 +167,10 @@ nlohmann::ordered_json take_json(const TakeState& take) {
 
 std::string take_text(const TakeState& take) {
     std::string text = fmt::format(
-        "take: {}, {:.1f} s, {} frames and {} missing, {:.1f} MB, {:.1f} MB a second\n", take.path,
-        take.duration_s, take.frames, take.gaps, static_cast<double>(take.bytes) / 1e6, take.mb_s);
+        "take: {}, {:.1f} s, {} frames and {} missing, {:.1f} MB, {:.1f} MB a second, written "
+        "{:.0f} ms after they came at most\n",
+        take.path, take.duration_s, take.frames, take.gaps, static_cast<double>(take.bytes) / 1e6,
+        take.mb_s, take.longest_unwritten_ms);
     for (const TakeState::Rig& rig : take.rigs)
         if (rig.dropped + rig.refused > 0)
             text += fmt::format(
@@ -239,6 +209,37 @@ std::string output_text(const OutputState& output) {
 }
 
 }  // namespace
+
+std::vector<CounterGroup> counters_of(const RigAccount& rig) {
+    const RigStatus& s = rig.status;
+    const RigCounters& r = s.rig_counters;
+    return {{"rig",
+             "at the rig, since this host came",
+             {{"captured", "captured", r.captured},
+              {"missed", "missed", r.missed},
+              {"late", "late", r.late},
+              {"published", "published", r.published}}},
+            {"link",
+             "on the way to this host",
+             {{"offered", "offered", s.link.offered},
+              {"send_dropped", "pushed out", s.link.send_dropped},
+              {"thinned", "thinned", s.link.thinned},
+              {"sent", "sent", s.link.sent},
+              {"lost", "lost", s.lost}}},
+            {"host",
+             "at this host",
+             {{"received", "received", s.received},
+              {"undecodable", "damaged", s.undecodable},
+              {"queue_dropped", "host busy", s.queue_dropped},
+              {"late", "late", s.late},
+              {"duplicate", "duplicate", s.duplicate},
+              {"unsynchronized", "unsynced", s.unsynchronized},
+              {"out_of_step", "out of step", s.out_of_step},
+              {"in_sets", "in sets", s.in_sets},
+              {"fused", "fused", rig.fused},
+              {"superseded", "superseded", rig.superseded},
+              {"in_dropped_sets", "set dropped", s.in_dropped_sets}}}};
+}
 
 std::string state_of(const RigStatus& status) {
     if (!status.refused.empty()) return "refused: " + status.refused;
@@ -457,7 +458,8 @@ std::string results_text(const LiveReport& report) {
     for (const std::string& failure : failures_of(report)) text += failure + '\n';
     if (report.stereoscopy)
         text +=
-            fmt::format("side by side: eyes {:.1f} mm apart, converging at {:.2f} m\n",
+            fmt::format("{}: eyes {:.1f} mm apart, converging at {:.2f} m\n",
+                        to_json(*report.stereoscopy)["layout"].get<std::string>(),
                         1000 * report.stereoscopy->interaxial_m, report.stereoscopy->convergence_m);
     if (report.novelty) {
         text += "pixels of the last picture by rig:";

@@ -42,6 +42,7 @@ struct LiveReport {
     std::string synthesiser, renderer;
     SignalState signal = SignalState::no_signal;  ///< at the end
     TransportState time;                          ///< at the end
+    ReplayState replay;                           ///< at the end
     std::uint64_t shown_pulse = 0;                ///< of the last picture
     std::optional<PastSets::Span> past;           ///< that can be gone back to
     double pulse_rate_hz = 0;
@@ -75,6 +76,18 @@ struct LiveReport {
     std::vector<OutputState> outputs;
     std::vector<PortState> ports;  ///< that others steered by
 };
+
+/// One counter of a rig: its key for machines and its heading for people.
+struct Counter {
+    const char *key, *heading;
+    std::uint64_t value;
+};
+/// Counters of one place on the way, which together say what became of every frame there.
+struct CounterGroup {
+    const char *key, *title;
+    std::vector<Counter> counters;
+};
+std::vector<CounterGroup> counters_of(const RigAccount& rig);
 
 /// The steps of a frame's way, by name, of which there are samples: at the rigs as the worst of
 /// them says, then at the host.

@@ -112,7 +112,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                   .synthesiser = settings.synthesiser,
                   .quality = settings.quality,
                   .source_map = settings.source_map,
-                  .transport = settings.transport,
+                  .replay = settings.replay,
                   .ends_with_past = settings.ends_with_take},
                  instants_, controls_) {
     programme_.add(outputs_.sink());
@@ -230,6 +230,7 @@ LiveReport LiveShow::report() const {
     report.renderer = renderer_;
     report.signal = signal_of(status, state);
     report.time = state.time;
+    report.replay = state.replay;
     report.past = state.past;
     report.pulse_rate_hz = settings_.pulse_rate_hz;
     if (state.picture) report.shown_pulse = state.picture->job.instant->set->trigger_index;

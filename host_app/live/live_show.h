@@ -12,6 +12,7 @@
 #include "host_app/control/flight_controls.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/stage_corridor.h"
+#include "host_app/live/sync_proof.h"
 #include "host_app/output/output_desk.h"
 #include "host_app/programme/programme.h"
 #include "host_app/sets/stage_feed.h"
@@ -33,9 +34,10 @@ struct LiveSettings {
     bool free_flight = false;               ///< hands may leave the corridor
     bool harmonise = true;                  ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
+    SyncProof sync_proof = {};                             ///< of a live stage
     std::shared_ptr<const LearntSet> set = nullptr;        ///< that rigs begin with; null: none
     std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
-    Transport transport = {};                              ///< at first
+    Replay replay = {};                                    ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
 };
 

@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 namespace vantage {
-namespace {
 
-/// Whole days since a date such as 2026-11-23 or 2026-11-23T07:30:00Z; nothing: it is none.
 std::optional<int> days_since(const std::string& date, std::chrono::system_clock::time_point now) {
     std::tm then{};
     if (std::sscanf(date.c_str(), "%4d-%2d-%2d", &then.tm_year, &then.tm_mon, &then.tm_mday) != 3)
@@ -19,8 +17,6 @@ std::optional<int> days_since(const std::string& date, std::chrono::system_clock
     return std::max(0,
                     static_cast<int>(std::chrono::duration_cast<std::chrono::days>(age).count()));
 }
-
-}  // namespace
 
 std::string short_clock_words(const RigStatus& rig) {
     if (!rig.connected) return "";

@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
-#include <opencv2/imgproc.hpp>
+#include "host_app/live/small_picture.h"
 
 namespace vantage {
 namespace {
 
-constexpr int most_width_px = 192;
 /// While the camera stays there, for the performers do not.
 constexpr std::chrono::seconds taken_again_after{2};
-
-ColourImage small_picture(const ColourImage& picture) {
-    const double scale = std::min(1.0, static_cast<double>(most_width_px) / picture.cols);
-    ColourImage small;
-    cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
-    return small;
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 
 namespace vantage {
 namespace {
@@ -177,7 +178,7 @@ void Output::write(OutputTarget& target, const Item& item) {
     target.write(item.picture, static_cast<std::int64_t>(item.tick - *first_tick_), item.timecode);
     const MonotonicTime end = MonotonicClock::now();
     const std::lock_guard lock(mutex_);
-    write_ms_.add(std::chrono::duration<double, std::milli>(end - start).count());
+    write_ms_.add(to_ms(end - start));
     ++state_.pictures;
     state_.bytes = bytes_before_ + target.bytes();
     bytes_rate_.add(state_.bytes, end);

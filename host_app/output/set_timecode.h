@@ -1,11 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/base/timecode.h"
 #include "common/receive/frame_set.h"
 
 namespace vantage {
+
+/// Of the clock of the rigs in the set, ahead of UTC (see TimecodeClock); nothing: none is in it.
+std::optional<int> tai_offset_s_of(const FrameSet& set);
 
 /// Gives sets of frames the house's time of day. `rate_hz` is that of what is counted: of the
 /// pulses on the screen, of the film in a film.

@@ -23,7 +23,7 @@ constexpr double mistake_s = 5;
 constexpr double mean_share = 0.2;
 /// Of a tick and of the time between two pulses. Rendering has the right of way over preparing:
 /// what it takes, instants are late by. Preparing counts the time that it gave way for.
-constexpr double rendering_share = 0.4, preparing_share = 0.9;
+constexpr double rendering_share = 0.65, preparing_share = 0.9;
 
 double seconds(MonotonicTime from, MonotonicTime to) {
     return std::chrono::duration<double>(to - from).count();

@@ -1,6 +1,7 @@
 #include "host_app/programme/picture_maker.h"
 
 #include "common/base/log.h"
+#include "common/base/time.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/sliced_drawing.h"
 
@@ -10,10 +11,6 @@ namespace {
 constexpr std::chrono::milliseconds slice{4};
 /// After a fault, before everything is made anew.
 constexpr std::chrono::milliseconds recovery{200};
-
-double ms_since(MonotonicTime start) {
-    return std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
-}
 
 }  // namespace
 

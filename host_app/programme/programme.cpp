@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "common/base/time.h"
 #include "host_app/programme/tick_clock.h"
 
 namespace vantage {
@@ -20,9 +21,7 @@ constexpr std::chrono::milliseconds rest{250};
 constexpr std::size_t judged_pictures = 100;
 constexpr double lead_ratio = 1.15, lead_margin_ms = 3;
 
-double ms_between(MonotonicTime start, MonotonicTime end) {
-    return std::chrono::duration<double, std::milli>(end - start).count();
-}
+double ms_between(MonotonicTime start, MonotonicTime end) { return to_ms(end - start); }
 
 void sleep_until(MonotonicTime time) { std::this_thread::sleep_for(time - MonotonicClock::now()); }
 
@@ -50,11 +49,11 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       instants_(instants),
       pilot_(pilot),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
-      transport_(settings_.transport),
+      replay_(settings_.replay),
       entry_(find_synthesiser(settings_.synthesiser)),
       source_map_(settings_.source_map) {
     // The first instant is prepared for where the camera begins.
-    view_ = pilot_.step(0, transport_.pulse()).view;
+    view_ = pilot_.step(0, transport().pulse()).view;
     camera_ = view_.camera();
     wish_for_instant(MonotonicClock::now());
     instants_.prepare_for(entry_.name, entry_.make_preparer);
@@ -145,26 +144,32 @@ void Programme::run() {
         tick = next;
         const std::lock_guard lock(mutex_);
         if (is_over_(books_.ticks, due_s)) return;
-        if (settings_.ends_with_past && transport_.is_at_end() && shown_ &&
-            instants_.past_pulse_at(*transport_.pulse()) == shown_->job.instant->set->trigger_index)
+        if (settings_.ends_with_past && transport().is_at_end() && shown_ &&
+            instants_.past_pulse_at(*transport().pulse()) ==
+                shown_->job.instant->set->trigger_index)
             return;
     }
 }
 
 bool Programme::look(double time_s, MonotonicTime now) {
-    const PilotStep step = pilot_.step(time_s, transport_.pulse());
+    PilotStep step = pilot_.step(time_s, transport().pulse());
     if (step.hand && !hand_) hand_ = step.hand;
     instant_ = instants_.newest();
     const std::optional<PastSets::Span> span = instants_.past_span();
     // Time begins with the first picture.
     if (shown_ && last_look_s_)
-        transport_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
+        replay_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
     last_look_s_ = time_s;
-    if (instant_) transport_.take(step.time, instant_->set->trigger_index, span);
+    if (instant_) replay_.take(step.time, instant_->set->trigger_index, span);
+    if (const std::optional<int> shot = replay_.take_shot()) {
+        const PilotStep flown = pilot_.fly_to_shot(*shot);
+        step.view = flown.view;
+        step.camera = flown.camera;
+    }
     // Where time stands, it stands between two pulses if it came there slowly, and not by a jump.
-    if (transport_.state().speed != 0)
-        moments_a_pulse_ = governor_.moments_a_pulse(transport_.state().speed);
-    else if (seen_jumps_ != transport_.jumps())
+    if (transport().state().speed != 0)
+        moments_a_pulse_ = governor_.moments_a_pulse(transport().state().speed);
+    else if (seen_jumps_ != transport().jumps())
         moments_a_pulse_ = 1;
     follow_seek(now);
     if (step.toggle_source_map) source_map_ = !source_map_;
@@ -180,7 +185,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         begun_still_.reset();
     }
     const CameraState camera = step.camera.value_or(step.view.camera());
-    if (!is_same_view(camera, camera_) || step.time.is_any() || transport_.is_moving())
+    if (!is_same_view(camera, camera_) || step.time.is_any() || transport().is_moving())
         changed_ = now;
     view_ = step.view;
     camera_ = camera;
@@ -188,13 +193,14 @@ bool Programme::look(double time_s, MonotonicTime now) {
     {
         const std::lock_guard lock(mutex_);
         state_.view = view_;
-        state_.time = transport_.state();
+        state_.time = transport().state();
+        state_.replay = replay_.state();
         state_.past = span;
         state_.source_map = source_map_;
-        state_.behind_s = transport_.pulse() && span && !transport_.is_of_take()
-                              ? std::optional(std::max(
-                                    0.0, (static_cast<double>(span->newest) - *transport_.pulse()) /
-                                             settings_.pulse_rate_hz))
+        state_.behind_s = transport().pulse() && span && !transport().is_of_take()
+                              ? std::optional(std::max(0.0, (static_cast<double>(span->newest) -
+                                                             *transport().pulse()) /
+                                                                settings_.pulse_rate_hz))
                               : std::nullopt;
         state_.render_level = governor_.render().rank;
         state_.prepare_level = governor_.prepare().rank;
@@ -212,10 +218,10 @@ bool Programme::look(double time_s, MonotonicTime now) {
 }
 
 void Programme::follow_seek(MonotonicTime now) {
-    if (!transport_.pulse()) seek_.reset();
-    if (std::exchange(seen_jumps_, transport_.jumps()) == transport_.jumps()) return;
+    if (!transport().pulse()) seek_.reset();
+    if (std::exchange(seen_jumps_, transport().jumps()) == transport().jumps()) return;
     const std::optional<std::uint64_t> pulse =
-        transport_.pulse() ? instants_.past_pulse_at(*transport_.pulse()) : std::nullopt;
+        transport().pulse() ? instants_.past_pulse_at(*transport().pulse()) : std::nullopt;
     if (pulse && shown_ && shown_->job.instant->set->trigger_index != *pulse)
         seek_ = {now, *pulse};
     else
@@ -223,13 +229,13 @@ void Programme::follow_seek(MonotonicTime now) {
 }
 
 void Programme::wish_for_instant(MonotonicTime now) {
-    const bool is_resting = !transport_.is_moving() && now - changed_ > rest;
+    const bool is_resting = !transport().is_moving() && now - changed_ > rest;
     instants_.wish(
-        {transport_.pulse(), moments_a_pulse_, transport_.is_held(),
+        {transport().pulse(), moments_a_pulse_, transport().is_held(),
          view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
          is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare(),
-         transport_.jumps()});
-    if (instant_ && instant_->number != seen_prepared_ && transport_.is_moving()) {
+         transport().jumps()});
+    if (instant_ && instant_->number != seen_prepared_ && transport().is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);
         if (!instant_->is_live)
@@ -243,7 +249,7 @@ void Programme::begin_picture() {
 }
 
 void Programme::better_what_is_held(MonotonicTime now) {
-    if (settings_.quality.level || transport_.is_moving() || now - changed_ < rest || !instant_ ||
+    if (settings_.quality.level || transport().is_moving() || now - changed_ < rest || !instant_ ||
         !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
         return;
     if (retired_still_) return;
@@ -285,17 +291,16 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     note_seek(instant, now);
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
-        const double latency_ms =
-            std::chrono::duration<double, std::milli>(TaiClock::now() - *instant.exposure).count();
+        const double latency_ms = to_ms(TaiClock::now() - *instant.exposure);
         latency_ms_.add(latency_ms);
         state_.latency_ms = latency_ms;
     }
 }
 
 void Programme::note_seek(const ReadyInstant& instant, MonotonicTime now) {
-    if (!seek_ || !transport_.pulse()) return;
+    if (!seek_ || !transport().pulse()) return;
     // Time goes on meanwhile.
-    const auto wanted = instants_.past_pulse_at(*transport_.pulse()).value_or(seek_->pulse);
+    const auto wanted = instants_.past_pulse_at(*transport().pulse()).value_or(seek_->pulse);
     const std::uint64_t shown = instant.set->trigger_index;
     if (shown < std::min(seek_->pulse, wanted) || shown > std::max(seek_->pulse, wanted)) return;
     const double all_ms = ms_between(seek_->since, now);
@@ -332,7 +337,7 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
         }
         if (!is_new && still_maker_) {
             fresh = still_maker_->take_finished();
-            if (fresh && (transport_.is_moving() || !is_same_view(fresh->job.camera, camera_) ||
+            if (fresh && (transport().is_moving() || !is_same_view(fresh->job.camera, camera_) ||
                           fresh->job.instant != instant_))
                 fresh.reset();
         }

@@ -17,7 +17,7 @@
 #include "host_app/output/picture_sink.h"
 #include "host_app/programme/governor.h"
 #include "host_app/programme/picture_maker.h"
-#include "host_app/replay/transport.h"
+#include "host_app/replay/replay.h"
 
 namespace vantage {
 
@@ -60,6 +60,7 @@ struct ProgrammeState {
     OrbitView view;
     bool source_map = false;
     TransportState time;
+    ReplayState replay;
     std::optional<PastSets::Span> past;  ///< that there is
     std::optional<double> behind_s;      ///< in a stage's past: how far
     std::string synthesiser;
@@ -77,8 +78,8 @@ class Programme {
         double rate_hz = 30, pulse_rate_hz = 30;
         std::string synthesiser = default_synthesiser;
         QualityWish quality;
-        bool source_map = false;  ///< shown at first
-        Transport transport = {};
+        bool source_map = false;      ///< shown at first
+        Replay replay = {};           ///< at first
         bool ends_with_past = false;  ///< once the end of what is played is shown
     };
     /// Draws on contexts of the instants' group. Runs from start() on. `pilot` and `instants` must
@@ -118,6 +119,7 @@ class Programme {
     void note_sinks();
     void note(const MadePicture& made, MonotonicTime now);
     void note_seek(const ReadyInstant& instant, MonotonicTime now);
+    const Transport& transport() const { return replay_.transport(); }
     /// How long before a tick its picture is to be begun.
     std::chrono::nanoseconds lead() const;
 
@@ -129,7 +131,7 @@ class Programme {
 
     // Of the programme's thread.
     Governor governor_;
-    Transport transport_;
+    Replay replay_;
     std::optional<double> last_look_s_;
     SynthesiserEntry entry_;  ///< that is wanted
     std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;
@@ -143,7 +145,6 @@ class Programme {
     };
     std::optional<Seek> seek_;
     std::uint64_t seen_jumps_ = 0;
-    int moments_a_pulse_ = 1;  ///< as InstantWish
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;
@@ -151,6 +152,7 @@ class Programme {
     std::optional<MonotonicTime> first_picture_, last_new_;
     std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0;
     bool source_map_ = false;
+    int moments_a_pulse_ = 1;     ///< as InstantWish
     std::deque<double> make_ms_;  ///< of the last pictures
 
     mutable std::mutex mutex_;

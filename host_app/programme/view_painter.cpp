@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "common/base/log.h"
 #include "common/base/time.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/limits.h"
@@ -15,11 +16,17 @@ VirtualView view_of(const CameraState& camera, cv::Size size) {
 
 ViewPainter::ViewPainter(const SynthesiserEntry& synthesiser, const PictureFormat& format,
                          const ShaderLibrary& shaders)
-    : format_(format), renderer_(synthesiser.make_renderer(shaders)), overlay_(shaders) {}
+    : format_(format),
+      renderer_(synthesiser.make_renderer(shaders)),
+      overlay_(shaders),
+      mosaic_(shaders) {}
 
 const Texture& ViewPainter::render(const Instant& instant, const CameraState& camera, cv::Size size,
                                    const RenderLevel& level, bool is_map) {
     const VirtualView target = view_of(camera, size);
+    const std::string lacking = renderer_->lacks(instant, target);
+    if (lacking != lacking_ && !lacking.empty()) log_warning("{}", lacking);
+    lacking_ = lacking;
     const auto eye = [&](const VirtualView& view) -> const Texture& {
         const Texture& plain = renderer_->render(instant, view, level);
         last_eye_ = &plain;
@@ -27,18 +34,20 @@ const Texture& ViewPainter::render(const Instant& instant, const CameraState& ca
         return origins ? overlay_.lay(plain, *origins) : plain;
     };
     if (!format_.stereoscopy) return eye(target);
-    const auto [left, right] =
-        eye_views(target, format_.stereoscopy->settled(target, camera.focus_m));
-    side_by_side_.resize(size);
-    side_by_side_.put_left(eye(left));
-    side_by_side_.put_right(eye(right));
-    return side_by_side_.picture();
+    const Stereoscopy settled = format_.stereoscopy->settled(target, camera.focus_m);
+    mosaic_.begin(size, settled);
+    const std::vector<VirtualView> eyes = eye_views(target, settled);
+    for (std::size_t i = 0; i < eyes.size(); ++i) mosaic_.put(eye(eyes[i]), i);
+    return mosaic_.picture();
 }
 
 ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera,
                                const RenderLevel& level, std::optional<SourceMap>* sources) {
     const cv::Size full(format_.width_px, format_.height_px);
-    const cv::Size size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
+    const cv::Size size =
+        format_.stereoscopy
+            ? format_.stereoscopy->rendered_size(full, level.scale)
+            : cv::Size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
     const Texture& texture = render(instant, camera, size, level, false);
     check_gl("rendering the virtual view");
     // The way back is under way before this thread waits for the picture.
@@ -55,7 +64,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
         cv::resize(picture, enlarged, full, 0, 0, cv::INTER_CUBIC);
         picture = std::move(enlarged);
     }
-    readback_ms_ = std::chrono::duration<double, std::milli>(MonotonicClock::now() - start).count();
+    readback_ms_ = ms_since(start);
     if (sources && renderer_->note_origins(true)) {
         const Texture& map = render(instant, camera, full, level, true);
         SourceMap seen;

@@ -14,7 +14,7 @@
 
 namespace vantage {
 
-/// The programme's picture: one camera, or two eyes side by side.
+/// The programme's picture: one camera, or the eyes of a 3D display.
 struct PictureFormat {
     int width_px = 1280, height_px = 720;
     /// Eyes that converge, where this does not say, at the focus.
@@ -51,8 +51,9 @@ class ViewPainter {
     PictureFormat format_;
     std::unique_ptr<ViewRenderer> renderer_;
     NoveltyOverlay overlay_;
-    SideBySide side_by_side_;
+    EyeMosaic mosaic_;
     const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
+    std::string lacking_;                ///< for the last picture
     Readback readback_;
     double readback_ms_ = 0;
 };

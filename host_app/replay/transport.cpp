@@ -32,23 +32,82 @@ void Transport::mark(std::optional<std::uint64_t> in, std::optional<std::uint64_
     state_.out = out;
 }
 
+Transport::Reach Transport::reach(const PastSets::Span& span) const {
+    Reach reach{as_pulse(span.oldest), as_pulse(span.newest)};
+    if (piece_) {
+        reach.least = std::max(reach.least, piece_->least);
+        reach.most = std::max(reach.least, std::min(reach.most, piece_->most));
+    }
+    return reach;
+}
+
+void Transport::enter(const TransportPiece& piece, double pulse, double speed, bool plays,
+                      const PastSets::Span& span) {
+    if (!piece_) before_ = {state_.in, state_.out, state_.loops};
+    piece_ = piece;
+    mark(piece.in, piece.out);
+    state_.loops = false;
+    state_.is_held = false;
+    stand_at(pulse, span);
+    last_speed_ = speed;
+    if (plays) state_.speed = speed;
+}
+
+void Transport::leave() {
+    if (!piece_) return;
+    piece_.reset();
+    mark(before_.in, before_.out);
+    state_.loops = before_.loops;
+}
+
+void Transport::stand_at(double pulse, const PastSets::Span& span) {
+    state_.speed = 0;
+    is_at_end_ = false;
+    overrun_s_.reset();
+    go_to(pulse, span);
+}
+
+void Transport::play(double speed, std::uint64_t shown_pulse, const PastSets::Span& span) {
+    if (!state_.pulse) go_to(as_pulse(shown_pulse), span);
+    is_at_end_ = false;
+    overrun_s_.reset();
+    state_.speed = last_speed_ = speed;
+}
+
+void Transport::hold_what_is_shown() {
+    state_.pulse.reset();
+    state_.speed = 0;
+    state_.is_held = true;
+}
+
 void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
                      const std::optional<PastSets::Span>& span) {
-    if (input.is_any()) is_at_end_ = false;
+    if (input.is_any()) {
+        is_at_end_ = false;
+        overrun_s_.reset();
+    }
     if (input.toggle_hold) toggle_hold();
     if (input.to_live) to_live();
     if (input.toggle_loop) state_.loops = !state_.loops;
     if (input.clear_marks) mark(std::nullopt, std::nullopt);
+    // Where time stands its picture may be on its way yet, and what is meant is that.
+    const std::uint64_t here = state_.pulse && state_.speed == 0 && !state_.is_held
+                                   ? static_cast<std::uint64_t>(*state_.pulse)
+                                   : shown_pulse;
     if (input.mark_in) {
-        state_.in = shown_pulse;
-        if (state_.out && *state_.out <= shown_pulse) state_.out.reset();
+        state_.in = here;
+        if (state_.out && *state_.out <= here) state_.out.reset();
     }
     if (input.mark_out) {
-        state_.out = shown_pulse;
-        if (state_.in && *state_.in >= shown_pulse) state_.in.reset();
+        state_.out = here;
+        if (state_.in && *state_.in >= here) state_.in.reset();
     }
     is_led_ = is_of_take_ && input.at_pulse && span;
     if (!span) return;
+    // What stands keeps its picture when the buffer lets go of it.
+    if (!is_of_take_ && !input.is_any() && state_.pulse && state_.speed == 0 &&
+        shown_pulse < span->oldest && as_pulse(shown_pulse) <= *state_.pulse)
+        hold_what_is_shown();
     if (is_led_) {
         lead(*input.at_pulse, *span);
         return;
@@ -101,7 +160,8 @@ void Transport::to_live() {
 }
 
 void Transport::go_to(double pulse, const PastSets::Span& span) {
-    state_.pulse = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
+    const auto [least, most] = reach(span);
+    state_.pulse = std::clamp(pulse, least, most);
     ++jumps_;
 }
 
@@ -118,6 +178,7 @@ void Transport::change_speed(int steps) {
 void Transport::arrive(double at, double again_at) {
     if (state_.loops) {
         state_.pulse = again_at;
+        overrun_s_.reset();
         ++jumps_;
         return;
     }
@@ -129,7 +190,7 @@ void Transport::arrive(double at, double again_at) {
 void Transport::advance(double dt_s, double pulse_rate_hz,
                         const std::optional<PastSets::Span>& span) {
     if (!span || !state_.pulse || is_led_) return;
-    const double oldest = as_pulse(span->oldest), newest = as_pulse(span->newest);
+    const auto [oldest, newest] = reach(*span);
     const double before = *state_.pulse;
     if (state_.speed == 0) return;
     const double now = before + state_.speed * dt_s * pulse_rate_hz;
@@ -138,10 +199,12 @@ void Transport::advance(double dt_s, double pulse_rate_hz,
     // A whole pulse is shown for a whole period. A loop is also entered from beyond its end, as
     // when its out mark is set where the programme is.
     if (state_.speed > 0 && now >= last + 1 && (before < last + 1 || state_.loops)) {
-        if (!is_of_take_ && !state_.loops && last == newest)
+        if (!is_of_take_ && !state_.loops && !piece_ && last == newest) {
             to_live();
-        else
+        } else {
+            overrun_s_ = (now - (last + 1)) / (state_.speed * pulse_rate_hz);
             arrive(last, in);
+        }
     } else if (state_.speed < 0 && now < in && (before >= in || state_.loops)) {
         arrive(in, last);
     } else {

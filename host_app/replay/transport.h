@@ -8,6 +8,12 @@
 
 namespace vantage {
 
+/// A part of the past that is played for itself: its marks, and how far beyond them hands may go.
+struct TransportPiece {
+    std::uint64_t in = 0, out = 0;  ///< `out` is the first that is left out
+    double least = 0, most = 0;     ///< pulses
+};
+
 /// How it stands, for the desk.
 struct TransportState {
     bool is_held = false;
@@ -33,6 +39,21 @@ class Transport {
     /// in mark where it loops; playing that comes up to the newest pulse of a stage is live again.
     void advance(double dt_s, double pulse_rate_hz, const std::optional<PastSets::Span>& span);
 
+    /// To a pulse of the piece, whose marks stand in place of those there were; it `plays` from
+    /// there or will at this speed. The piece does not loop at first.
+    void enter(const TransportPiece& piece, double pulse, double speed, bool plays,
+               const PastSets::Span& span);
+    /// The marks of before the first enter() are back; where the programme is stays.
+    void leave();
+    /// There, and stand.
+    void stand_at(double pulse, const PastSets::Span& span);
+    /// At this speed from now on; from live from the pulse that is shown.
+    void play(double speed, std::uint64_t shown_pulse, const PastSets::Span& span);
+    /// Of what plays.
+    void set_speed(double speed) { state_.speed = last_speed_ = speed; }
+    /// The instant that is shown, though the past may not have it any more.
+    void hold_what_is_shown();
+
     /// From `in` to before `out`.
     void mark(std::optional<std::uint64_t> in, std::optional<std::uint64_t> out);
     void set_loop(bool loops) { state_.loops = loops; }
@@ -46,6 +67,8 @@ class Transport {
     }
     /// It played to an end and stopped there.
     bool is_at_end() const { return is_at_end_; }
+    /// It played over the out mark, or the end, and this much further in its time.
+    std::optional<double> overrun_s() const { return overrun_s_; }
     /// In the past: the pulse.
     std::optional<double> pulse() const { return state_.pulse; }
     const TransportState& state() const { return state_; }
@@ -53,6 +76,11 @@ class Transport {
     std::uint64_t jumps() const { return jumps_; }
 
   private:
+    /// How far hands may go.
+    struct Reach {
+        double least, most;
+    };
+    Reach reach(const PastSets::Span& span) const;
     void lead(double pulse, const PastSets::Span& span);
     void toggle_hold();
     void to_live();
@@ -60,7 +88,16 @@ class Transport {
     void change_speed(int steps);
     void arrive(double at, double again_at);
 
+    /// What was before a piece was entered.
+    struct Before {
+        std::optional<std::uint64_t> in, out;
+        bool loops = false;
+    };
+
     TransportState state_;
+    std::optional<TransportPiece> piece_;
+    Before before_;  ///< of the piece
+    std::optional<double> overrun_s_;
     bool is_of_take_ = false, is_at_end_ = false;
     bool is_led_ = false, is_led_on_ = false;  ///< by a flight; and it went on since the last tick
     double last_speed_ = 1;

@@ -19,15 +19,24 @@ double near_plane_m(std::span<const DrawnLayer> layers) {
 
 void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
                      std::size_t fine) {
+    std::size_t drawn = 0;
+    draw(layers, target,
+         [&](const RigSurface& surface, double near_m, const Framebuffer& depth_only) {
+             const bool is_fine = drawn++ < fine && surface.has_fine_grid();
+             rasteriser_.draw_depth(surface, target, near_m, depth_only,
+                                    is_fine ? QuadGrid::fine : QuadGrid::coarse);
+         });
+}
+
+void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
+                     const Drawing& drawing) {
     assert(layers.size() <= max_layers);
     used_.assign(layers.begin(), layers.end());
     target_ = target;
     near_m_ = near_plane_m(layers);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         layers_[i].resize({target.width_px, target.height_px});
-        rasteriser_.draw_depth(
-            *layers[i].surface, target, near_m_, layers_[i].target(),
-            i < fine && layers[i].surface->has_fine_grid() ? QuadGrid::fine : QuadGrid::coarse);
+        drawing(*layers[i].surface, near_m_, layers_[i].target());
     }
 }
 

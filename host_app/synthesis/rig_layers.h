@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,12 @@ class RigLayers {
     /// Preconditions: at most max_layers, none null; the grids' triangles have been built.
     void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               std::size_t fine = max_layers);
+    /// The same by another way of drawing a surface than its grid's triangles: into a depth-only
+    /// framebuffer of the target's size, 1 - near / z, 1 where there is nothing.
+    using Drawing = std::function<void(const RigSurface& surface, double near_m,
+                                       const Framebuffer& depth_only)>;
+    void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
+              const Drawing& drawing);
 
     /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
     /// and sets the uniforms of rig_layers.glsl. The program must be in use.

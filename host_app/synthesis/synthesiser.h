@@ -9,6 +9,7 @@
 #include "common/gl/shader_library.h"
 #include "common/gl/texture.h"
 #include "host_app/instants/instant_preparer.h"
+#include "host_app/synthesis/synthesiser_options.h"
 
 namespace vantage {
 
@@ -58,23 +59,44 @@ class ViewRenderer {
     virtual bool note_origins(bool noted) { return !noted; }
     /// Of the last picture; null if they were not noted. Valid until the next call.
     virtual const PixelOrigins* origins() const { return nullptr; }
+
+    /// What an instant lacks for a picture of this view: a sentence with the mend. Empty: nothing.
+    /// What is rendered all the same is black and not covered.
+    virtual std::string lacks(const Instant& /*instant*/, const VirtualView& /*view*/) const {
+        return {};
+    }
 };
 
-/// One registered synthesiser: host_app/synthesis/synthesisers/NAME_synthesiser.cpp defines
-/// NAME_synthesiser_entry().
+/// One registered synthesiser: host_app/synthesis/synthesisers/NAME_synthesiser.cpp, or
+/// gallery/NAME_synthesiser.cpp, defines NAME_synthesiser_entry().
 struct SynthesiserEntry {
     std::string name;
     std::string summary;
     std::function<std::unique_ptr<InstantPreparer>(const ShaderLibrary&)> make_preparer;
     std::function<std::unique_ptr<ViewRenderer>(const ShaderLibrary&)> make_renderer;
     bool tells_origins = true;  ///< which rigs its pixels come from
+    bool needs_depth = true;    ///< of one view at least
+    std::vector<SynthesiserOption> options = {};
+    /// Of those with options, instead of make_renderer, which find_synthesiser() makes of it.
+    std::function<std::unique_ptr<ViewRenderer>(const ShaderLibrary&, const SynthesiserChoices&)>
+        make_renderer_with = {};
 };
+/// The product's own.
 std::vector<SynthesiserEntry> synthesiser_entries();
+/// The gallery: historic ones, which run on the same rigs, takes and view sets (docs/gallery.md).
+std::vector<SynthesiserEntry> gallery_entries();
+/// The names and summaries of all, the gallery's and their options apart, for help.
+std::string synthesisers_help();
 
 /// The name of the one to use where nobody asks for another.
 inline constexpr const char* default_synthesiser = "fused";
 
-/// Throws Error that lists the known names if `name` is none of them.
+/// The names of all as the type of an option, "{fused,points} or gallery {mesh}".
+std::string synthesisers_type_name();
+
+/// One of the product's own or of the gallery, by "NAME" or "NAME:OPTION=VALUE,...", which becomes
+/// the entry's name. Throws Error that lists the known names if it is none of them, or the known
+/// options.
 SynthesiserEntry find_synthesiser(const std::string& name);
 
 /// Preparing and rendering on one context, at the best level: for pictures that need not be live.
@@ -88,7 +110,7 @@ class Synthesiser {
         preparer_->take(views, dt_s);
     }
     void forget() { preparer_->forget(); }
-    /// As ViewRenderer::render().
+    /// As ViewRenderer::render(). Throws Error with what the instant lacks for it.
     const Texture& render(const VirtualView& view);
     bool note_origins(bool noted) { return renderer_->note_origins(noted); }
     const PixelOrigins* origins() const { return renderer_->origins(); }
@@ -99,7 +121,7 @@ class Synthesiser {
     std::shared_ptr<const Instant> instant_;  ///< of the picture that was rendered last
 };
 
-/// Throws Error that lists the known names if `name` is none of them.
+/// Throws Error as find_synthesiser().
 std::unique_ptr<Synthesiser> make_synthesiser(const std::string& name,
                                               const ShaderLibrary& library);
 

@@ -5,6 +5,7 @@
 #include "common/base/log.h"
 #include "common/base/output_path.h"
 #include "common/base/version.h"
+#include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
@@ -17,7 +18,7 @@ TakeRecorder::Settings recorder_settings(const StageConfig& stage,
                                          std::chrono::nanoseconds pre_roll) {
     TakeRecorder::Settings settings;
     settings.attachments.push_back(
-        {"stage.toml", "application/toml", read_file(stage_file, most_attached_bytes)});
+        {stage_attachment, "application/toml", read_file(stage_file, most_attached_bytes)});
     for (const StageConfig::Rig& rig : stage.rigs) {
         settings.rigs.push_back(rig.name);
         if (rig.colour.empty()) continue;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_calibration_bytes = std::size_t{1} << 16;
-constexpr int max_views = 9;
+constexpr int most_pictures = 9;
 
 /// Cameras in a row: view k stands k steps to the right of view 0.
 struct Row {
@@ -36,7 +36,7 @@ fs::path there(const fs::path& folder, const std::string& stem) {
 
 ImportedViews write_row(const fs::path& folder, const fs::path& view_set, const Row& row) {
     ViewSetWriter writer(view_set);
-    for (int k = 0; k < max_views; ++k) {
+    for (int k = 0; k < most_pictures; ++k) {
         const fs::path picture = there(folder, row.prefix + std::to_string(k));
         if (picture.empty()) continue;
         const ColourImage image = read_colour_image(picture);

@@ -24,11 +24,6 @@ constexpr std::size_t max_json_bytes = std::size_t{16} << 20;
 constexpr std::size_t max_views = 256;
 constexpr double max_rotation_error = 1e-3;
 
-std::string read_text(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path, max_json_bytes);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// One JSON object with the words that tell a person which one it is.
 struct Entry {
     const json& object;
@@ -119,7 +114,7 @@ struct Entry {
 json parse_json(const std::filesystem::path& path) {
     json document;
     try {
-        document = json::parse(read_text(path));
+        document = json::parse(read_text_file(path, max_json_bytes));
     } catch (const json::parse_error& error) {
         fail("{} is not JSON (near byte {}); correct it there", path.string(), error.byte);
     } catch (const json::out_of_range&) {
@@ -131,7 +126,7 @@ json parse_json(const std::filesystem::path& path) {
 
 json parse_toml(const std::filesystem::path& path) {
     try {
-        const toml::table table = toml::parse(read_text(path), path.string());
+        const toml::table table = toml::parse(read_text_file(path, max_json_bytes), path.string());
         std::ostringstream text;
         text << toml::json_formatter(table);
         return json::parse(text.str());

@@ -55,7 +55,7 @@ void ViewSetWriter::add_depth(const DepthImage& depth_m) {
 
 void ViewSetWriter::finish() {
     const std::string text = document_.dump(1) + "\n";
-    write_file_atomically(folder_ / "views.json", std::as_bytes(std::span(text)));
+    write_text_atomically(folder_ / "views.json", text);
 }
 
 std::string ViewSetWriter::copy(const std::filesystem::path& file, const std::string& stem) {

@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -8,10 +9,13 @@
 #include "common/base/command.h"
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
+#include "common/config/endpoint.h"
 #include "common/config/rig_config.h"
+#include "common/pairing/pairing_place.h"
 #include "common/wire/status_report.h"
 #include "rig_firmware/daemon/rig_daemon.h"
 #include "rig_firmware/daemon/service_notifier.h"
+#include "rig_firmware/pairing/service_announcement.h"
 
 namespace vantage {
 namespace {
@@ -107,6 +111,10 @@ void run(const Options& options) {
     StopSignal stop;
     RigDaemon daemon(config, options.frames);
     for (const std::string& line : daemon.report()) log_info("{}: {}", config.name, line);
+
+    std::optional<ServiceAnnouncement> announcement;
+    if (const Endpoint bound = parse_endpoint(daemon.endpoint(), "stream.bind"); !bound.loopback)
+        announcement.emplace(config.name, stream_service, std::stoi(bound.port));
 
     ServiceNotifier service;
     service.ready();

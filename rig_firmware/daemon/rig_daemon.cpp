@@ -14,12 +14,15 @@
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/time.h"
+#include "common/base/version.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/ptp_state_file.h"
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
 #include "rig_firmware/daemon/heartbeat.h"
+#include "rig_firmware/daemon/rig_report.h"
 #include "rig_firmware/keep/kept_reader.h"
 #include "rig_firmware/keep/take_keeper.h"
 #include "rig_firmware/trigger/rig_trigger.h"
@@ -44,6 +47,7 @@ struct CapturedFrame {
 /// What of a rig's health stays as it is.
 RigHealth facts_of(const RigConfig& config, const std::optional<StereoCalibration>& calibration) {
     RigHealth facts;
+    facts.program_version = version();
     if (calibration) facts.calibration_id = calibration->id;
     if (config.calibration.empty()) return facts;
     const CalibrationRecord record = load_calibration_record(config.calibration);
@@ -376,8 +380,8 @@ void RigDaemon::Impl::publish() {
         rectify_ms.add(times.rectify_ms);
         match_ms.add(times.match_ms);
         // And what of it was done while the GPU matched.
-        pack_ms.add(std::chrono::duration<double, std::milli>(packing).count() + times.pack_ms);
-        latency_ms.add(std::chrono::duration<double, std::milli>(latency).count());
+        pack_ms.add(to_ms(packing) + times.pack_ms);
+        latency_ms.add(to_ms(latency));
     }
 }
 
@@ -397,6 +401,10 @@ RigDaemon::RigDaemon(const RigConfig& config, std::uint64_t frame_limit)
     : impl_(std::make_unique<Impl>(config, frame_limit)) {
     try {
         impl_->start();
+        impl_->publisher.serve_reports(
+            [config, lines = report()](const std::atomic<bool>& stopping) {
+                return rig_report(config, lines, stopping);
+            });
     } catch (...) {
         impl_->stop();
         throw;
@@ -453,6 +461,8 @@ DaemonStatus RigDaemon::status() const {
     status.latency_ms = impl_->latency_ms.summary();
     return status;
 }
+
+std::string RigDaemon::endpoint() const { return impl_->publisher.endpoint(); }
 
 std::vector<std::string> RigDaemon::report() const {
     const std::lock_guard lock(impl_->mutex);

@@ -48,6 +48,8 @@ class RigDaemon {
     std::string stuck_worker(std::chrono::nanoseconds limit) const;
 
     DaemonStatus status() const;
+    /// Where hosts connect, with the port that was bound.
+    std::string endpoint() const;
     /// Lines for the start-up report.
     std::vector<std::string> report() const;
 

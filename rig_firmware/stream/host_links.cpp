@@ -1,6 +1,7 @@
 #include "rig_firmware/stream/host_links.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -74,6 +75,21 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
     else
         link->heartbeat_due = true;
     hear_fetch(*link, message.fetch);
+    link->report_asked = message.report_id;
+}
+
+bool HostLinks::wants_report() const {
+    return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
+        return link.attached && link.report_asked != link.report_sent;
+    });
+}
+
+void HostLinks::reported(std::shared_ptr<const std::string> report) {
+    for (Link& link : links_) {
+        if (!link.attached || link.report_asked == link.report_sent) continue;
+        link.report_sent = link.report_asked;
+        if (link.report_asked != 0) link.report = report;
+    }
 }
 
 void HostLinks::hear_fetch(Link& link, const std::optional<FetchWish>& wish) {
@@ -160,6 +176,12 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
         if (!link.attached) continue;
         if (link.heartbeat_due) all.push_back({link.route, message_to(link), nullptr});
         link.heartbeat_due = false;
+        if (link.report) {
+            RigMessage message = message_to(link);
+            message.report_id = link.report_sent;
+            all.push_back({link.route, std::move(message), nullptr, nullptr,
+                           std::exchange(link.report, nullptr)});
+        }
         while (!link.queue.empty() && link.counters.sent < link.credit_limit) {
             std::shared_ptr<const PackedFrame> frame = std::move(link.queue.front());
             link.queue.pop_front();

@@ -31,7 +31,8 @@ class HostLinks {
         Route route;
         RigMessage message;
         std::shared_ptr<const PackedFrame> frame;  ///< null, as `kept`: a heartbeat or refusal
-        std::shared_ptr<const KeptParts> kept = nullptr;  ///< one that the host fetches
+        std::shared_ptr<const KeptParts> kept = nullptr;      ///< one that the host fetches
+        std::shared_ptr<const std::string> report = nullptr;  ///< that the host asked for
     };
 
     struct HostStatus {
@@ -73,6 +74,10 @@ class HostLinks {
     /// Null: none of the job's pulses is kept. `trouble`: a sentence, where that cannot be found
     /// out. For a host that wants something else by now it is forgotten.
     void fetched(const FetchJob& job, std::shared_ptr<const KeptParts> kept, std::string trouble);
+    /// A host asks for a report and has not got it.
+    bool wants_report() const;
+    /// To every such host.
+    void reported(std::shared_ptr<const std::string> report);
     /// Fetches that were refused since this rig keeps nothing.
     std::uint64_t refused_fetches() const { return refused_fetches_; }
 
@@ -139,6 +144,8 @@ class HostLinks {
         std::deque<std::shared_ptr<const PackedFrame>> queue;
         std::optional<Fetch> fetch;
         std::uint64_t fetched = 0;
+        std::uint64_t report_asked = 0, report_sent = 0;  ///< ids
+        std::shared_ptr<const std::string> report;        ///< to be sent
     };
 
     Link* find(const std::string& host_key, std::uint64_t host_id);

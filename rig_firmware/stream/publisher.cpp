@@ -45,14 +45,11 @@ constexpr std::chrono::seconds complaint_period{10};
 constexpr int fetch_nice = 10;
 
 /// The key a message came under, as HostAdmission let it in; empty without keys.
-std::string host_key_of(zmq::message_t& part) {
-    const char* user = zmq_msg_gets(part.handle(), "User-Id");
-    return user ? user : "";
-}
+std::string host_key_of(zmq::message_t& part) { return property_of(part, "User-Id"); }
 
 std::string address_of(zmq::message_t& part) {
-    const char* address = zmq_msg_gets(part.handle(), "Peer-Address");
-    return address ? address : "an unknown address";
+    const std::string address = property_of(part, "Peer-Address");
+    return address.empty() ? "an unknown address" : address;
 }
 
 }  // namespace
@@ -74,6 +71,7 @@ struct Publisher::Impl {
         fetch_wanted.notify_all();
         io_thread.join();
         if (fetch_thread.joinable()) fetch_thread.join();
+        if (report_thread.joinable()) report_thread.join();
     }
 
     void bind(const RigConfig::Stream& config) {
@@ -157,7 +155,7 @@ struct Publisher::Impl {
             const std::lock_guard lock(mutex);
             links.hear(route, host_key_of(parts[1]), message, now);
             if (message.first_pulse != 0) announced_pulse = message.first_pulse;
-            if (message.fetch) fetch_wanted.notify_all();
+            if (message.fetch || message.report_id != 0) fetch_wanted.notify_all();
         } catch (const Error& error) {
             if (const auto times = complaints.count(1, now))
                 log_warning("messages that are no host's were refused: {}; the last, from {}: {}",
@@ -194,6 +192,7 @@ struct Publisher::Impl {
             parts.emplace_back(outgoing.frame->colour);
             parts.emplace_back(outgoing.frame->disparity);
         }
+        if (outgoing.report) parts.push_back(std::as_bytes(std::span(*outgoing.report)));
         if (outgoing.kept) {
             parts.emplace_back(outgoing.kept->head);
             parts.emplace_back(outgoing.kept->record);
@@ -243,6 +242,27 @@ struct Publisher::Impl {
         }
     }
 
+    void make_reports() {
+        ::pthread_setname_np(::pthread_self(), "report");
+        ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), fetch_nice);
+        while (!stopping) {
+            bool is_wanted = false;
+            {
+                std::unique_lock lock(mutex);
+                fetch_wanted.wait_for(lock, heartbeat_period, [&] {
+                    return stopping || (is_wanted = links.wants_report());
+                });
+            }
+            if (!is_wanted) continue;
+            auto report = std::make_shared<const std::string>(make_report(stopping));
+            {
+                const std::lock_guard lock(mutex);
+                links.reported(std::move(report));
+            }
+            wake.notify();
+        }
+    }
+
     const std::string rig;
     FrameEncoder encoder;
     const std::uint64_t session;
@@ -263,8 +283,9 @@ struct Publisher::Impl {
     MonotonicTime next_heartbeat{};
     std::atomic<bool> stopping = false;
     KeptLookup kept_lookup;
-    std::condition_variable fetch_wanted;
-    std::thread io_thread, fetch_thread;
+    ReportMaker make_report;
+    std::condition_variable fetch_wanted;  ///< or a report
+    std::thread io_thread, fetch_thread, report_thread;
 };
 
 Publisher::Publisher(const RigConfig::Stream& config, std::string rig_name)
@@ -316,6 +337,11 @@ void Publisher::serve_kept(KeptLookup lookup) {
         impl_->links.serve_kept();
     }
     impl_->fetch_thread = std::thread([this] { impl_->look_up_kept(); });
+}
+
+void Publisher::serve_reports(ReportMaker make) {
+    impl_->make_report = std::move(make);
+    impl_->report_thread = std::thread([this] { impl_->make_reports(); });
 }
 
 void Publisher::report(const RigCounters& counters) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,10 @@ struct PublisherStatus {
 /// time: it is called on a thread that has nothing else to do.
 using KeptLookup =
     std::function<std::shared_ptr<const KeptParts>(std::uint64_t from, std::uint64_t to)>;
+
+/// What the rig says of itself for help, at most max_report_bytes. May take its time, as above, but
+/// no longer once it is to stop.
+using ReportMaker = std::function<std::string(const std::atomic<bool>& stopping)>;
 
 /// Offers a rig's frames to any number of hosts. Each is sent frames as fast as it takes them and
 /// no faster: a slow one loses its oldest waiting frames, which are counted, and holds up neither
@@ -50,6 +55,9 @@ class Publisher {
 
     /// From now on hosts may fetch what this rig keeps. Once.
     void serve_kept(KeptLookup lookup);
+
+    /// From now on hosts may ask for a report. Once.
+    void serve_reports(ReportMaker make);
 
     /// Tells hosts the daemon's counts (captured, missed, late) also while no frame is published.
     /// Any thread.

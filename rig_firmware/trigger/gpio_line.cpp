@@ -83,8 +83,8 @@ GpioLine find_gpio_line(const RigConfig::Trigger& trigger) {
             trigger.chip, forbidden);
     if (labels.empty())
         fail(
-            "there is no GPIO chip, and [trigger] names '{}': load its driver, or set role = "
-            "\"free\"",
+            "there is no GPIO chip, and '{}' is named: load its driver, or set role = \"free\" in "
+            "[trigger]",
             trigger.chip);
     fail("there is no GPIO chip '{}'; {}", trigger.chip, suggest_name(trigger.chip, labels));
 }

@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 #include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/pulse_line.h"
 #include "rig_firmware/trigger/pulse_schedule.h"
@@ -24,15 +25,6 @@ namespace {
 
 /// Longest single sleep: how fast a stop, or a clock that was set, is noticed.
 constexpr std::chrono::milliseconds sleep_slice{50};
-
-std::chrono::nanoseconds from_us(double us) {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-        std::chrono::duration<double, std::micro>(us));
-}
-
-double to_us(std::chrono::nanoseconds time) {
-    return std::chrono::duration<double, std::micro>(time).count();
-}
 
 }  // namespace
 

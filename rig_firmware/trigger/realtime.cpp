@@ -9,26 +9,26 @@
 
 namespace vantage {
 
-std::vector<std::string> become_realtime(int priority) {
+std::vector<std::string> become_realtime(int priority, std::string_view what) {
     std::vector<std::string> report;
     if (priority == 0) {
-        report.emplace_back("pulses run without real-time priority, as configured");
+        report.push_back(fmt::format("{} run without real-time priority, as configured", what));
     } else {
         const sched_param wish{.sched_priority = priority};
         const int refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wish);
         report.push_back(
             refused == 0
-                ? fmt::format("pulses run with SCHED_FIFO priority {}", priority)
-                : fmt::format("pulses run without real-time priority ({}): give the program "
+                ? fmt::format("{} run with SCHED_FIFO priority {}", what, priority)
+                : fmt::format("{} run without real-time priority ({}): give the program "
                               "CAP_SYS_NICE or raise the limit rtprio, or they will be late",
-                              std::strerror(refused)));
+                              what, std::strerror(refused)));
     }
     // On the fault only what is touched is locked: all that is mapped would not fit the limit.
     const bool is_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
     report.push_back(is_locked ? std::string("memory is locked")
                                : fmt::format("memory is not locked ({}): raise the limit memlock, "
-                                             "or pulses may wait for pages",
-                                             std::strerror(errno)));
+                                             "or {} may wait for pages",
+                                             std::strerror(errno), what));
     return report;
 }
 

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 #include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/clock/frame_indexer.h"
 #include "rig_firmware/trigger/edge_watcher.h"
@@ -170,7 +171,7 @@ class FollowingTrigger final : public IndexingTrigger {
         if (!indexer_.seen(time)) return;
         ++status_.pulses;
         const auto off = time - grid_.time_of(grid_.nearest_index(time));
-        lateness_us_.add(std::chrono::duration<double, std::micro>(off).count());
+        lateness_us_.add(to_us(off));
     }
 
     EdgeWatcher watcher_;

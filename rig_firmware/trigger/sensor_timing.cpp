@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/nearest_name.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 
 namespace vantage {
 namespace {
@@ -23,15 +24,6 @@ constexpr std::array<Model, 2> models = {{{"other", 0, 0}, {"imx296", 14.26, 16'
 
 /// The shortest pulse that reaches a sensor through a userspace line.
 constexpr std::chrono::microseconds shortest_pulse{10};
-
-std::chrono::nanoseconds from_us(double us) {
-    constexpr double us_to_ns = 1e3;
-    return std::chrono::nanoseconds(std::llround(us * us_to_ns));
-}
-
-double to_us(std::chrono::nanoseconds time) {
-    return std::chrono::duration<double, std::micro>(time).count();
-}
 
 Model find_model(const std::string& name) {
     const auto found =

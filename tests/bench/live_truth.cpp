@@ -6,6 +6,7 @@
 
 #include "common/gl/egl_context.h"
 #include "tests/bench/played_truth.h"
+#include "tests/bench/set_truth.h"
 #include "tests/bench/size_option.h"
 #include "tests/bench/stepped_truth.h"
 
@@ -41,6 +42,16 @@ int main(int argc, char** argv) {
     bool without_times = false;
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
+    SetTruth wanted_set;
+    CLI::App* set = app.add_subcommand("set", "How true the depth of a learnt set is");
+    set->add_option("--sets", wanted_set.sets, "0: the demo's")->delimiter(',');
+    set->add_option("--rig-size", size, "Of the rigs");
+    set->add_option("--preset", preset, "Of the rigs' matchers");
+    set->add_option("--disparities", wanted_set.rigs.disparities);
+    set->add_option("--apart", wanted_set.apart_deg, "Degrees between two rigs");
+    set->add_option("--rate", wanted_set.rate_hz, "Instants a second");
+    set->add_option("--seconds", wanted_set.seconds, "That the set is learnt for");
+    set->add_option("--pictures", wanted_set.pictures, "Folder for pictures of the error");
     PlayedTruth played;
     CLI::App* play = app.add_subcommand("live", "The demo as it is, governed, in real time");
     play->add_option("--rate", played.rate_hz, "Pictures a second")->check(CLI::Range(1.0, 240.0));
@@ -56,6 +67,12 @@ int main(int argc, char** argv) {
         }
         EglContext context;
         const ShaderLibrary shaders;
+        if (set->parsed()) {
+            wanted_set.rigs.size = size_of(size);
+            wanted_set.rigs.preset = parse_preset(preset);
+            std::cout << set_table(shaders, wanted_set);
+            return 0;
+        }
         stepped.with_times = !without_times;
         for (const std::string& region : exact_in)
             stepped.exact_in.push_back(parse_truth_region(region));

@@ -21,6 +21,7 @@
 #include "host_app/live/live_show.h"
 #include "tests/bench/fidelity.h"
 #include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 
 namespace vantage {
@@ -50,12 +51,14 @@ class KeepingSink final : public PictureSink {
     std::vector<Shown>* into_;
 };
 
-/// The rigs of tools/demo.sh, until this goes.
+/// The rigs of `vantage demo`, until this goes.
 class DemoRigs {
   public:
-    DemoRigs() : folder_(std::filesystem::temp_directory_path()) {
-        program_ = std::make_unique<ChildProgram>(source_folder() / "tools/demo.sh",
-                                                  std::vector<std::string>{"--rigs-only"}, folder_);
+    DemoRigs() {
+        program_ = std::make_unique<ChildProgram>(
+            program_folder() / "vantage",
+            std::vector<std::string>{"demo", "--rigs-only", "--folder", folder_.path()},
+            folder_.path());
         for (int tries = 0; tries < 600; ++tries) {
             const std::string out = program_->out(), mark = "ready: ";
             if (const auto at = out.find(mark); at != std::string::npos) {
@@ -73,7 +76,7 @@ class DemoRigs {
     const std::string& stage() const { return stage_; }
 
   private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
     std::unique_ptr<ChildProgram> program_;
     std::string stage_;
 };

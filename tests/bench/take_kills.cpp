@@ -180,7 +180,9 @@ void look_at(const std::filesystem::path& path, std::uint64_t seed, const Sent& 
             if (sent.newest[rig] == 0) continue;
             const std::uint64_t kept =
                 take.frames(rig).empty() ? first_pulse - 1 : take.frames(rig).back().pulse;
-            tally.lost_ms.add(static_cast<double>(sent.newest[rig] - kept) * 1000 / rate_hz);
+            // What was killed between handing a frame over and noting that has kept one more.
+            const std::uint64_t lost = sent.newest[rig] > kept ? sent.newest[rig] - kept : 0;
+            tally.lost_ms.add(static_cast<double>(lost) * 1000 / rate_hz);
         }
     } catch (const Error& error) {
         tally.wrong.push_back(fmt::format("{}: {}", seed, error.what()));

@@ -32,6 +32,8 @@ class TruthRegions {
   public:
     TruthRegions(VirtualStage& stage, const StageCamera& camera);
 
+    /// The set's exact depth.
+    const DepthImage& set_depth_m() const { return set_depth_m_; }
     /// Where performers are, by this instant's exact depth.
     cv::Mat1b performers(const DepthImage& depth_m) const;
     /// A TruthRegion a pixel.

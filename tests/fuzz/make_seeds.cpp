@@ -9,6 +9,7 @@
 #include "common/base/atomic_file.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
+#include "common/pairing/pair_code.h"
 #include "common/take/frame_storage.h"
 #include "common/take/kept_frame.h"
 #include "common/wire/colour_codec.h"
@@ -97,6 +98,16 @@ void write_messages(const Seeds& seeds) {
     seeds.write("link_message", "refusal", encode(message));
 }
 
+void write_pairing(const Seeds& seeds) {
+    const std::string key = generate_curve_keys().public_key;
+    const PairBytes nonce = random_pair_bytes();
+    seeds.write("pair_message", "commit", encode(PairCommit{nonce}));
+    seeds.write("pair_message", "offer", encode(PairOffer{"rig-a", key, nonce, 5600, 30}));
+    seeds.write("pair_message", "reveal", encode(PairReveal{"host", key, nonce}));
+    seeds.write("pair_message", "confirm", encode(PairConfirm{nonce}));
+    seeds.write("pair_message", "refusal", encode(PairRefusal{"no"}));
+}
+
 void write_configurations(const Seeds& seeds) {
     const CurveKeys keys = generate_curve_keys();
     seeds.write("key_file", "pair",
@@ -139,6 +150,37 @@ delta_e_after = 0.5
 samples = 24
 matrix = [1.1, 0.05, -0.02, 0.03, 0.95, 0.01, 0, -0.04, 0.8]
 tone = [1.05, 0.97, 1.2]
+)");
+    seeds.write("sync_file", "good", R"(%YAML:1.0
+---
+kind: vantage synchronisation
+version: 1
+units: "milliseconds, hertz; skews are of the centres of exposures, positive: later than the reference"
+date: "2026-11-23T16:41:46Z"
+tool: vantage-calib sync
+rate_hz: 20.
+bar_step_ms: 1.2700000000000000e-01
+reference: A left
+checksum: "fnv1a64:e28e610a422ca8cc"
+sensors:
+   -
+      rig: A
+      side: left
+      skew_ms: 0.
+      sigma_ms: 0.
+      exposure_ms: 4.9998971314003544e+00
+      pictures: 20
+      strays: 0
+      pulses_apart: 0
+   -
+      rig: A
+      side: right
+      skew_ms: 8.4022204438578871e+00
+      sigma_ms: 3.4773603902934088e-03
+      exposure_ms: 5.0030889459525945e+00
+      pictures: 20
+      strays: 0
+      pulses_apart: 0
 )");
     seeds.write(
         "health_history", "two",
@@ -210,6 +252,11 @@ void write_controls(const Seeds& seeds) {
         "/vantage/shot\0\0\0,ihfdTFs\0\0\0\0\0\0\0\3\0\0\0\0\0\0\0\1\x3f\x80\0\0\x3f\xf0\0\0\0\0\0\0go\0\0"sv);
     seeds.write("osc_message", "bundle",
                 "#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x14/vantage/live\0\0\0,\0\0\0"sv);
+    seeds.write("rosstalk_line", "lines", "GPI 3\r\nXPT 1:2\r\nMEM 4\r\nGPI -1\r\n");
+    seeds.write("clip_file", "two",
+                "version = 1\npulse_rate_hz = 25\nprogramme_speed = 0.5\nlist_loops = true\n"
+                "[[clip]]\nnumber = 1\nname = \"leap\"\nin_pulse = 5\nout_pulse = 9\n"
+                "speed = 0.5\nguard_s = 2\nshot = 3\n[[entry]]\nclip = 1\nspeed = 2\n");
     seeds.write("tsl_message", "v3",
                 "\x85\x31"
                 "CAMERA 5        "sv);
@@ -258,6 +305,7 @@ inverted = false
 [axes.ring]
 action = "shuttle"
 dead_zone = 0.1
+curve = 1.5
 [buttons]
 b1 = "shot 1"
 )");
@@ -353,6 +401,7 @@ int main(int argc, char** argv) {
         vantage::write_frames(seeds);
         vantage::write_pictures(seeds);
         vantage::write_messages(seeds);
+        vantage::write_pairing(seeds);
         vantage::write_configurations(seeds);
         vantage::write_controls(seeds);
         vantage::write_wheels(seeds);

@@ -8,5 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace vantage;
     const InputFile file(std::span(data, size));
     expect_result_or_error([&] { load_stage_config(file.path()); });
+    expect_result_or_error([&] {
+        stage_flight_from({reinterpret_cast<const char*>(data), size}, "stage.toml");
+    });
     return 0;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include "common/base/child_process.h"
 
 namespace vantage {
 
@@ -22,12 +22,10 @@ class ChildProgram {
     ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& folder,
                  const std::vector<std::string>& environment = {});
-    /// Ends it if it still runs.
+    /// Kills it if it still runs.
     ~ChildProgram();
-    ChildProgram(const ChildProgram&) = delete;
-    ChildProgram& operator=(const ChildProgram&) = delete;
 
-    void send_signal(int signal) const;
+    void send_signal(int signal) const { process_.send_signal(signal); }
     /// What it wrote so far.
     std::string out() const;
     std::string err() const;
@@ -35,8 +33,8 @@ class ChildProgram {
     ProgramResult wait();
 
   private:
-    pid_t pid_ = -1;
     std::filesystem::path out_, err_;
+    ChildProcess process_;
 };
 
 ProgramResult run_to_end(const std::filesystem::path& program,

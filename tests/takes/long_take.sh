@@ -20,7 +20,7 @@ end_all() {
 }
 trap end_all EXIT
 
-tools/demo.sh --rigs-only --keep "$out/kept" >"$out/demo.out" 2>"$out/demo.log" &
+build/release/bin/vantage demo --folder out --rigs-only --keep "$out/kept" >"$out/demo.out" 2>"$out/demo.log" &
 demo=$!
 children+=("$demo")
 until grep -q '^ready' "$out/demo.out"; do

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "common/base/embedded_text.h"
 
 namespace vantage {
 
-/// A file of hw_config/jog as it was built in.
-struct EmbeddedWheel {
-    std::string_view name, text;
-};
-std::span<const EmbeddedWheel> embedded_wheels();
+/// The files of hw_config/jog as they were built in.
+std::span<const EmbeddedText> embedded_wheels();
 
 }  // namespace vantage

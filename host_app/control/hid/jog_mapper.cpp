@@ -13,9 +13,10 @@ double shuttle_speed(double position) {
     return std::copysign(speeds[notch] + part * (speeds[notch + 1] - speeds[notch]), position);
 }
 
-double without_dead_zone(double position, double dead_zone) {
-    const double way = std::abs(position) - dead_zone;
-    return way <= 0 ? 0 : std::copysign(std::min(way / (1 - dead_zone), 1.0), position);
+void JogMapper::let_go() {
+    held_.clear();
+    input_ = {};
+    storing_ = false;
 }
 
 void JogMapper::take(const DeckEvent& event) {
@@ -44,7 +45,7 @@ void JogMapper::take_axis(const DeckEvent& event) {
     const AxisMap& map = found->second;
     if (event.event.kind == JogKind::axis) {
         const std::pair key(event.path, event.event.control);
-        const double position = without_dead_zone(event.event.value, map.dead_zone);
+        const double position = response_of(map, event.event.value);
         if (position == 0)
             held_.erase(key);
         else

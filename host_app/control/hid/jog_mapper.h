@@ -12,9 +12,6 @@ namespace vantage {
 /// over its way of 0 to 1, straight in between; negative backwards.
 double shuttle_speed(double position);
 
-/// The position outside the dead zone, stretched so that it starts at 0 and ends at 1.
-double without_dead_zone(double position, double dead_zone);
-
 /// From what happens at the desk to what the flight is asked to do, by the profiles of the wheels.
 class JogMapper {
   public:
@@ -22,6 +19,9 @@ class JogMapper {
 
     /// All that was asked for since the last call, and what held axes ask for in dt_s seconds.
     FlightInput input(double dt_s);
+
+    /// Nothing is held any more, be it held or not: what is moved next counts.
+    void let_go();
 
     /// Whether the next shot button stores.
     bool is_storing() const { return storing_; }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/folder.h"
 #include "common/base/nearest_name.h"
 #include "common/config/toml_reader.h"
 #include "host_app/control/hid/embedded_wheels.h"
@@ -16,7 +18,6 @@ namespace vantage {
 namespace {
 
 constexpr int wheel_file_version = 1;
-constexpr std::size_t max_file_bytes = 1 << 20;
 /// Reports are at most so long on USB.
 constexpr int max_report_byte = 63;
 
@@ -25,7 +26,7 @@ struct Named {
     const char* name;
     Action action;
 };
-constexpr const char *nothing = "nothing", *shuttle = "shuttle", *store_next = "store";
+constexpr const char *shuttle = "shuttle", *store_next = "store";
 constexpr Named<ReportField::Kind> field_kinds[] = {{"delta", ReportField::Kind::delta},
                                                     {"counter", ReportField::Kind::counter},
                                                     {"axis", ReportField::Kind::axis},
@@ -63,12 +64,12 @@ void read_axis_action(TomlTable& table, AxisMap& map) {
     std::string name;
     table.require(key);
     table.read(key, name);
-    if (!table.has(key) || name == nothing) return;
+    if (!table.has(key) || name == does_nothing) return;
     if (name == shuttle) {
         map.action = AxisAction::shuttle;
         return;
     }
-    std::vector<std::string> names{nothing, shuttle};
+    std::vector<std::string> names{does_nothing, shuttle};
     for (const ControlCommand& command : control_commands()) {
         if (command.argument != CommandArgument::steps) continue;
         if (name == command.name) {
@@ -82,12 +83,12 @@ void read_axis_action(TomlTable& table, AxisMap& map) {
 }
 
 ButtonMap read_button(TomlTable& table, const std::string& control, const std::string& action) {
-    if (action == nothing) return {};
+    if (action == does_nothing) return {};
     if (action == store_next) return {ButtonAction::store_next, {}};
     if (const std::optional<CommandCall> call = parse_button_command(action))
         return {ButtonAction::command, *call};
     std::vector<std::string> names = button_commands();
-    names.insert(names.end(), {nothing, store_next});
+    names.insert(names.end(), {does_nothing, store_next});
     table.refuse(control, fmt::format("must not be '{}'; {}", action, suggest_name(action, names)));
 }
 
@@ -184,6 +185,7 @@ WheelProfile read_members(TomlTable& top) {
                          "takes its steps");
         table.read("dead_zone", map.dead_zone, {0, 0.9});
         table.read("sensitivity", map.sensitivity, {0.001, 1000});
+        table.read("curve", map.curve, {0.2, 5});
         table.read("inverted", map.inverted);
         profile.axes[name] = map;
     });
@@ -198,21 +200,9 @@ WheelProfile read_members(TomlTable& top) {
     return profile;
 }
 
-}  // namespace
-
-WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::path& name) {
-    WheelProfile profile;
-    read_toml_text(text, name, wheel_file_version,
-                   [&](TomlTable& top) { profile = read_members(top); });
-    return profile;
-}
-
-std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own) {
-    std::vector<WheelProfile> profiles;
-    for (const EmbeddedWheel& wheel : embedded_wheels())
-        profiles.push_back(
-            read_wheel_profile(wheel.text, fmt::format("hw_config/jog/{}", wheel.name)));
-    if (own.empty()) return profiles;
+/// Of a folder or a file; an empty path has none.
+void add_profiles_of(const std::filesystem::path& own, std::vector<WheelProfile>& profiles) {
+    if (own.empty()) return;
     std::vector<std::filesystem::path> files{own};
     if (std::filesystem::is_directory(own)) {
         files.clear();
@@ -223,12 +213,63 @@ std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own) 
             fail("there is no wheel in {}: a wheel is a .toml file such as those in hw_config/jog",
                  own.string());
     }
-    for (const std::filesystem::path& file : files) {
-        const std::vector<std::byte> bytes = read_file(file, max_file_bytes);
-        profiles.push_back(read_wheel_profile(
-            std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file));
+    for (const std::filesystem::path& file : files)
+        profiles.push_back(read_wheel_profile(read_text_file(file, max_wheel_file_bytes), file));
+}
+
+}  // namespace
+
+WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::path& name) {
+    WheelProfile profile;
+    read_toml_text(text, name, wheel_file_version,
+                   [&](TomlTable& top) { profile = read_members(top); });
+    profile.file = name;
+    profile.text = text;
+    return profile;
+}
+
+std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own) {
+    std::vector<WheelProfile> profiles;
+    for (const EmbeddedText& wheel : embedded_wheels()) {
+        profiles.push_back(
+            read_wheel_profile(wheel.text, fmt::format("hw_config/jog/{}", wheel.name)));
+        profiles.back().is_built_in = true;
     }
+    add_profiles_of(own, profiles);
     return profiles;
+}
+
+std::filesystem::path user_wheel_folder() { return user_folder() / "jog"; }
+
+std::vector<WheelProfile> load_all_wheel_profiles(const std::filesystem::path& own) {
+    std::vector<WheelProfile> profiles = load_wheel_profiles();
+    // The desk may have saved nothing yet.
+    if (std::error_code none; !std::filesystem::is_empty(user_wheel_folder(), none) && !none)
+        add_profiles_of(user_wheel_folder(), profiles);
+    add_profiles_of(own, profiles);
+    return profiles;
+}
+
+std::vector<JogControl> controls_of(const WheelProfile& profile) {
+    if (!profile.report.empty()) return make_described_decoder(profile.report)->controls();
+    std::vector<JogControl> controls;
+    for (const JogId id : profile.devices)
+        for (const JogControl& control : make_known_decoder(id)->controls())
+            if (std::none_of(controls.begin(), controls.end(), [&](const JogControl& other) {
+                    return other.kind == control.kind && other.name == control.name;
+                }))
+                controls.push_back(control);
+    return controls;
+}
+
+double response_of(const AxisMap& map, double position) {
+    const double way = without_dead_zone(position, map.dead_zone);
+    return std::copysign(std::pow(std::abs(way), map.curve), way);
+}
+
+double without_dead_zone(double position, double dead_zone) {
+    const double way = std::abs(position) - dead_zone;
+    return way <= 0 ? 0 : std::copysign(std::min(way / (1 - dead_zone), 1.0), position);
 }
 
 const WheelProfile* find_profile(const std::vector<WheelProfile>& profiles, JogId id) {

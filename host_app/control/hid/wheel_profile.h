@@ -12,6 +12,10 @@
 
 namespace vantage {
 
+inline constexpr std::size_t max_wheel_file_bytes = 1 << 20;
+/// What a control is called that does nothing.
+inline constexpr const char* does_nothing = "nothing";
+
 /// What a turned or pushed control moves.
 enum class AxisAction {
     nothing,
@@ -24,6 +28,8 @@ struct AxisMap {
     const ControlCommand* command = nullptr;  ///< of AxisAction::command
     double dead_zone = 0;    ///< of an axis: nearer to its rest than this it is at rest; 0..0.9
     double sensitivity = 1;  ///< factor
+    /// Of an axis: the power of its way beyond the dead zone; above 1 finer near its rest. 0.2..5
+    double curve = 1;
     bool inverted = false;
 };
 
@@ -46,6 +52,9 @@ struct WheelProfile {
     std::map<std::string, AxisMap> axes;
     std::map<std::string, ButtonMap> buttons;
     std::vector<ReportField> report;  ///< empty: a family reads the device
+    std::filesystem::path file;       ///< that it was read from, or the built-in one's name
+    bool is_built_in = false;
+    std::string text;  ///< of the file
 };
 
 /// Throws Error with file and line for whatever does not fit: a control that the device does not
@@ -55,6 +64,21 @@ WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::pa
 /// The profiles that come with Vantage, and those of the folder or the one file `own` on top: of
 /// two for one device the last one counts. An empty path: none. Throws Error.
 std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own = {});
+
+/// Likewise, with those of this user's own folder, where the desk saves them, in between.
+std::vector<WheelProfile> load_all_wheel_profiles(const std::filesystem::path& own);
+/// That folder, be it there or not.
+std::filesystem::path user_wheel_folder();
+
+/// All controls of a wheel's devices, each once. Precondition: it was read.
+std::vector<JogControl> controls_of(const WheelProfile& profile);
+
+/// The position outside the dead zone, stretched so that it starts at 0 and ends at 1.
+double without_dead_zone(double position, double dead_zone);
+
+/// What an axis asks for at a position of -1..1, before its factor: nothing in its dead zone, and
+/// from there along its curve to its end.
+double response_of(const AxisMap& map, double position);
 
 /// The last profile for a device; null if there is none.
 const WheelProfile* find_profile(const std::vector<WheelProfile>& profiles, JogId id);

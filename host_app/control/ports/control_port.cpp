@@ -18,16 +18,16 @@ std::unique_ptr<ControlPort> open_port(const std::string& text, const ControlBen
 
 NetworkPlace listening_place_of(OutputUrl url) {
     if (url.place.starts_with(':')) url.place.insert(0, "127.0.0.1");
-    const NetworkPlace place = network_place_of(url);
+    NetworkPlace place = network_place_of(url);
     const bool is_open = url.choice("open", {"no", "yes"}) == "yes";
     if (!place.is_loopback && !is_open)
         fail(
-            "the control {} would obey whoever reaches this computer: say open=yes if that is "
-            "meant, or let it listen at 127.0.0.1",
-            url.shown);
+            "the {} {} would serve whoever reaches this computer: say open=yes if that is meant, "
+            "or let it listen at 127.0.0.1",
+            url.kind, url.shown);
     if (!place.is_loopback)
-        log_warning("the control {} obeys whoever reaches this computer on port {}", url.shown,
-                    place.port);
+        log_warning("the {} {} serves whoever reaches this computer on port {}", url.kind,
+                    url.shown, place.port);
     return place;
 }
 

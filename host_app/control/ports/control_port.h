@@ -31,6 +31,12 @@ class ControlPort {
     const PortBooks& books() const { return books_; }
 
   protected:
+    /// Told back to people: what a stranger wrote, without what a terminal obeys.
+    static std::string printable(std::string text) {
+        for (char& c : text)
+            if (c < ' ' || c > '~') c = '?';
+        return text;
+    }
     void refuse(std::uint64_t PortBooks::*counter, std::string sentence) {
         ++(books_.*counter);
         books_.last_refusal = std::move(sentence);

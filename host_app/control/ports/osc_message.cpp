@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <type_traits>
 
 #include <lo/lo.h>
 #include <lo/lo_lowlevel.h>
@@ -15,9 +16,10 @@ constexpr int deepest_bundle = 4;
 constexpr std::size_t most_messages = 256, most_address_bytes = 128;
 
 struct FreeMessage {
-    void operator()(void* message) const { lo_message_free(message); }
+    void operator()(lo_message message) const { lo_message_free(message); }
 };
-using Message = std::unique_ptr<void, FreeMessage>;
+/// Plain `void` in liblo 0.31, a type of its own in 0.32.
+using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, FreeMessage>;
 
 std::uint32_t big_endian(std::span<const std::byte> bytes) {
     std::uint32_t value = 0;
@@ -68,6 +70,10 @@ bool decode_message(std::span<const std::byte> bytes, std::vector<OscMessage>& i
                 break;
             case LO_FALSE:
                 message.numbers.push_back(0);
+                break;
+            case LO_STRING:
+                // It begins at a multiple of four bytes, and not at one of eight.
+                message.words.emplace_back(reinterpret_cast<const char*>(arguments[i]));
                 break;
             default:
                 message.has_others = true;

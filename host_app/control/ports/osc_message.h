@@ -14,8 +14,9 @@ namespace vantage {
 /// An OSC 1.0 message, as far as commands go.
 struct OscMessage {
     std::string address;
-    std::vector<double> numbers;  ///< of its arguments: i, h, f, d, T (1) and F (0)
-    bool has_others = false;      ///< arguments that are no numbers
+    std::vector<double> numbers;          ///< of its arguments: i, h, f, d, T (1) and F (0)
+    std::vector<std::string> words = {};  ///< of its strings
+    bool has_others = false;              ///< arguments that are neither
 };
 
 /// The messages of a datagram, one or a bundle of them, in their order; times of bundles are not

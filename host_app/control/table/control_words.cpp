@@ -2,38 +2,23 @@
 
 #include <fmt/format.h>
 
-#include "host_app/control/table/control_command.h"
 #include "host_app/control/table/lamp.h"
 
 namespace vantage {
-namespace {
 
-std::string argument_words(const ControlCommand& command) {
-    switch (command.argument) {
-        case CommandArgument::none:
-            break;
-        case CommandArgument::number:
-            return fmt::format(" N (1 to {})", command.most);
-        case CommandArgument::steps:
-            return " STEPS";
-    }
-    return "";
-}
-
-}  // namespace
-
-std::string command_table() {
+std::string command_table(ControlPage page) {
     std::string text = "| command | does | key | lamp |\n| --- | --- | --- | --- |\n";
     for (const ControlCommand& command : control_commands())
-        text += fmt::format("| {}{} | {} | {} | {} |\n", command.name, argument_words(command),
-                            command.does, key_words(command), command.lamp);
+        if (command.page == page)
+            text += fmt::format("| {}{} | {} | {} | {} |\n", command.name, argument_words(command),
+                                command.does, key_words(command), command.lamp);
     return text;
 }
 
-std::string lamp_table() {
+std::string lamp_table(ControlPage page) {
     std::string text = "| lamp | says | is |\n| --- | --- | --- |\n";
     for (const Lamp& lamp : lamps())
-        if (*lamp.says)
+        if (*lamp.says && lamp.page == page)
             text += fmt::format("| {} | {} | {} |\n", lamp.name, lamp.says, kind_words(lamp));
     return text;
 }
@@ -42,6 +27,7 @@ nlohmann::ordered_json control_json() {
     nlohmann::ordered_json json;
     for (const ControlCommand& command : control_commands()) {
         nlohmann::ordered_json entry{{"name", command.name}, {"does", command.does}};
+        if (command.argument == CommandArgument::words) entry["words"] = command.argument_name;
         if (command.argument == CommandArgument::number) entry["most"] = command.most;
         if (command.argument == CommandArgument::steps) entry["most_steps"] = most_steps;
         if (const std::string key = key_words(command); !key.empty()) entry["key"] = key;

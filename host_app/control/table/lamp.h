@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "host_app/control/table/control_command.h"
+
 namespace vantage {
 
 /// What there is to show of a session, as far as a desk's lamps go.
@@ -31,6 +33,15 @@ struct ShowLamps {
     std::string wheel_mode, synthesiser, timecode;
     double render_level = 0, prepare_level = 0;
     double repeated_ticks = 0;
+    std::string replay_mode;                          ///< live, past, clip or list
+    std::string pulse;                                ///< of the picture
+    double clip = 0, played_clip = 0, clips = 0;      ///< numbers; 0: none
+    double entry = 0, played_entry = 0, entries = 0;  ///< places from 1 on; 0: none
+    double clip_left_s = -1, list_left_s = -1;        ///< -1: none plays
+    double preset_percent = 0;
+    bool list_loops = false, programme_speed = false, fast_jog = false;
+    bool at_in = false, at_out = false;  ///< the picture is that of the mark
+    std::string notice, question;
     std::array<std::string, 8> outputs;  ///< their states; empty: there is none
 };
 
@@ -41,6 +52,7 @@ struct Lamp {
     const char* name;
     const char* says;
     LampValue (*of)(const ShowLamps& show);
+    ControlPage page = ControlPage::control;
 };
 
 /// All of them, in the order in which people are shown them.

@@ -5,6 +5,7 @@
 #include "host_app/instants/staged_preparer.h"
 #include "host_app/synthesis/background_plate.h"
 #include "host_app/synthesis/fused_colour.h"
+#include "host_app/synthesis/impulse_filter.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"
@@ -21,7 +22,7 @@ constexpr float softness = 0.005f;
 class FusedRenderer final : public ViewRenderer {
   public:
     explicit FusedRenderer(const ShaderLibrary& library)
-        : plates_(library), colour_(library), blender_(library) {
+        : plates_(library), colour_(library), blender_(library), impulses_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
             depth_pass_.emplace_back(library, "fused_depth.frag",
                                      ShaderDefines{{"LAYERS", std::to_string(layers)}});
@@ -37,7 +38,7 @@ class FusedRenderer final : public ViewRenderer {
             find_depth();
             if (!level.is_plain) kinds = &colour_.sort(fused_depth_.texture());
         }
-        return blender_.blend(
+        const Texture& picture = blender_.blend(
             view,
             [&](const DepthPicture& into, bool notes_origins) {
                 if (level.is_plain)
@@ -49,6 +50,7 @@ class FusedRenderer final : public ViewRenderer {
                 return plates_.show(blended, layers, view, level.plates);
             },
             kinds);
+        return layers.used().empty() ? picture : impulses_.filter(picture, fused_depth_.texture());
     }
 
     bool note_origins(bool noted) override {
@@ -69,6 +71,7 @@ class FusedRenderer final : public ViewRenderer {
     BackgroundPlates plates_;
     FusedColour colour_;
     LayerBlender blender_;
+    ImpulseFilter impulses_;
     std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers
     DrawnTexture fused_depth_{TextureFormat::r32f};
 };

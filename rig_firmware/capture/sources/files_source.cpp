@@ -3,6 +3,7 @@
 #include "rig_firmware/capture/pulse_pacer.h"
 #include "rig_firmware/capture/stereo_material.h"
 #include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/capture/virtual_skew.h"
 
 namespace vantage {
 namespace {
@@ -13,6 +14,7 @@ class FilesSource final : public StereoSource {
     explicit FilesSource(const RigConfig& config)
         : material_(open_material(config.source)),
           pacer_(PulseGrid(config.source.rate_hz)),
+          skew_(config, material_->size()),
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {}
 
     cv::Size size() const override { return material_->size(); }
@@ -27,6 +29,7 @@ class FilesSource final : public StereoSource {
             ended_ = true;
             return std::nullopt;
         }
+        skew_.draw_bar(pair->left, pair->right, pulse->time);
         missed_ = pacer_.missed();
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
@@ -50,6 +53,7 @@ class FilesSource final : public StereoSource {
   private:
     std::unique_ptr<StereoMaterial> material_;
     PulsePacer pacer_;
+    VirtualSkew skew_;
     double rate_hz_;
     bool ended_ = false;
     std::uint64_t missed_ = 0;  ///< up to the last frame: after the end there is nothing to miss

@@ -10,6 +10,7 @@
 #include "rig_firmware/capture/pulse_pacer.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/capture/virtual_skew.h"
 
 namespace vantage {
 namespace {
@@ -30,6 +31,7 @@ class VirtualSource final : public StereoSource {
                 config.match.matcher == exact_matcher
                     ? 0
                     : static_cast<std::size_t>(config.virtual_rig.loop_mb * 1e6)),
+          skew_(config, size()),
           rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
         if (config.virtual_rig.doffs_px != 0)
             fail(
@@ -49,6 +51,7 @@ class VirtualSource final : public StereoSource {
         const std::optional<Pulse> pulse = pacer_.wait_next(timeout);
         if (!pulse) return std::nullopt;
         VirtualStereoFrame picture = film(pulse->time.time_since_epoch());
+        skew_.draw_bar(picture.left, picture.right, pulse->time);
         rig_.add_noise(picture, pulse->index);
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
@@ -100,7 +103,7 @@ class VirtualSource final : public StereoSource {
             picture.right = std::move(known->right);
             return picture;
         }
-        picture = rig_.render_noiseless(stage_, time);
+        picture = rig_.render_noiseless(stage_, time + skew_.left(), skew_.right() - skew_.left());
         loop_.keep(time, picture.left, picture.right);
         return picture;
     }
@@ -114,6 +117,7 @@ class VirtualSource final : public StereoSource {
     VirtualStage stage_;
     PulsePacer pacer_;
     PairLoop loop_;
+    VirtualSkew skew_;
     double rate_hz_;
 };
 

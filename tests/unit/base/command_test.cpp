@@ -32,7 +32,7 @@ Outcome run(std::vector<std::string> words) {
         auto* sub = program.add_subcommand("double", "Doubles a number.");
         auto number = std::make_shared<int>(0);
         sub->add_option("N", *number, "the number")->required();
-        sub->add_option("--times,-t", *number, "how often");
+        sub->add_option("--times,-t", *number, "how often")->type_name("{once,twice}");
         sub->callback([number] {
             if (*number < 0) fail("{} is negative; give 0 or more", *number);
             std::cout << 2 * *number << '\n';
@@ -196,6 +196,7 @@ TEST(RunProgram, PrintsACompletionThatBashTakes) {
     EXPECT_EQ(completed(outcome.out, "calculator series count --fi"), "--first\n");
     EXPECT_EQ(completed(outcome.out, "calculator series count --la"), "--last\n");
     EXPECT_EQ(completed(outcome.out, "calculator double 3 --ti"), "--times\n");
+    EXPECT_EQ(completed(outcome.out, "calculator double 3 --times \"\""), "once twice\n");
     EXPECT_EQ(completed(outcome.out, "calculator double x"), "\n") << "files, by bash itself";
 }
 

@@ -28,6 +28,16 @@ class SavedFile : public testing::Test {
         content.replace(at, from.size(), to);
         std::ofstream(file_) << content;
     }
+    /// Gives the first number of the key another value. OpenCV's releases write numbers in
+    /// different forms.
+    void set_number(const std::string& key, const std::string& value) {
+        std::string content = text();
+        const std::size_t at = content.find(key + ": ");
+        ASSERT_NE(at, std::string::npos) << key;
+        const std::size_t begin = at + key.size() + 2;
+        content.replace(begin, content.find('\n', begin) - begin, value);
+        std::ofstream(file_) << content;
+    }
 
     TemporaryFolder folder_;
     std::filesystem::path file_;

@@ -26,7 +26,7 @@ TEST(ControlTable, EveryCommandDoesSomethingAndIsToldApart) {
         EXPECT_TRUE(lamp.empty() || lamp_names.contains(lamp) || lamp_names.contains(lamp + "/1"))
             << command.name << " has the lamp " << lamp;
         FlightInput input;
-        apply({&command, 1}, input);
+        apply({&command, 1, "words"}, input);
         EXPECT_TRUE(input.is_any()) << command.name;
     }
 }
@@ -63,13 +63,35 @@ TEST(ControlTable, KeysArePutInWords) {
     EXPECT_EQ(key_words(*find_command("orbit")), "");
 }
 
-TEST(ControlTable, IsWhatTheDocumentSays) {
-    std::ostringstream document;
-    document << std::ifstream(source_folder() / "docs/control.md").rdbuf();
-    for (const std::string& table : {command_table(), lamp_table()})
-        EXPECT_NE(document.str().find("\n\n" + table + "\n"), std::string::npos)
-            << "docs/control.md has to have what `vantage control` writes:\n"
-            << table;
+TEST(ControlTable, WordsHaveToBeFitToBeShown) {
+    const ControlCommand& name = *find_command("name_clip");
+    EXPECT_EQ(call_of(name, "the leap")->words, "the leap");
+    for (const std::string& wrong : {std::string(), std::string(41, 'x'), std::string("a\nb")})
+        EXPECT_FALSE(call_of(name, wrong)) << wrong;
+    EXPECT_FALSE(call_of(name, 3.0));
+    EXPECT_FALSE(call_of(*find_command("live"), "now"));
+}
+
+TEST(ControlTable, WhatIsAskedOfReplayKeepsItsOrder) {
+    FlightInput input;
+    for (const char* words : {"preset 25", "make_clip", "name_clip leap"})
+        apply(parse_typed_command(words), input);
+    ASSERT_EQ(input.replay.size(), 3u);
+    EXPECT_EQ(input.replay[0].action, ReplayAction::preset_speed);
+    EXPECT_EQ(input.replay[0].number, 25);
+    EXPECT_EQ(input.replay[2].words, "leap");
+}
+
+TEST(ControlTable, IsWhatTheDocumentsSay) {
+    for (const auto& [page, file] : {std::pair(ControlPage::control, "docs/control.md"),
+                                     {ControlPage::replay, "docs/replay_commands.md"}}) {
+        std::ostringstream document;
+        document << std::ifstream(source_folder() / file).rdbuf();
+        for (const std::string& table : {command_table(page), lamp_table(page)})
+            EXPECT_NE(document.str().find("\n\n" + table + "\n"), std::string::npos)
+                << file << " has to have what `vantage control` writes:\n"
+                << table;
+    }
     const nlohmann::json json = control_json();
     EXPECT_EQ(json["commands"].size(), control_commands().size());
     EXPECT_EQ(json["lamps"].size(), lamps().size());

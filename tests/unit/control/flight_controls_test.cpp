@@ -1,6 +1,7 @@
 #include "host_app/control/flight_controls.h"
 
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,65 @@ TEST(HandsBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
     }
     EXPECT_NEAR(turned_rad, 1.0, 1e-9);
     EXPECT_FALSE(box.take().since);
+}
+
+TEST(HandsBox, KeepsTheOrderOfWhatIsAskedOfTime) {
+    HandsBox box;
+    box.put({.mark_in = true}, {});
+    box.put({.replay = {{ReplayAction::make_clip}}}, {});
+    box.put({.mark_out = true}, {});
+    box.put({.orbit_azimuth_rad = 0.1}, {});
+    const FlightInput first = box.take().input, second = box.take().input;
+    EXPECT_TRUE(first.mark_in && !first.mark_out);
+    EXPECT_EQ(first.replay.size(), 1u);
+    EXPECT_TRUE(second.mark_out);
+    EXPECT_EQ(second.orbit_azimuth_rad, 0.1);
+}
+
+TEST(FlightControlsInThePast, TheWayBackToLiveMovesNoCamera) {
+    FlightControls controls({.plan = {}, .pulse_rate_hz = 25, .has_past = true}, nullptr,
+                            [](int number) -> std::optional<OrbitView> {
+                                OrbitView view;
+                                view.azimuth_rad = 0.1 * number;
+                                return view;
+                            });
+    double time_s = 0;
+    Pose last = controls.step(time_s, {}).view.camera().world_from_camera;
+    double fastest = 0, at_live = 0;
+    const auto fly = [&](const FlightInput& input, std::optional<double> pulse) {
+        controls.hands().put(input, {});
+        const PilotStep step = controls.step(time_s += 0.04, pulse);
+        const Pose pose = step.view.camera().world_from_camera;
+        const double way = (pose.matrix() - last.matrix()).norm();
+        last = pose;
+        fastest = std::max(fastest, way);
+        return std::pair(way, step.time.to_live);
+    };
+    fly({.past_steps = -10}, {});
+    fly({.replay = {{ReplayAction::play_clip}}}, 90);
+    // The clip is flown with shot 3; the way there is not over when live is asked for.
+    (void)controls.fly_to_shot(3);
+    for (int i = 0; i < 10; ++i) fly({.orbit_azimuth_rad = 0}, 91 + i);
+    EXPECT_GT(fastest, 0) << "it flies";
+    const double before = fastest;
+    bool is_live_asked = false;
+    std::tie(at_live, is_live_asked) = fly({.to_live = true}, 102);
+    EXPECT_TRUE(is_live_asked);
+    EXPECT_LE(at_live, 1.2 * before) << "it goes on as it flew";
+    for (int i = 0; i < 100; ++i) fly({}, {});
+    EXPECT_LT(fly({.to_live = true}, {}).first, 1e-12) << "and what stands stays";
+}
+
+TEST(FlightControlsInThePast, AShotThatTakesNoTimeIsThereInTheSameStep) {
+    FlightPlan plan;
+    OrbitView there;
+    there.azimuth_rad = 0.7;
+    plan.book.shots[1] = Shot{"side", there, 0};
+    FlightControls controls({.plan = plan, .pulse_rate_hz = 25, .has_past = true}, nullptr,
+                            [](int) { return std::nullopt; });
+    controls.step(0, {});
+    EXPECT_NEAR(controls.fly_to_shot(2).view.azimuth_rad, 0.7, 1e-9);
+    EXPECT_NEAR(controls.step(0.04, {}).view.azimuth_rad, 0.7, 1e-9);
 }
 
 FlightPlan frozen_flight() {
@@ -324,7 +384,7 @@ TEST_F(FlightControlsTest, TheWheelGoesThroughThePastPulseByPulse) {
     EXPECT_EQ(step().time.pulses, 0);
     send({5, detent_, 0, 0, 0});
     double pulses = 0;
-    for (int i = 0; i < 50; ++i) pulses += step().time.pulses;
+    for (int i = 0; i < 50; ++i) pulses += step().time.shuttle_pulses;
     EXPECT_GT(pulses, 1) << "forward, by the ring";
     EXPECT_LE(pulses, 2 * 25 + 1e-9) << "at most at twice the stage's rate";
     EXPECT_EQ(azimuth_rad_, before_rad) << "the camera stays";
@@ -346,6 +406,30 @@ TEST_F(FlightControlsTest, MouseAndWheelMeetInOneStep) {
     EXPECT_EQ(both.time.pulses, -2);
     EXPECT_GT(std::abs(azimuth_rad_ - before_rad), 1e-4);
     EXPECT_EQ(both.hand, earlier) << "the earlier of the two hands";
+}
+
+TEST_F(FlightControlsTest, AWheelWhoseMapIsOpenMovesNothingAndDoesThenWhatItSays) {
+    send({5, detent_, 0, 0, 0});
+    step();
+    controls_.wheels().serve_desk();
+    controls_.hands().put({.toggle_jog_map = true}, {});
+    step();
+    for (int i = 0; i < 100; ++i) step();  // what was under way comes to rest
+    const double before_rad = azimuth_rad_;
+    turn(5);
+    push_button(3);
+    push_button(1);
+    for (int i = 0; i < 20; ++i) {
+        const PilotStep still = step();
+        EXPECT_FALSE(still.time.toggle_hold || still.hand);
+    }
+    EXPECT_NEAR(azimuth_rad_, before_rad, 1e-6) << "not even by the ring that is held";
+    EXPECT_NE(controls_.lines().wheel.find("moves nothing"), std::string::npos);
+    controls_.wheels().obey({WheelCall::What::assign, 0, "mark_in"});
+    controls_.wheels().obey({WheelCall::What::close});
+    EXPECT_NE((step(), controls_.lines().wheel).find("not saved"), std::string::npos);
+    push_button(1);
+    EXPECT_TRUE(step().time.mark_in) << "and it flies to no shot";
 }
 
 TEST_F(FlightControlsTest, FliesToWhatARigSees) {

@@ -1,5 +1,6 @@
 #include "host_app/desk/desk_layout.h"
 
+#include <cstdlib>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,12 +15,12 @@ constexpr Size sizes[] = {{640, 360},   {960, 540},   {1280, 720}, {1280, 1024},
                           {1920, 1080}, {2560, 1080}, {3840, 2160}};
 constexpr float wide = 9.0f / 16;
 
-DeskLayout layout_of(Size size, int rigs = 4, float aspect = wide) {
+DeskLayout layout_of(Size size, int rigs = 4, float aspect = wide, bool has_clips = false) {
     return desk_layout(size.width, size.height, letter_height_px(size.width, size.height, 1), rigs,
-                       aspect);
+                       aspect, has_clips);
 }
 std::vector<DeskRect> parts_of(const DeskLayout& layout) {
-    return {layout.status, layout.programme, layout.shots,
+    return {layout.status, layout.programme, layout.shots, layout.clips,
             layout.side,   layout.time_line, layout.rigs};
 }
 bool overlap(const DeskRect& a, const DeskRect& b) {
@@ -30,8 +31,9 @@ bool overlap(const DeskRect& a, const DeskRect& b) {
 
 TEST(DeskLayoutTest, PartsStandInTheWindowAndNotOverOneAnother) {
     for (const Size size : sizes)
-        for (const int rigs : {0, 1, 2, 4, 9, 16}) {
-            const std::vector<DeskRect> parts = parts_of(layout_of(size, rigs));
+        for (const int rigs : {0, 1, 2, -2, 4, 9, -9, 16}) {
+            const std::vector<DeskRect> parts =
+                parts_of(layout_of(size, std::abs(rigs), wide, rigs < 0));
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 if (parts[i].is_empty()) continue;
                 EXPECT_GE(parts[i].left, -0.5f) << size.width << " part " << i;
@@ -58,7 +60,7 @@ TEST(DeskLayoutTest, ThePictureIsTheLargestPart) {
 
 TEST(DeskLayoutTest, AllPartsAreThereFromTheSmallestPromisedSizeOn) {
     for (const Size size : sizes)
-        for (const DeskRect& part : parts_of(layout_of(size)))
+        for (const DeskRect& part : parts_of(layout_of(size, 4, wide, true)))
             EXPECT_FALSE(part.is_empty()) << size.width << "x" << size.height;
 }
 
@@ -78,6 +80,16 @@ TEST(DeskLayoutTest, LettersScaleWithTheWindowAndTheDisplayAndStayReadable) {
     EXPECT_EQ(letter_height_px(640, 360, 1), 9);
     EXPECT_EQ(letter_height_px(640, 360, 2), 18);
     EXPECT_LT(letter_height_px(800, 2160, 1), 10) << "a narrow window has room for few letters";
+}
+
+TEST(DeskLayoutTest, ClipsHaveABinOfTheirOwnBesideTheShotsAndNoneWhereThereAreNone) {
+    const DeskLayout without = layout_of({1280, 720}), with = layout_of({1280, 720}, 4, wide, true);
+    EXPECT_TRUE(without.clips.is_empty());
+    EXPECT_EQ(with.clips.width, with.shots.width);
+    EXPECT_GT(with.clips.left, with.shots.right());
+    EXPECT_GT(with.programme.width, 0.5f * 1280);
+    EXPECT_TRUE(layout_of({640, 360}, 4, wide, true).clips.is_empty() ||
+                !layout_of({640, 360}).shots.is_empty());
 }
 
 TEST(DeskLayoutTest, ManyRigsStandInRows) {

@@ -1,6 +1,7 @@
 #include "host_app/desk/desk_screen.h"
 
 #include <cstdlib>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ class DeskScreen : public testing::Test {
     DeskLayout layout(cv::Size size = usual) const {
         const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
         return desk_layout(width, height, letter_height_px(width, height, 1),
-                           static_cast<int>(desk_.state.rigs.size()), 9.0f / 16);
+                           static_cast<int>(desk_.state.rigs.size()), 9.0f / 16,
+                           !desk_.state.replay.clips.empty());
     }
     static cv::Rect pixels(const DeskRect& rect) {
         return {cvCeil(rect.left), cvCeil(rect.top), cvFloor(rect.width) - 1,
@@ -187,6 +189,53 @@ TEST_F(DeskScreen, ShotsThatThereAreCanBePressed) {
     EXPECT_EQ(drawn_.spots.shots[1].number, 4);
 }
 
+TEST_F(DeskScreen, ClipsAndEntriesCanBePressedAndTellHowTheyStand) {
+    const ColourImage before = draw();
+    ASSERT_EQ(drawn_.spots.clips.size(), 4u);
+    EXPECT_EQ(drawn_.spots.clips[3].number, 4);
+    ASSERT_EQ(drawn_.spots.entries.size(), 3u);
+    EXPECT_EQ(drawn_.spots.entries[2].number, 3);
+    const DeskLayout parts = layout();
+    state().replay.clips[1].is_played = false;
+    EXPECT_GT(differing(before, draw(), parts.clips), 100);
+    EXPECT_GT(differing(before, draw(), parts.time_line), 20) << "what plays is told there too";
+    state().replay.clips[1].is_played = true;
+    state().replay.clips[2].loss = "GONE";
+    EXPECT_GT(differing(before, draw(), parts.clips), 1000);
+    state().replay.clips[2].loss = "";
+    state().replay.entries[1].is_playing = false;
+    EXPECT_GT(differing(before, draw(), parts.side), 50);
+    EXPECT_GT(differing(before, draw(), parts.status), 50) << "it was played of the list";
+}
+
+TEST_F(DeskScreen, OfManyClipsThoseAroundTheOneInHandAreShown) {
+    const DeskClip last = state().replay.clips[3];
+    for (int number = 5; number <= 20; ++number) {
+        DeskClip clip = last;
+        clip.number = number;
+        state().replay.clips.push_back(clip);
+    }
+    state().replay.clips[2].is_in_hand = false;
+    state().replay.clips[14].is_in_hand = true;
+    draw();
+    ASSERT_EQ(drawn_.spots.clips.size(), static_cast<std::size_t>(shot_places));
+    EXPECT_EQ(drawn_.spots.clips[0].number, 11);
+    state().replay.clips[14].is_in_hand = false;
+    state().replay.clips[19].is_in_hand = true;
+    draw();
+    EXPECT_EQ(drawn_.spots.clips.back().number, 20);
+}
+
+TEST_F(DeskScreen, ShowsWhatIsTypedAndWhatReplayCouldNotDo) {
+    const DeskRect status = layout().status;
+    const ColourImage before = draw();
+    state().notice = "clip 3 is not in the replay buffer";
+    const ColourImage noticed = draw();
+    EXPECT_GT(differing(before, noticed, status), 1000);
+    state().typed = "> clip_speed 50_";
+    EXPECT_GT(differing(noticed, draw(), status), 1000);
+}
+
 TEST_F(DeskScreen, OutputsCanBePressed) {
     draw();
     ASSERT_EQ(drawn_.spots.outputs.size(), 3u);
@@ -235,6 +284,41 @@ TEST_F(DeskScreen, DrawsWithNothingToShowAtAnySize) {
         cv::minMaxLoc(ColourImage(screen.rowRange(0, 22)).reshape(1), nullptr, &most);
         EXPECT_GT(most, 150) << "it says why: " << size;
     }
+}
+
+TEST_F(DeskScreen, AWheelsMapCanBeClickedControlByControl) {
+    desk_.open_wheel_map();
+    draw();
+    EXPECT_TRUE(drawn_.has_overlay);
+    std::set<int> numbers;
+    for (const DeskSpots::Numbered& spot : drawn_.spots.wheel_controls) numbers.insert(spot.number);
+    EXPECT_EQ(numbers.size(), state().wheel_map->controls.size());
+}
+
+TEST_F(DeskScreen, ListsTheCommandsThatAControlMayHave) {
+    desk_.open_wheel_map();
+    DeskWheel& wheel = *state().wheel_map;
+    const ColourImage feel = draw();
+    wheel.is_choosing = true;
+    wheel.typed = "mar";
+    for (int i = 0; i < 40; ++i) wheel.choices.push_back({fmt::format("mark_{}", i), "mark it"});
+    wheel.chosen = 30;
+    const DeskRect all{0, 0, 1280, 720};
+    const ColourImage choosing = draw();
+    EXPECT_GT(differing(feel, choosing, all), 1000);
+    wheel.chosen = 31;
+    EXPECT_GT(differing(choosing, draw(), all), 100) << "the list goes along";
+}
+
+TEST_F(DeskScreen, SaysThatThereIsNoWheelInALittleSpace) {
+    state().wheel_map.reset();
+    const ColourImage closed = draw();
+    state().wheel_map = DeskWheel();
+    const ColourImage open = draw();
+    EXPECT_GT(differing(closed, open, drawn_.picture), 1000);
+    EXPECT_TRUE(drawn_.spots.wheel_controls.empty());
+    const DeskRect above{0, 0, 1280, 288};
+    EXPECT_LT(differing(closed, open, above), 100);
 }
 
 }  // namespace

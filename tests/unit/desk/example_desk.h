@@ -52,10 +52,39 @@ class ExampleDesk {
         time.oldest = 1000;
         time.newest = 1900;
         state.time = time;
+        add_replay();
         state.plan = plan();
         state.shots.resize(shot_places);
         state.shots[0] = {"north", &colour, false};
         state.shots[3] = {"kept", &picture, true};
+    }
+
+    /// A wheel of five buttons with its ring turned a little, and in hand.
+    void open_wheel_map() {
+        using Kind = DeskWheel::Kind;
+        DeskWheel wheel;
+        wheel.name = "Contour ShuttleXpress";
+        wheel.file = "/home/anna/.config/vantage/jog/shuttle_xpress.toml";
+        wheel.is_changed = true;
+        wheel.controls = {
+            {Kind::turns, "jog", "wheel", false, 5},  {Kind::axis, "shuttle", "shuttle", true, 0.5},
+            {Kind::button, "b1", "shot 1", false, 0}, {Kind::button, "b2", "shot 2", false, 0},
+            {Kind::button, "b3", "freeze", true, 1},  {Kind::button, "b4", "mode", false, 0},
+            {Kind::button, "b5", "nothing", false, 0}};
+        wheel.selected = 1;
+        DeskWheel::Feel feel;
+        feel.dead_zone = 0.2;
+        feel.curve = 2;
+        feel.unit = "x speed";
+        for (int i = -32; i <= 32; ++i) {
+            const float way = std::max(0.0f, (std::abs(static_cast<float>(i)) / 32 - 0.2f) / 0.8f);
+            feel.response.push_back(std::copysign(2 * way * way, static_cast<float>(i)));
+        }
+        feel.most = 2;
+        feel.at = 0.5;
+        feel.asks = 0.28;
+        wheel.feel = feel;
+        state.wheel_map = wheel;
     }
 
     Texture picture, colour, depth;
@@ -76,6 +105,33 @@ class ExampleDesk {
         rig.clock = "PTP +120 ns";
         rig.calibration = "12 d, 0.21 px";
         return rig;
+    }
+    /// A list that plays its second entry.
+    void add_replay() {
+        DeskReplay& replay = state.replay;
+        for (int number = 1; number <= 4; ++number) {
+            DeskClip clip;
+            clip.number = number;
+            clip.name = number == 2 ? "the leap" : "10:00:07";
+            clip.in = 1000 + 150 * number;
+            clip.out = clip.in + 90;
+            clip.duration_s = 3;
+            clip.speed = number == 2 ? 0.5 : 1;
+            clip.is_in_hand = number == 3;
+            clip.is_played = number == 2;
+            clip.loss = number == 1 ? "PART GONE" : "";
+            clip.picture = number < 4 ? &colour : nullptr;
+            replay.clips.push_back(clip);
+        }
+        for (const char* name : {"1  10:00:07:12", "2 the leap  10:00:12:12", "3  10:00:17:12"})
+            replay.entries.push_back({.name = name, .duration_s = 3});
+        replay.entries[1].is_playing = true;
+        replay.entries[1].duration_s = 6;
+        replay.entries[1].speed = 0.5;
+        replay.entries[2].is_selected = true;
+        replay.clip = 2;
+        replay.clip_left_s = 4.2;
+        replay.list_left_s = 7.2;
     }
     static DeskPlan plan() {
         DeskPlan plan;

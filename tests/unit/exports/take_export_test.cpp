@@ -10,11 +10,16 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/colour/colour_correction.h"
 #include "common/image/image_file.h"
+#include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/exports/camera_files.h"
+#include "host_app/exports/exr_files.h"
 #include "host_app/exports/moment.h"
 #include "host_app/exports/moment_folders.h"
+#include "host_app/exports/mpeg_views.h"
 #include "host_app/exports/point_files.h"
+#include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -129,10 +134,25 @@ TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
     const std::string ply = text("one.ply");
     const std::size_t begin = ply.find("end_header\n") + 11;
     EXPECT_NE(ply.find(fmt::format("element vertex {}\n", points.size())), std::string::npos);
-    ASSERT_EQ(ply.size() - begin, points.size() * 15);
+    // Every triangle is of three neighbours on one surface, whose front the rig sees.
+    const auto triangles = surface_triangles(moment);
+    EXPECT_GT(triangles.size(), points.size());
+    ASSERT_EQ(ply.size() - begin, points.size() * 15 + triangles.size() * 13);
+    for (const std::array<std::uint32_t, 3>& triangle : triangles) {
+        Eigen::Vector3d corners[3];
+        for (std::size_t i = 0; i < 3; ++i)
+            corners[i] = camera_from_world * points.at(triangle[i]).position_m.cast<double>();
+        for (const Eigen::Vector3d& corner : corners)
+            ASSERT_LT(std::abs(corner.z() / corners[0].z() - 1), 0.031);
+        const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        ASSERT_LT(normal.dot(corners[0]), 0);
+    }
     float z = 0;
     std::memcpy(&z, ply.data() + begin + 15 * (points.size() - 1) + 8, sizeof z);
     EXPECT_EQ(z, points.back().position_m.z());
+    const ProgramResult info = run_to_end("/usr/bin/env", {"assimp", "info", path("one.ply")});
+    EXPECT_EQ(info.status, 0) << info.out;
+    EXPECT_NE(info.out.find("| triangle]"), std::string::npos) << info.out;
 }
 
 TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
@@ -150,12 +170,15 @@ TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
     EXPECT_EQ(number(12) % 4, 0u);
     const std::size_t count = surface_points(moment, 1).size();
     EXPECT_EQ(json["accessors"][0]["count"], count);
-    EXPECT_EQ(json["buffers"][0]["byteLength"], count * 20);
-    EXPECT_EQ(number(20 + number(12)), count * 20);
-    EXPECT_EQ(glb.size(), 20 + number(12) + 8 + count * 20);
+    const std::size_t triangles = surface_triangles(moment).size();
+    EXPECT_EQ(json["accessors"][2]["count"], 3 * triangles);
+    const std::size_t bytes = count * 20 + triangles * 12;
+    EXPECT_EQ(json["buffers"][0]["byteLength"], bytes);
+    EXPECT_EQ(number(20 + number(12)), bytes);
+    EXPECT_EQ(glb.size(), 20 + number(12) + 8 + bytes);
     const ProgramResult info = run_to_end("/usr/bin/env", {"assimp", "info", path("one.glb")});
     EXPECT_EQ(info.status, 0) << info.out;
-    EXPECT_NE(info.out.find(fmt::format("[{} / 0 / {} | point]", count, count)), std::string::npos)
+    EXPECT_NE(info.out.find(fmt::format("/ {} | triangle]", triangles)), std::string::npos)
         << info.out;
 }
 
@@ -236,6 +259,108 @@ TEST_F(TakeExportTest, WritesAViewSetThatIsReadBack) {
     EXPECT_EQ(cv::norm(read.depth_m, moment.views[1].depth_m, cv::NORM_INF), 0);
 }
 
+/// The pixels of an OpenEXR file as FFmpeg decodes them.
+std::vector<float> decoded(const std::filesystem::path& file, const std::string& format) {
+    const std::filesystem::path raw = file.string() + ".raw";
+    const ProgramResult result = run_to_end(
+        "/usr/bin/ffmpeg",
+        {"-v", "error", "-i", file.string(), "-f", "rawvideo", "-pix_fmt", format, raw.string()});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::vector<std::byte> bytes = bytes_of_file(raw);
+    std::vector<float> values(bytes.size() / sizeof(float));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+    return values;
+}
+
+TEST_F(TakeExportTest, WritesOpenExrThatOthersReadPixelForPixel) {
+    const Moment moment = first_moment();
+    write_exr_folder(moment, path("exr"));
+    const MomentView& view = moment.views[1];
+    const std::filesystem::path file = path("exr/right.exr");
+    const ProgramResult header = run_to_end("/usr/bin/env", {"exrheader", file.string()});
+    EXPECT_EQ(header.status, 0) << header.err;
+    for (const char* words :
+         {"R, 16-bit floating-point", "G, 16-bit floating-point", "B, 16-bit floating-point",
+          "Z, 32-bit floating-point", "dataWindow (type box2i): (0 0) - (95 71)",
+          "worldToCamera (type m44f)", "K (type m33f)"})
+        EXPECT_NE(header.out.find(words), std::string::npos) << words << header.out;
+
+    const cv::Size size = view.colour.size();
+    const auto pixels = static_cast<std::size_t>(size.area());
+    const std::vector<float> planes = decoded(file, "gbrpf32le");
+    ASSERT_EQ(planes.size(), 3 * pixels);
+    const std::size_t plane_of[] = {2, 0, 1};
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double coded =
+                view.colour(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width)[c];
+            const double linear = srgb_decode(coded / 255);
+            ASSERT_NEAR(planes[plane_of[c] * pixels + i], linear, linear / 2048 + 1e-7);
+            EXPECT_EQ(std::lround(255 * srgb_encode<double>(planes[plane_of[c] * pixels + i])),
+                      coded);
+        }
+    // FFmpeg knows no depth: under the name of luminance, and the colours under no name, it reads
+    // the same bytes.
+    std::vector<std::byte> bytes = bytes_of_file(file);
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t list = all.find("channels") + 8 + 1 + 6 + 1 + 4;
+    const auto rename = [&](char from, char to, int number) {
+        // Of a channel a letter, a zero and 16 bytes.
+        std::byte& name = bytes[list + static_cast<std::size_t>(number) * 18];
+        ASSERT_EQ(name, static_cast<std::byte>(from));
+        name = static_cast<std::byte>(to);
+    };
+    rename('B', 'J', 0);
+    rename('G', 'K', 1);
+    rename('R', 'L', 2);
+    rename('Z', 'Y', 3);
+    write_bytes(path("depth.exr"), bytes);
+    const std::vector<float> depth = decoded(path("depth.exr"), "grayf32le");
+    const DepthImage expected = view.depth_of_pixels();
+    ASSERT_EQ(depth.size(), pixels);
+    EXPECT_GT(cv::countNonZero(expected), 100);
+    for (std::size_t i = 0; i < pixels; ++i)
+        ASSERT_EQ(depth[i],
+                  expected(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width));
+}
+
+TEST_F(TakeExportTest, WritesAnMpegViewSetWhosePicturesDepthAndCamerasAreRight) {
+    const Moment moment = first_moment();
+    write_mpeg_views(moment, path("mpeg"));
+    const std::string words = text("mpeg/sequence.json");
+    const auto json = nlohmann::json::parse(words);
+    EXPECT_EQ(json.at("sourceCameraNames"), (nlohmann::json{"left", "right"}));
+    const CameraPath cameras = omaf_path_of(words, "sequence.json", {});
+    ASSERT_EQ(cameras.cameras.size(), 2u);
+    const MomentView& view = moment.views[1];
+    EXPECT_TRUE(cameras.cameras[1].world_from_camera.isApprox(view.world_from_camera, 1e-9));
+    const auto& camera = json.at("cameras").at(1);
+    EXPECT_EQ(camera.at("Focal").at(0), view.K(0, 0));
+    EXPECT_EQ(camera.at("Principle_point").at(1), view.K(1, 2) + 0.5);
+
+    const ProgramResult picture = run_to_end(
+        "/usr/bin/ffmpeg",
+        {"-v", "error", "-f", "rawvideo", "-pix_fmt", "yuv420p10le", "-s", "96x72", "-colorspace",
+         "bt709", "-i", path("mpeg/right_texture_96x72_yuv420p10le.yuv").string(), "-vf",
+         "scale=in_color_matrix=bt709", path("right.png").string()});
+    ASSERT_EQ(picture.status, 0) << picture.err;
+    EXPECT_GT(psnr_db(read_colour_image(path("right.png")), view.colour), 30);
+
+    const std::string codes = text("mpeg/right_depth_96x72_yuv420p16le.yuv");
+    ASSERT_EQ(codes.size(), 96u * 72 * 3);
+    const double nearest_m = camera.at("Depth_range").at(0), farthest_m = camera["Depth_range"][1];
+    const DepthImage depth = view.depth_of_pixels();
+    for (int i = 0; i < 96 * 72; ++i) {
+        std::uint16_t code = 0;
+        std::memcpy(&code, codes.data() + 2 * i, sizeof code);
+        const double z = depth(i / 96, i % 96);
+        ASSERT_EQ(code == 0, z == 0);
+        if (z == 0) continue;
+        const double inverse = 1 / farthest_m + (1 / nearest_m - 1 / farthest_m) * code / 65535.0;
+        ASSERT_NEAR(inverse, 1 / z, 1.0 / 65535 / nearest_m);
+    }
+}
+
 TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
     const ExportFormat& ply = find_export_format("ply");
     const TakePart part{first_pulse(), first_pulse() + 10, 3};
@@ -268,7 +393,7 @@ TEST_F(TakeExportTest, MixesWithNothingElse) {
     refused("ply", "flight", "holds another export already");
     std::ofstream(path("other")) << "mine";
     refused("views", "", "holds other files");
-    refused("fbx", "new", "there are camera, film, ply, glb, training, views");
+    refused("fbx", "new", "there are camera, film, ply, glb, exr, training, views, mpeg");
     EXPECT_NE(thrown_sentence([&] {
                   export_moments(take_, find_export_format("ply"), {5, 6, 1}, path("new"));
               }).find("no frame is in that part"),

@@ -1,10 +1,15 @@
 #include "host_app/exports/film_export.h"
 
+#include <csignal>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "common/image/image_file.h"
+#include "host_app/exports/film_parts.h"
 #include "host_app/exports/moment.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/child_program.h"
@@ -21,10 +26,57 @@ class FilmExport : public testing::Test {
   protected:
     std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     FilmSettings settings() const {
-        return {{96, 72, {}}, take_->facts().pulse_rate_hz, default_synthesiser};
+        return {{96, 72, {}}, take_->facts().pulse_rate_hz, default_synthesiser, 5};
     }
     ExportBooks film(const std::vector<FilmPicture>& pictures, const std::string& name) const {
         return export_film(take_, pictures, settings(), path(name), [] { return true; });
+    }
+    /// Past the first rig, pulse by pulse.
+    std::vector<FilmPicture> flight(std::size_t count) const {
+        std::vector<FilmPicture> pictures(count, {first(), rigs_camera()});
+        for (std::size_t i = 0; i < count; ++i) {
+            pictures[i].pulse += static_cast<double>(i);
+            pictures[i].camera.world_from_camera.translation().x() += 0.01 * static_cast<double>(i);
+        }
+        return pictures;
+    }
+    /// A line with a checksum of every coded picture.
+    static std::string packets_of(const std::filesystem::path& film) {
+        const ProgramResult result =
+            run_to_end("/usr/bin/ffmpeg", {"-v", "error", "-i", film.string(), "-map", "0:v", "-c",
+                                           "copy", "-f", "framehash", "-"});
+        EXPECT_EQ(result.status, 0) << result.err;
+        std::istringstream lines(result.out);
+        std::string sums;
+        for (std::string line; std::getline(lines, line);)
+            if (line.front() != '#') sums += line.substr(line.rfind(' ') + 1) + '\n';
+        return sums;
+    }
+    std::vector<ColourImage> pictures_of(const std::string& name) const {
+        const std::filesystem::path folder = path(name + ".pictures");
+        std::filesystem::create_directory(folder);
+        const ProgramResult result =
+            run_to_end("/usr/bin/ffmpeg",
+                       {"-v", "error", "-i", path(name).string(), (folder / "%03d.png").string()});
+        EXPECT_EQ(result.status, 0) << result.err;
+        std::vector<ColourImage> pictures;
+        while (std::filesystem::exists(folder / fmt::format("{:03}.png", pictures.size() + 1)))
+            pictures.push_back(
+                read_colour_image(folder / fmt::format("{:03}.png", pictures.size() + 1)));
+        std::filesystem::remove_all(folder);
+        return pictures;
+    }
+    void expect_same_film(const std::string& name, const std::string& unbroken) const {
+        const ProbedFilm one = probe_film(path(name)), other = probe_film(path(unbroken));
+        EXPECT_EQ(one.times_s, other.times_s);
+        EXPECT_EQ(one.timecode, other.timecode);
+        EXPECT_EQ(av_q2d(one.rate), av_q2d(other.rate));
+        EXPECT_EQ(one.duration_s, other.duration_s);
+        const std::vector<ColourImage> pictures = pictures_of(name), whole = pictures_of(unbroken);
+        ASSERT_EQ(pictures.size(), whole.size());
+        // What was learnt before a picture is not all the same.
+        for (std::size_t i = 0; i < pictures.size(); ++i)
+            EXPECT_GT(psnr_db(pictures[i], whole[i]), 30) << i;
     }
     double rate_hz() const { return take_->facts().pulse_rate_hz; }
     double first() const { return static_cast<double>(take_->frames(0).front().pulse); }
@@ -100,20 +152,78 @@ TEST_F(FilmExport, FromARigsPlaceItIsWhatTheRigSaw) {
     EXPECT_GT(psnr_db(read_colour_image(path("last.png")), moment.views[0].colour), 24);
 }
 
-TEST_F(FilmExport, ReplacesNothingAndEndsWhereItIsNotWantedAnyMore) {
-    std::vector<FilmPicture> pictures(4, {first(), rigs_camera()});
+TEST_F(FilmExport, ReplacesNothing) {
+    std::ofstream(path("film.mkv")) << "mine";
+    EXPECT_NE(thrown_sentence([&] { film(flight(4), "film.mkv"); }).find("already"),
+              std::string::npos);
+    EXPECT_EQ(std::filesystem::file_size(path("film.mkv")), 4u);
+}
+
+TEST_F(FilmExport, GoesOnWhereItWasEndedWithoutCodingAnythingAnew) {
+    const std::vector<FilmPicture> pictures = flight(12);
     int asked = 0;
-    const ExportBooks books =
-        export_film(take_, pictures, settings(), path("short.mkv"), [&] { return ++asked <= 2; });
-    EXPECT_EQ(books.written, 2u);
-    EXPECT_EQ(probe_film(path("short.mkv")).times_s.size(), 2u);
-    EXPECT_NE(thrown_sentence([&] { film(pictures, "short.mkv"); }).find("already"),
+    const ExportBooks begun =
+        export_film(take_, pictures, settings(), path("film.mkv"), [&] { return ++asked <= 7; });
+    EXPECT_EQ(begun.written, 7u);
+    EXPECT_FALSE(std::filesystem::exists(path("film.mkv")));
+    const std::filesystem::path parts = FilmParts::folder_of(path("film.mkv"));
+    std::string coded = packets_of(parts / "00000000.mp4") + packets_of(parts / "00000005.mp4");
+    EXPECT_EQ(std::count(coded.begin(), coded.end(), '\n'), 7);
+    // Another flight is another film.
+    EXPECT_NE(thrown_sentence([&] { film(flight(11), "film.mkv"); }).find("another export"),
               std::string::npos);
-    EXPECT_NE(thrown_sentence([&] {
-                  export_film(take_, pictures, settings(), path("none.mkv"), [] { return false; });
-              }).find("none.mkv"),
-              std::string::npos);
-    EXPECT_FALSE(std::filesystem::exists(path("none.mkv")));
+
+    const ExportBooks books = film(pictures, "film.mkv");
+    EXPECT_EQ(books.there, 7u);
+    EXPECT_EQ(books.written, 5u);
+    EXPECT_FALSE(std::filesystem::exists(parts));
+    EXPECT_EQ(packets_of(path("film.mkv")).substr(0, coded.size()), coded);
+    EXPECT_EQ(film(pictures, "unbroken.mkv").written, 12u);
+    expect_same_film("film.mkv", "unbroken.mkv");
+}
+
+TEST_F(FilmExport, AFilmThatWasKilledGoesOn) {
+    const std::vector<FilmPicture> pictures = flight(14);
+    const std::filesystem::path parts = FilmParts::folder_of(path("film.mp4"));
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        film(pictures, "film.mp4");
+        _exit(0);
+    }
+    // In the middle of its second part.
+    while (!std::filesystem::exists(parts / "00000000.mp4") &&
+           waitpid(child, nullptr, WNOHANG) == 0)
+        usleep(1000);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    ASSERT_FALSE(std::filesystem::exists(path("film.mp4")));
+    const ExportBooks books = film(pictures, "film.mp4");
+    EXPECT_GE(books.there, settings().part_pictures);
+    EXPECT_EQ(books.there + books.written, pictures.size());
+    film(pictures, "unbroken.mp4");
+    expect_same_film("film.mp4", "unbroken.mp4");
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        EXPECT_TRUE(entry.is_regular_file() &&
+                    entry.path().string().find("partial") == std::string::npos)
+            << entry.path();
+}
+
+TEST_F(FilmExport, PartsAreOfOneExportAtATimeAndWhole) {
+    const std::vector<FilmPicture> pictures = flight(6);
+    int asked = 0;
+    export_film(take_, pictures, settings(), path("film.mkv"), [&] { return ++asked <= 5; });
+    const std::filesystem::path parts = FilmParts::folder_of(path("film.mkv"));
+    {
+        const FilmParts held(parts, rate_hz());
+        EXPECT_EQ(held.pictures(), 5u);
+        EXPECT_NE(thrown_sentence([&] { film(pictures, "film.mkv"); }).find("let it end"),
+                  std::string::npos);
+    }
+    std::ofstream(parts / "00000000.mp4") << "damaged";
+    const std::string sentence = thrown_sentence([&] { film(pictures, "film.mkv"); });
+    EXPECT_NE(sentence.find("00000000.mp4"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("take it away"), std::string::npos) << sentence;
 }
 
 }  // namespace

@@ -54,6 +54,28 @@ class JogMapperTest : public testing::Test {
     JogMapper mapper_;
 };
 
+TEST_F(JogMapperTest, BendsAnAxisAlongItsCurve) {
+    profile_->axes["x"].curve = 2;
+    const AxisMap& map = profile_->axes["x"];
+    EXPECT_EQ(response_of(map, 0.1), 0) << "in its dead zone";
+    EXPECT_NEAR(response_of(map, 0.6), 0.25, 1e-12) << "half of its way";
+    EXPECT_NEAR(response_of(map, -0.6), -0.25, 1e-12);
+    EXPECT_EQ(response_of(map, 1), 1);
+    take({JogKind::axis, "x", 0.6});
+    const double bent = mapper_.input(0.1).pan_right_widths;
+    profile_->axes["x"].curve = 1;
+    take({JogKind::axis, "x", 0.6});
+    EXPECT_NEAR(bent, 0.5 * mapper_.input(0.1).pan_right_widths, 1e-12);
+}
+
+TEST_F(JogMapperTest, LetsGoOfWhatIsHeld) {
+    take({JogKind::axis, "x", 1});
+    take(press("b2"));
+    mapper_.let_go();
+    EXPECT_FALSE(mapper_.is_storing());
+    EXPECT_EQ(mapper_.input(0.1).pan_right_widths, 0);
+}
+
 TEST_F(JogMapperTest, AddsUpStepsAndGivesThemOnce) {
     take(step("jog", 2));
     take(step("jog", -5));

@@ -134,6 +134,7 @@ TEST(WheelProfile, RefusesWithFileLineAndReason) {
         {xpress + "[axes.jog]\n", ":4:", "'action'"},
         {xpress + "[axes.jog]\naction = \"wheel\"\nspeed = 2\n", ":6:", "speed"},
         {xpress + "[axes.jog]\naction = \"wheel\"\ndead_zone = 0.95\n", ":6:", "0 to 0.9"},
+        {xpress + "[axes.shuttle]\naction = \"shuttle\"\ncurve = 9\n", ":6:", "0.2 to 5"},
         {xpress + "[buttons]\nb6 = \"freeze\"\n", ":5:", "is no button of this device"},
         {xpress + "[buttons]\nb1 = \"freze\"\n", ":5:", "the nearest is 'freeze'"},
         {xpress + "[buttons]\nb1 = \"shot 10\"\n", ":5:", "shot 1"},

@@ -25,7 +25,7 @@ class DepthSweepTest : public testing::Test {
         if (!is_patterned) view.colour.setTo(cv::Scalar(90, 120, 150, 255));
         return view;
     }
-    DepthImage swept(float error, bool is_patterned, PrepareLevel::Refinement refinement) {
+    DepthImage swept(float error, bool is_patterned) {
         std::vector<DepthView> rigs{film(0, is_patterned), film(-1, is_patterned),
                                     film(1, is_patterned)};
         rigs[0].depth_m *= 1 + error;
@@ -34,8 +34,8 @@ class DepthSweepTest : public testing::Test {
             views.push_back(std::make_unique<RigHistory>());
             views.back()->upload(rig);
         }
-        return DepthImage(
-            consensus_.better(compared(*views[0]), compared(views), refinement).download())(middle);
+        return DepthImage(consensus_.better(compared(*views[0]), compared(views)).download())(
+            middle);
     }
     /// Mean, relative.
     static double off(const DepthImage& depth_m) {
@@ -49,20 +49,15 @@ class DepthSweepTest : public testing::Test {
 
 /// The others stand 1 m aside: 4 % of depth is a pixel of their 26 px of parallax.
 TEST_F(DepthSweepTest, FindsTheDepthAtWhichThePicturesAgree) {
-    for (const float error : {-0.04f, 0.04f})
-        EXPECT_LT(off(swept(error, true, PrepareLevel::Refinement::sweep)), 0.01) << error;
+    for (const float error : {-0.04f, 0.04f}) EXPECT_LT(off(swept(error, true)), 0.01) << error;
 }
 
 TEST_F(DepthSweepTest, MovesNothingWhereThePicturesTellNothing) {
-    EXPECT_NEAR(off(swept(0.04f, false, PrepareLevel::Refinement::sweep)), 0.04, 1e-6);
+    EXPECT_NEAR(off(swept(0.04f, false)), 0.04, 1e-6);
 }
 
 TEST_F(DepthSweepTest, MovesNothingThatAgreesToAPixel) {
-    EXPECT_NEAR(off(swept(0.02f, true, PrepareLevel::Refinement::sweep)), 0.02, 1e-6);
-}
-
-TEST_F(DepthSweepTest, MovesNothingAtALevelThatOnlyCarves) {
-    EXPECT_NEAR(off(swept(0.04f, true, PrepareLevel::Refinement::carve)), 0.04, 1e-6);
+    EXPECT_NEAR(off(swept(0.02f, true)), 0.02, 1e-6);
 }
 
 }  // namespace

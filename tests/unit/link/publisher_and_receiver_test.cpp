@@ -86,6 +86,24 @@ class LinkTest : public testing::Test {
     int next_key_ = 0;
 };
 
+TEST_F(LinkTest, AReportComesToWhoeverAsksForIt) {
+    const CurveKeys host_keys = generate_curve_keys();
+    Publisher rig(secured_stream({host_keys}), "rig-a");
+    int asked = 0;
+    rig.serve_reports([&](const std::atomic<bool>&) { return fmt::format("report {}", ++asked); });
+    StageReceiver silent(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::look_on);
+    StageReceiver host(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::look_on);
+    ASSERT_TRUE(eventually([&] { return connected(host) && connected(silent); }));
+    EXPECT_EQ(host.report_of(0), nullptr);
+    host.ask_for_reports();
+    ASSERT_TRUE(eventually([&] { return host.report_of(0) != nullptr; }));
+    EXPECT_EQ(*host.report_of(0), "report 1");
+    host.ask_for_reports();
+    ASSERT_TRUE(eventually([&] { return *host.report_of(0) == "report 2"; }));
+    EXPECT_EQ(silent.report_of(0), nullptr);
+    EXPECT_EQ(silent.status().rigs[0].undecodable, 0u);
+}
+
 TEST_F(LinkTest, FramesCrossTheSecuredLinkBitExact) {
     const CurveKeys host_keys = generate_curve_keys();
     Publisher rig(secured_stream({host_keys}), "rig-a");

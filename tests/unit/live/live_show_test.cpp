@@ -123,7 +123,7 @@ TEST_F(LiveShowTest, RefusesASourceMapOfWhatCannotTell) {
 TEST_F(LiveShowTest, RefusesAStereoscopicPictureOfAnOddWidth) {
     settings_.format.stereoscopy = Stereoscopy{};
     settings_.format.width_px = 65;
-    EXPECT_NE(refusal().find("65 px is odd"), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("65 px is not, take 64 or 66"), std::string::npos) << refusal();
 }
 
 TEST_F(LiveShowTest, RefusesAFilmThatCannotBeWritten) {

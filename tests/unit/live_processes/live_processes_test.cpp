@@ -283,10 +283,12 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
 TEST_F(LiveProcesses, GetOverAResetOfTheGpuWithoutLosingATick) {
     start_rig("left", -12);
     start_rig("right", 12);
+    // The loader parts its list at spaces, which a checkout's path may have.
+    std::filesystem::create_symlink(VANTAGE_GPU_RESET, file("gpu_reset.so"));
     ChildProgram host(VANTAGE_PROGRAM,
                       {"live", "--stage", file("stage.toml"), "--headless", "--rate", "10",
                        "--frames", "120", "--snapshot", file("last.png"), "--json", "--wait", "60"},
-                      folder_.path(), {"LD_PRELOAD=" VANTAGE_GPU_RESET});
+                      folder_.path(), {"LD_PRELOAD=" + file("gpu_reset.so")});
     wait_for(host, first_progress);
     host.send_signal(SIGUSR2);
     const ProgramResult result = host.wait();

@@ -75,6 +75,7 @@ TEST_F(RigTroubles, AreAFailureWithTheReasonOfEachRig) {
     EXPECT_THAT(result.err, HasSubstr("2 of 2 rigs cannot serve"));
     EXPECT_THAT(result.err, HasSubstr("north: the name no-such-rig.invalid does not resolve"));
     EXPECT_THAT(result.err, HasSubstr("south: connection refused at " + endpoint(ports_.second)));
+    EXPECT_THAT(result.out, HasSubstr("synchronisation: not proven by light"));
     EXPECT_THAT(result.out, HasSubstr("signal: NO SIGNAL"));
 }
 
@@ -152,6 +153,34 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
               rig["host"]["received"].get<int>());
     EXPECT_GT(rig["host"]["received"], 0);
     EXPECT_EQ(summary["signal"], "live");
+}
+
+TEST_F(RigTroubles, WithANetworkTooNarrowAreToldBeforeAnybodyFilms) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const auto north = start_rig("north", ports_.first, 5);
+    const auto south = start_rig("south", ports_.second, 5);
+    const std::vector<std::string> arguments{"rigs",      "plan",  "--stage", file("stage.toml"),
+                                             "--seconds", "1",     "--wait",  "60",
+                                             "--start",   "--json"};
+    const ProgramResult wide = run_to_end(VANTAGE_PROGRAM, arguments);
+    ASSERT_EQ(wide.status, 0) << wide.err;
+    const nlohmann::json plan = nlohmann::json::parse(wide.out);
+    EXPECT_TRUE(plan["fits"]);
+    for (const nlohmann::json& rig : plan["rigs"]) {
+        EXPECT_GE(rig["frames"], 2) << plan;
+        EXPECT_NEAR(rig["mbit_s"].get<double>(),
+                    8e-6 * 1.073 * 5 *
+                        (rig["colour_bytes"].get<double>() + rig["other_bytes"].get<double>()),
+                    0.01);
+    }
+    std::vector<std::string> narrow = arguments;
+    narrow.insert(narrow.end(), {"--rate", "1000", "--host-link", "100"});
+    const ProgramResult refused = run_to_end(VANTAGE_PROGRAM, narrow);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("Mbit/s of a link of 100, of which four fifths"));
+    const nlohmann::json proposals = nlohmann::json::parse(refused.out)["proposals"];
+    ASSERT_FALSE(proposals.empty());
+    EXPECT_LE(proposals[0]["host_mbit_s"], 80);
 }
 
 }  // namespace

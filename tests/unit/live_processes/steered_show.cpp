@@ -40,4 +40,36 @@ bool SteeredShow::is_told(const std::string& words) const {
     return false;
 }
 
+std::string SteeredShow::lamp(const std::string& name) const {
+    const std::string told = watcher_.out();
+    const std::size_t at = told.rfind("/vantage/lamp/" + name + " ");
+    const std::size_t end = told.find('\n', at);
+    if (at == std::string::npos || end == std::string::npos) return "";
+    // The address, the letter of the type, the value.
+    const std::size_t type = told.find(' ', at) + 1;
+    std::string value = told.substr(type + 2, end - type - 2);
+    if (value.size() > 1 && value.front() == '"') return value.substr(1, value.size() - 2);
+    if (value.find('.') != std::string::npos) {
+        value.erase(value.find_last_not_of('0') + 1);
+        if (value.ends_with('.')) value.pop_back();
+    }
+    return value;
+}
+
+bool SteeredShow::shows(const std::string& name, const std::string& value) const {
+    for (int i = 0; i < 3000; ++i) {
+        if (lamp(name) == value) return true;
+        usleep(20'000);
+    }
+    return false;
+}
+
+bool SteeredShow::goes_past(const std::string& name, double value) const {
+    for (int i = 0; i < 3000; ++i) {
+        if (const std::string now = lamp(name); !now.empty() && std::stod(now) > value) return true;
+        usleep(20'000);
+    }
+    return false;
+}
+
 }  // namespace vantage

@@ -19,6 +19,12 @@ class SteeredShow {
     bool send(const std::string& words) const;
     /// Waits until oscdump has printed these words; false if that does not come.
     bool is_told(const std::string& words) const;
+    /// What a lamp was told to be last, as oscdump writes it: "1", "2.5", "live"; empty: nothing.
+    std::string lamp(const std::string& name) const;
+    /// Waits until a lamp is this; false if that does not come.
+    bool shows(const std::string& name, const std::string& value) const;
+    /// Waits until a lamp that is a number is above this; false if that does not come.
+    bool goes_past(const std::string& name, double value) const;
     std::string told() const { return watcher_.out(); }
     ChildProgram& show() { return show_; }
 

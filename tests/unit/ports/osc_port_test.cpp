@@ -43,6 +43,22 @@ TEST_F(OscPortTest, TakesNumbersOfEveryKind) {
     }
 }
 
+TEST_F(OscPortTest, TakesWordsWhereACommandHasThem) {
+    oscsend("/vantage/cue_time s 20:15:07:12");
+    serve(*port_, 1);
+    EXPECT_EQ(hands_.take().input.cue_time, "20:15:07:12");
+    oscsend("/vantage/name_clip s leap");
+    oscsend("/vantage/clip i 12");
+    serve(*port_, 3);
+    EXPECT_EQ(hands_.take().input.replay.at(0).words, "leap");
+    EXPECT_EQ(hands_.take().input.replay.at(0).number, 12) << "in a step of its own";
+    for (const char* wrong : {"/vantage/name_clip", "/vantage/name_clip i 3",
+                              "/vantage/name_clip ss a b", "/vantage/live s now"})
+        oscsend(wrong);
+    serve(*port_, 7);
+    EXPECT_EQ(port_->books().malformed, 4u);
+}
+
 TEST_F(OscPortTest, CountsAndNeverObeysWhatDoesNotFit) {
     oscsend("/vantage/shot i 10");
     oscsend("/vantage/shot s three");

@@ -159,8 +159,8 @@ TEST(Governor, LetsEveryClockFallByItself) {
     for (int i = 0; i < 250; ++i) tick(1, 1);
     ASSERT_EQ(governor.render().rank, 0);
     ASSERT_EQ(governor.prepare().rank, 0);
-    for (int i = 0; i < 3; ++i) tick(11, 30);
-    EXPECT_EQ(governor.render().rank, 1) << "of 20 ms it may take 8";
+    for (int i = 0; i < 3; ++i) tick(17, 30);
+    EXPECT_EQ(governor.render().rank, 1) << "of 20 ms it may take 13";
     EXPECT_EQ(governor.prepare().rank, 0) << "of 40 ms it may take 36";
     for (int i = 0; i < 3; ++i) tick(5, 39);
     EXPECT_EQ(governor.prepare().rank, 1);

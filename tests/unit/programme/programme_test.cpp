@@ -38,6 +38,12 @@ class ScriptedPilot final : public Pilot {
         return step;
     }
 
+    PilotStep fly_to_shot(int number) override {
+        const std::lock_guard lock(mutex_);
+        shot_ = number;
+        return {.view = next_.view};
+    }
+
     /// Changes the next step; all but its view is for that one only.
     template <class Change>
     void next(Change change) {
@@ -57,12 +63,17 @@ class ScriptedPilot final : public Pilot {
         const std::lock_guard lock(mutex_);
         return steps_;
     }
+    /// That it was to fly to last; 0: none.
+    int shot() const {
+        const std::lock_guard lock(mutex_);
+        return shot_;
+    }
 
   private:
     mutable std::mutex mutex_;
     PilotStep next_;
     double turn_rad_ = 0;
-    int steps_ = 0;
+    int steps_ = 0, shot_ = 0;
     std::string failure_;
 };
 
@@ -423,6 +434,30 @@ TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
     EXPECT_FALSE(programme_->state().behind_s);
 }
 
+TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndGoesBackToLive) {
+    instants_settings_.replay_bytes = 1 << 20;
+    ClipBook book;
+    book.pulse_rate_hz = rate_hz;
+    book.clips[1] = {.in = 2, .out = 4, .shot = 5};
+    settings_.replay = Replay(Transport(), book);
+    make();
+    start();
+    for (std::uint64_t pulse = 1; pulse <= 8; ++pulse) push(pulse);
+    ASSERT_TRUE(wait_for_pulse(8));
+    const Pose live = programme_->state().picture->job.camera.world_from_camera;
+    pilot_.next([](PilotStep& step) { step.time.calls = {{ReplayAction::play_clip}}; });
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(programme_->state().replay.mode, ReplayMode::clip);
+    EXPECT_EQ(pilot_.shot(), 5);
+    pilot_.next([](PilotStep& step) { step.time.to_live = true; });
+    ASSERT_TRUE(wait_for([&] { return !programme_->state().time.pulse; }));
+    push(9);
+    ASSERT_TRUE(wait_for_pulse(9));
+    EXPECT_EQ(programme_->state().replay.mode, ReplayMode::live);
+    EXPECT_EQ(programme_->state().picture->job.camera.world_from_camera.matrix(), live.matrix())
+        << "no camera moved";
+}
+
 TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
     instants_settings_.replay_bytes = 100'000'000;
     make();
@@ -548,6 +583,18 @@ TEST_F(ProgrammeTest, PutsTheEyesOfAStereoscopicPictureSideBySide) {
     EXPECT_EQ(picture.size(), cv::Size(64, 48));
     EXPECT_GE(picture(24, 16)[3], 128) << "the middle of the left eye's half";
     EXPECT_GE(picture(24, 48)[3], 128) << "of the right eye's";
+}
+
+/// A hull of rigs whose set is not known yet: black, and not a fault after which all is made anew.
+TEST_F(ProgrammeTest, GoesOnBlackWhereASynthesiserLacksWhatItNeeds) {
+    settings_.synthesiser = "hull";
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const ColourImage picture = programme_->state().picture->picture;
+    EXPECT_LT(picture(24, 32)[0], 100);
+    EXPECT_EQ(programme_->books().faults, 0);
 }
 
 TEST_F(ProgrammeTest, EndsWhenItsPlanDoes) {

@@ -49,7 +49,8 @@ double x_in(const VirtualView& eye, const Eigen::Vector3d& world) {
 TEST(EyeViews, MeetAtTheConvergenceDistanceAndPartBeforeAndBehind) {
     const VirtualView view = plain_view();
     const Stereoscopy eyes{.interaxial_m = 0.1, .convergence_m = 3};
-    const auto [left, right] = eye_views(view, eyes);
+    const std::vector<VirtualView> both = eye_views(view, eyes);
+    const VirtualView &left = both[0], &right = both[1];
     EXPECT_EQ(left.width_px, 320);
     EXPECT_EQ(right.height_px, 240);
     for (const double z : {1.5, 3.0, 12.0}) {
@@ -70,7 +71,8 @@ TEST(Stereoscopy, KeepsTheParallaxOfTheDistanceAtTwoPerCentByDefault) {
             view.K(0, 0) = f_px;
             const Stereoscopy eyes = Stereoscopy{}.settled(view, focus_m);
             EXPECT_EQ(eyes.convergence_m, focus_m);
-            const auto [left, right] = eye_views(view, eyes);
+            const std::vector<VirtualView> both = eye_views(view, eyes);
+            const VirtualView &left = both[0], &right = both[1];
             const Eigen::Vector3d far = view.world_from_camera * Eigen::Vector3d(0, 0, 1e9);
             EXPECT_NEAR(x_in(right, far) - x_in(left, far), 0.02 * 320, 1e-3);
         }
@@ -90,6 +92,105 @@ TEST(Stereoscopy, RefusesWhatHasNoTwoHalvesAndWhatConvergesNowhere) {
               std::string::npos);
 }
 
+TEST(Stereoscopy, AsksForWholeTilesOfAQuilt) {
+    const Stereoscopy quilt{.layout = StereoLayout::quilt, .quilt = {5, 3}};
+    EXPECT_NE(thrown_sentence([&] {
+                  (void)quilt.settled(plain_view(641), 3);
+              }).find("5 equal parts; 641 px is not, take 640 or 645"),
+              std::string::npos);
+    EXPECT_EQ(quilt.rendered_size({640, 240}, 0.625), cv::Size(400, 150));
+    const Stereoscopy rows{.layout = StereoLayout::interleaved_rows};
+    EXPECT_EQ(rows.rendered_size({640, 240}, 0.625), cv::Size(640, 240))
+        << "rows that are enlarged are no eye's";
+}
+
+TEST(EyeViews, OfInterleavedRowsShowTheRowsOfTheWhole) {
+    const VirtualView view = plain_view();
+    const std::vector<VirtualView> eyes = eye_views(
+        view, {.interaxial_m = 0.1, .convergence_m = 3, .layout = StereoLayout::interleaved_rows});
+    for (int i = 0; i < 2; ++i) {
+        const VirtualView& eye = eyes[static_cast<std::size_t>(i)];
+        EXPECT_EQ(eye.height_px, 120);
+        const Eigen::Vector3d at_screen = view.world_from_camera * Eigen::Vector3d(0.2, -0.1, 3);
+        const auto row = [&](const VirtualView& one) {
+            return (one.K * (one.world_from_camera.inverse() * at_screen)).hnormalized().y();
+        };
+        EXPECT_NEAR(2 * row(eye) + i, row(view), 1e-9);
+    }
+}
+
+TEST(EyeViews, OfAQuiltGoFromLeftToRightInEvenSteps) {
+    const VirtualView view = plain_view();
+    const Stereoscopy quilt =
+        Stereoscopy{.interaxial_m = 0.7, .layout = StereoLayout::quilt, .quilt = {4, 2}}.settled(
+            view, 3);
+    const std::vector<VirtualView> eyes = eye_views(view, quilt);
+    ASSERT_EQ(eyes.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(eyes[i].width_px, 160);
+        EXPECT_EQ(eyes[i].height_px, 120);
+        const Eigen::Vector3d at =
+            view.world_from_camera.inverse() * eyes[i].world_from_camera.translation();
+        EXPECT_NEAR(at.x(), -0.35 + 0.1 * static_cast<double>(i), 1e-9);
+    }
+}
+
+/// The mosaic of eyes that each show one grey.
+class EyeMosaicTest : public testing::Test {
+  protected:
+    ColourImage mosaic(const Stereoscopy& settled, cv::Size size, const cv::Vec4b& first,
+                       int brighter) {
+        EyeMosaic mosaic(shaders_);
+        mosaic.begin(size, settled);
+        const cv::Size by = settled.tiles();
+        for (std::size_t i = 0; i < settled.eyes(); ++i) {
+            Texture eye(TextureFormat::rgba8, size.width / by.width, size.height / by.height);
+            cv::Vec4b grey = first;
+            for (int c = 0; c < 3; ++c)
+                grey[c] = static_cast<uchar>(grey[c] + brighter * static_cast<int>(i));
+            eye.upload(ColourImage(eye.size(), grey));
+            mosaic.put(eye, i);
+        }
+        return mosaic.picture().download();
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+};
+
+TEST_F(EyeMosaicTest, PutsEveryEyeWhereItsLayoutHasIt) {
+    const cv::Vec4b dark(40, 40, 40, 255);
+    const ColourImage beside = mosaic({.layout = StereoLayout::side_by_side}, {18, 6}, dark, 100);
+    EXPECT_EQ(beside(3, 8)[0], 40);
+    EXPECT_EQ(beside(3, 9)[0], 140);
+    const ColourImage below = mosaic({.layout = StereoLayout::top_and_bottom}, {18, 6}, dark, 100);
+    EXPECT_EQ(below(2, 17)[0], 40);
+    EXPECT_EQ(below(3, 0)[0], 140);
+    const ColourImage rows = mosaic({.layout = StereoLayout::interleaved_rows}, {18, 6}, dark, 100);
+    for (int v = 0; v < 6; ++v) EXPECT_EQ(rows(v, 5)[0], v % 2 == 0 ? 40 : 140);
+    const ColourImage quilt =
+        mosaic({.layout = StereoLayout::quilt, .quilt = {3, 2}}, {18, 6}, dark, 30);
+    EXPECT_EQ(quilt(5, 0)[0], 40) << "the leftmost view is at the lower left";
+    EXPECT_EQ(quilt(5, 17)[0], 100);
+    EXPECT_EQ(quilt(0, 0)[0], 130);
+    EXPECT_EQ(quilt(0, 17)[0], 190);
+}
+
+TEST_F(EyeMosaicTest, LetsGlassesPartTheEyesOfAnAnaglyph) {
+    const Stereoscopy anaglyph{.layout = StereoLayout::anaglyph};
+    // White for one eye only.
+    const ColourImage left = mosaic(anaglyph, {4, 4}, {255, 255, 255, 255}, -255);
+    EXPECT_GT(left(1, 1)[0], 240);
+    EXPECT_LT(left(1, 1)[1], 10);
+    EXPECT_LT(left(1, 1)[2], 10);
+    const ColourImage right = mosaic(anaglyph, {4, 4}, {0, 0, 0, 255}, 255);
+    EXPECT_LT(right(1, 1)[0], 10);
+    EXPECT_GT(right(1, 1)[1], 240);
+    EXPECT_GT(right(1, 1)[2], 240);
+    const ColourImage both = mosaic(anaglyph, {4, 4}, {255, 255, 255, 255}, 0);
+    for (int c = 0; c < 3; ++c) EXPECT_GT(both(1, 1)[c], 240);
+}
+
 /// On the stage, with exact depth, surfaces lie as far apart in the halves as their depth says.
 TEST(SideBySidePicture, ShowsThePointsOfTheStageWithTheirParallax) {
     const EglContext context;
@@ -104,15 +205,14 @@ TEST(SideBySidePicture, ShowsThePointsOfTheStageWithTheirParallax) {
     EXPECT_GT(typical_m, 2);
     EXPECT_LT(typical_m, 12);
     const double convergence_m = 4.5, interaxial_m = 0.3;
-    const auto [left, right] =
-        eye_views(view, Stereoscopy{interaxial_m, convergence_m}.settled(view, typical_m));
+    const Stereoscopy settled = Stereoscopy{interaxial_m, convergence_m}.settled(view, typical_m);
+    const std::vector<VirtualView> eyes = eye_views(view, settled);
 
     const auto synthesiser = make_synthesiser("mesh", shaders);
     synthesiser->set_views(views);
-    SideBySide both;
-    both.resize({640, 240});
-    both.put_left(synthesiser->render(left));
-    both.put_right(synthesiser->render(right));
+    EyeMosaic both(shaders);
+    both.begin({640, 240}, settled);
+    for (std::size_t i = 0; i < 2; ++i) both.put(synthesiser->render(eyes[i]), i);
     const ColourImage picture = both.picture().download();
     ASSERT_EQ(picture.size(), cv::Size(640, 240));
     cv::Mat grey, halves[2];

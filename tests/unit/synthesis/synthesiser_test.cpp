@@ -11,6 +11,7 @@
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
@@ -115,8 +116,9 @@ TEST_P(SynthesiserTest, FollowsChangesOfSizeAndCount) {
     }
 }
 
+/// Those of the gallery too that make a picture of any views with depth.
 INSTANTIATE_TEST_SUITE_P(All, SynthesiserTest, testing::ValuesIn([] {
-                             std::vector<std::string> names;
+                             std::vector<std::string> names{"facets", "layered", "mesh", "relief"};
                              for (const SynthesiserEntry& entry : synthesiser_entries())
                                  names.push_back(entry.name);
                              return names;
@@ -285,15 +287,16 @@ TEST(FusedSynthesiser, IsAboutAsSharpAsACameraNearerThanTheRig) {
     EXPECT_LT(seen[0], 1.02 * wanted[0]);
 }
 
-TEST(MakeSynthesiser, NamesTheKnownOnesWhenAskedForAnother) {
-    const EglContext context;
-    const ShaderLibrary shaders;
-    try {
-        make_synthesiser("magic", shaders);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("mesh"), std::string::npos);
-    }
+TEST(FindSynthesiser, ListsTheGalleryApartWhenAskedForAnother) {
+    EXPECT_NE(
+        thrown_sentence([] { find_synthesiser("magic"); }).find("fused, points; in the gallery: "),
+        std::string::npos);
+    EXPECT_EQ(find_synthesiser("mesh").name, "mesh");
+}
+
+TEST(FindSynthesiser, RefusesOptionsThatThereAreNot) {
+    EXPECT_NE(thrown_sentence([] { find_synthesiser("mesh:focal-m=3"); }).find("has no options"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "common/base/output_path.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 #include "common/take/take_reader.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -102,16 +103,18 @@ TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
 
 TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
     TakeRecorder::Settings wanted = settings();
-    std::promise<void> release;
+    std::promise<void> looked_at, release;
     wanted.queue_bytes = 40'000;
-    // The disk is looked at for so long that the queue overflows.
-    wanted.disk_mb_s = [gate = release.get_future().share()](const auto&) {
+    // The disk is looked at for so long that the queue overflows after the first frames.
+    wanted.disk_mb_s = [&looked_at, gate = release.get_future().share()](const auto&) {
+        looked_at.set_value();
         gate.wait();
         return 1000.0;
     };
     TakeRecorder recorder(wanted);
     recorder.begin(take_);
     offer_both(recorder, 1000, 1000);
+    looked_at.get_future().wait();
     offer_both(recorder, 1001, 1060);
     release.set_value();
     recorder.finish();
@@ -125,6 +128,40 @@ TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
         EXPECT_EQ(reader.frames(rig).back().dropped, state.rigs[rig].dropped);
     }
     EXPECT_GT(state.gaps, 0u);
+}
+
+TEST_F(TakeRecorderTest, WhatItSaysIsRecordedIsInTheFileWithoutAnEnd) {
+    TakeRecorder recorder(settings());
+    recorder.begin(take_);
+    for (std::uint64_t pulse = 1000; pulse < 1010; ++pulse) {
+        offer_both(recorder, pulse, pulse);
+        const std::uint64_t offered = 2 * (pulse - 999);
+        while (recorder.state().frames < offered) std::this_thread::sleep_for(1ms);
+        EXPECT_EQ(frames_of(0) + frames_of(1), offered) << "as if it were killed now";
+    }
+}
+
+TEST_F(TakeRecorderTest, ARecorderThatWasHeldUpHandsOverAllThatWaitedAndSaysHowLong) {
+    std::promise<void> release;
+    TakeRecorder::Settings wanted = settings();
+    wanted.disk_mb_s = [gate = release.get_future().share()](const auto&) {
+        gate.wait();
+        return 1000.0;
+    };
+    TakeRecorder recorder(wanted);
+    recorder.begin(take_);
+    const MonotonicTime begun = MonotonicClock::now();
+    offer_both(recorder, 1000, 1099);
+    while (MonotonicClock::now() - begun < 50ms) std::this_thread::sleep_for(1ms);
+    const double held_ms = ms_since(begun);
+    release.set_value();
+    while (recorder.state().frames < 200) std::this_thread::sleep_for(1ms);
+    const TakeReader take(take_);
+    ASSERT_EQ(take.frames(0).size(), 100u);
+    ASSERT_EQ(take.frames(1).size(), 100u);
+    EXPECT_TRUE(take.damage().empty());
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(take.frames(1)[i].pulse, 1000 + i);
+    EXPECT_GE(recorder.state().longest_unwritten_ms, 0.5 * held_ms);
 }
 
 TEST_F(TakeRecorderTest, RefusesADiskThatCannotKeepUpAndNamesTheNumbers) {

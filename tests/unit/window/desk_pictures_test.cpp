@@ -15,21 +15,27 @@ namespace {
 
 /// The desk as a person has looked at it. Where it is to look otherwise, VANTAGE_WRITE_PICTURES in
 /// the environment writes the pictures anew, for another look.
-class DeskPictures : public testing::TestWithParam<cv::Size> {};
+class DeskPictures : public testing::TestWithParam<cv::Size> {
+  protected:
+    void SetUp() override {
+        if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+    }
+    static void expect_as_looked_at(const std::string& name, bool has_wheel_map);
+};
 
-TEST_P(DeskPictures, AreThoseThatWereLookedAt) {
-    if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+void DeskPictures::expect_as_looked_at(const std::string& name, bool has_wheel_map) {
     const cv::Size size = GetParam();
     const VirtualScreen screen(size.width, size.height);
     setenv("DISPLAY", screen.display().c_str(), 1);
     unsetenv("WAYLAND_DISPLAY");
     OperatorWindow window("Vantage", size.width, size.height);
     ExampleDesk desk;
+    if (has_wheel_map) desk.open_wheel_map();
     window.show(desk.state);
     const ColourImage shown = window.screenshot();
     ASSERT_EQ(shown.size(), size);
     const std::filesystem::path file = source_folder() / "tests/unit/window/pictures" /
-                                       fmt::format("desk_{}x{}.png", size.width, size.height);
+                                       fmt::format("{}_{}x{}.png", name, size.width, size.height);
     if (std::getenv("VANTAGE_WRITE_PICTURES")) write_colour_image(file, shown);
     const ColourImage expected = read_colour_image(file);
     ASSERT_EQ(expected.size(), size);
@@ -44,8 +50,13 @@ TEST_P(DeskPictures, AreThoseThatWereLookedAt) {
     EXPECT_LT(static_cast<double>(differing), most_differing * size.area());
 }
 
+TEST_P(DeskPictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk", false); }
+
+TEST_P(DeskPictures, OfAWheelsMapAreThoseThatWereLookedAt) { expect_as_looked_at("jog", true); }
+
 INSTANTIATE_TEST_SUITE_P(Sizes, DeskPictures,
-                         testing::Values(cv::Size(640, 360), cv::Size(1280, 720)),
+                         testing::Values(cv::Size(640, 360), cv::Size(1280, 720),
+                                         cv::Size(1920, 1080)),
                          [](const auto& size) {
                              return fmt::format("{}x{}", size.param.width, size.param.height);
                          });

@@ -140,6 +140,39 @@ TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
     EXPECT_EQ(stored.recall_shot, 0);
 }
 
+TEST_F(OperatorHands, KeysOfClipsAskReplay) {
+    const std::pair<const char*, ReplayAction> keys[] = {
+        {"BackSpace", ReplayAction::last_cue},        {"y", ReplayAction::make_clip},
+        {"ctrl+y", ReplayAction::trim_clip},          {"Next", ReplayAction::clip_step},
+        {"ctrl+Prior", ReplayAction::entry_step},     {"End", ReplayAction::cue_clip},
+        {"ctrl+End", ReplayAction::play_clip},        {"Insert", ReplayAction::add_entry},
+        {"ctrl+Delete", ReplayAction::remove_entry},  {"ctrl+p", ReplayAction::play_list},
+        {"backslash", ReplayAction::programme_speed}, {"0", ReplayAction::next_entry}};
+    for (const auto& [key, action] : keys) {
+        const FlightInput input = after({"key", key});
+        ASSERT_EQ(input.replay.size(), 1u) << key;
+        EXPECT_EQ(input.replay[0].action, action) << key;
+    }
+}
+
+TEST_F(OperatorHands, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
+    FlightInput input = after({"key", "Return", "type", "clip_sp"});
+    input.add(after({"key", "Tab"}));
+    input.add(after({"type", " 50"}));
+    EXPECT_FALSE(input.is_any()) << "letters are letters";
+    input = after({"key", "Return"});
+    ASSERT_EQ(input.replay.size(), 1u);
+    EXPECT_EQ(input.replay[0].action, ReplayAction::clip_speed);
+    EXPECT_EQ(input.replay[0].number, 50);
+    EXPECT_TRUE(after({"key", "l"}).to_live) << "it is closed";
+    after({"key", "Return", "type", "nothing"});
+    EXPECT_FALSE(after({"key", "Return"}).is_any());
+    after({"key", "Escape"});
+    EXPECT_FALSE(window_->closed());
+    after({"key", "Return", "type", "20:15:07"});
+    EXPECT_EQ(after({"key", "Return"}).cue_time, "20:15:07");
+}
+
 TEST_F(OperatorHands, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
     show_the_desk();
     after({"mousemove", "40", "10"});
@@ -234,6 +267,28 @@ TEST_F(OperatorHands, AnotherThreadDrawsIntoItsTextures) {
     }).join();
     EXPECT_TRUE(drawn.reached_within(std::chrono::seconds(60)));
     EXPECT_EQ(cv::Mat1b(texture.download())(3, 4), 77);
+}
+
+TEST_F(OperatorHands, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
+    using What = WheelCall::What;
+    EXPECT_TRUE(after({"key", "ctrl+m"}).toggle_jog_map);
+    DeskWheel wheel;
+    wheel.controls = {{DeskWheel::Kind::button, "b1", "shot 1"}};
+    state_.wheel_map = wheel;
+    look(0);
+    const FlightInput input =
+        after({"key", "t",      "key",       "a",   "key",   "k",         "key", "Return",
+               "key", "ctrl+s", "mousemove", "320", "240",   "mousedown", "1",   "mousemove",
+               "384", "192",    "mouseup",   "1",   "click", "4"});
+    EXPECT_FALSE(input.is_any());
+    EXPECT_EQ(window_->take_wheel_calls(),
+              (std::vector<WheelCall>{{What::assign, 0, "take"}, {What::save}}));
+    after({"key", "Escape"});
+    EXPECT_EQ(window_->take_wheel_calls(), (std::vector<WheelCall>{{What::close}}));
+    state_.wheel_map.reset();
+    look(0);
+    EXPECT_FALSE(window_->closed());
+    EXPECT_TRUE(after({"key", "p"}).toggle_move) << "keys are the desk's again";
 }
 
 TEST_F(OperatorHands, EscapeEndsWhenItIsPressedAgain) {

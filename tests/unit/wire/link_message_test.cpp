@@ -32,6 +32,7 @@ TEST(LinkMessage, HostMessageComesBackWhole) {
     HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
     sent.fetch = {21, 22, 23, 24};
+    sent.report_id = 25;
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
 }
 
@@ -47,7 +48,8 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     sent.sync.ptp_state = "SLAVE";
     sent.sync.ptp_offset_ns = -12.5;
     sent.sync.rate_hz = 29.97;
-    sent.health = {61.5f, true, 30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z", 0.125f};
+    sent.health = {61.5f,  true,   30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z",
+                   0.125f, "0.2.0"};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
@@ -59,7 +61,9 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     EXPECT_EQ(got.fetch, std::nullopt);
     EXPECT_EQ(got.refusal, "");
     sent.fetch = {21, 22, true, "a trouble"};
+    sent.report_id = 23;
     EXPECT_EQ(decode_rig_message(encode(sent)).fetch, sent.fetch);
+    EXPECT_EQ(decode_rig_message(encode(sent)).report_id, 23u);
 }
 
 TEST(LinkMessage, ARefusalNeedsNoLinkAndIsCutToItsLimit) {
@@ -131,6 +135,11 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
         refusal([](auto& m) { m.mutable_health()->set_calibration_date(std::string(41, '2')); }),
         HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_date("\x1b[2J"); }),
+                HasSubstr("control characters"));
+    EXPECT_THAT(
+        refusal([](auto& m) { m.mutable_health()->set_program_version(std::string(41, '2')); }),
+        HasSubstr("program version of 41"));
+    EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_program_version("\x1b[2J"); }),
                 HasSubstr("control characters"));
     EXPECT_THAT(refusal_of(decode_rig_message, {std::byte{0x12}, std::byte{0x7f}}),
                 HasSubstr("truncated"));

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/control/ports/allowance.h"
+#include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/osc_message.h"
 #include "host_app/control/ports/udp_socket.h"
@@ -18,8 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::string_view root = "/vantage/";
-/// A hand's commands a second, many times over.
-constexpr double commands_a_second = 200, commands_at_once = 100;
 constexpr int most_datagrams_a_look = 256;
 constexpr std::size_t most_subscribers = 8;
 constexpr std::chrono::seconds subscription{60}, all_again{2};
@@ -35,6 +33,7 @@ class OscPort final : public ControlPort {
   public:
     OscPort(const OutputUrl& url, const ControlBench& bench)
         : bench_(bench),
+          intake_(bench.hands),
           socket_(UdpSocket::bound(listening_place_of(url), "control " + url.shown)) {
         url.require_options_of({"open", "lamps"});
         if (const std::optional<std::string> to = url.option("lamps")) {
@@ -73,7 +72,7 @@ class OscPort final : public ControlPort {
     void obey(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
         if (!message.address.starts_with(root)) {
             refuse(&PortBooks::unknown,
-                   fmt::format("{} does not begin with {}", printable(message), root));
+                   fmt::format("{} does not begin with {}", printable(message.address), root));
             return;
         }
         std::string name = message.address.substr(root.size());
@@ -94,38 +93,31 @@ class OscPort final : public ControlPort {
         }
         const ControlCommand* command = find_command(name);
         if (!command) {
-            refuse(&PortBooks::unknown, fmt::format("{} is no command", printable(message)));
+            refuse(&PortBooks::unknown,
+                   fmt::format("{} is no command", printable(message.address)));
             return;
         }
-        const std::size_t needed = command->argument == CommandArgument::none ? 0 : 1;
+        const bool has_words = command->argument == CommandArgument::words;
+        const std::size_t needed = command->argument == CommandArgument::none || has_words ? 0 : 1;
         // A button of a surface sends 1 when it is pressed and 0 when it is let go.
-        const bool has_press =
-            numbers.size() == needed + 1 && command->argument != CommandArgument::steps;
+        const bool has_press = numbers.size() == needed + 1 && !has_words &&
+                               command->argument != CommandArgument::steps;
         const bool is_let_go = has_press && numbers.back() == 0;
         if (has_press) numbers.pop_back();
         std::optional<CommandCall> call;
-        if (numbers.size() == needed && !message.has_others)
-            call = call_of(*command, needed ? std::optional(numbers.front()) : std::nullopt);
+        if (numbers.size() == needed && message.words.size() == (has_words ? 1 : 0) &&
+            !message.has_others) {
+            if (has_words)
+                call = call_of(*command, message.words.front());
+            else
+                call = call_of(*command, needed ? std::optional(numbers.front()) : std::nullopt);
+        }
         if (!call) {
             refuse(&PortBooks::malformed,
-                   fmt::format("{} has arguments that do not fit", printable(message)));
+                   fmt::format("{} has arguments that do not fit", printable(message.address)));
             return;
         }
-        FlightInput input;
-        if (!is_let_go) apply(*call, input);
-        const bool is_command = command->argument != CommandArgument::steps && !is_let_go;
-        if ((is_command && !allowance_.take(now)) || !bench_.hands.put(input, now))
-            ++books_.dropped;
-        else
-            ++books_.obeyed;
-    }
-
-    /// Told back to people: what a stranger wrote, without what a terminal obeys.
-    static std::string printable(const OscMessage& message) {
-        std::string text = message.address;
-        for (char& c : text)
-            if (c < ' ' || c > '~') c = '?';
-        return text;
+        ++(is_let_go || intake_.take(*call, now) ? books_.obeyed : books_.dropped);
     }
 
     void subscribe(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
@@ -174,8 +166,8 @@ class OscPort final : public ControlPort {
     }
 
     ControlBench bench_;
+    CommandIntake intake_;
     UdpSocket socket_;
-    Allowance allowance_{commands_a_second, commands_at_once};
     std::vector<Listener> listeners_;
     std::map<std::string, LampValue> last_values_;
     MonotonicTime told_{}, told_all_{};

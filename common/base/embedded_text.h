@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace vantage {
+
+/// A file as it was built in.
+struct EmbeddedText {
+    std::string_view name, text;
+};
+
+}  // namespace vantage

@@ -1,0 +1,248 @@
+#include <cstdlib>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/child_process.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "host_app/commands/demo_moves.h"
+#include "host_app/commands/demo_stage.h"
+#include "host_app/commands/live_session.h"
+#include "host_app/commands/pair_look.h"
+
+namespace vantage {
+namespace {
+
+struct DemoOptions {
+    std::vector<std::string> files, rig;
+    std::optional<int> disparities;
+    std::optional<double> rate_hz;
+    std::string folder = "vantage-demo", kept;
+    double seconds = 12;
+    bool sweep = false, headless = false, rigs_only = false, json = false;
+
+    bool films_the_stage() const { return files.empty() && rig.empty(); }
+};
+
+constexpr std::size_t most_said_bytes = 1 << 20;
+
+std::filesystem::path program_beside(const std::string& name) {
+    const std::filesystem::path program = program_folder() / name;
+    if (!std::filesystem::exists(program))
+        fail("the demo needs {} beside vantage in {}: install the package {}", name,
+             program_folder().string(), name);
+    return program;
+}
+
+nlohmann::json ask_program(const std::filesystem::path& folder, const std::string& name,
+                           const std::vector<std::string>& arguments) {
+    const std::filesystem::path out = folder / "asked.json", err = folder / "asked.log";
+    const int status =
+        ChildProcess(
+            {.program = program_beside(name), .arguments = arguments, .out = out, .err = err})
+            .wait();
+    if (status != 0) {
+        std::string said = read_text_file(err, most_said_bytes);
+        said.erase(said.find_last_not_of('\n') + 1);
+        fail("{} {} failed: {}", name, arguments.front(), said.substr(said.find_last_of('\n') + 1));
+    }
+    const nlohmann::json answer =
+        nlohmann::json::parse(read_text_file(out, most_said_bytes), nullptr, false);
+    if (answer.is_discarded()) fail("{} {} printed no JSON", name, arguments.front());
+    return answer;
+}
+
+/// So many rigs before the stage, or around it, from the left to the right.
+void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
+    constexpr double apart_deg = 20;
+    for (int number = 1; number <= count; ++number) {
+        const double azimuth_deg = apart_deg * (number - 0.5 * (count + 1));
+        stage.add_rig(fmt::format("rig{}", number),
+                      toml::table{{"source", toml::table{{"kind", "virtual"},
+                                                         {"rate_hz", size.rate_hz},
+                                                         {"width_px", size.rig[0]},
+                                                         {"height_px", size.rig[1]},
+                                                         {"noise_sigma", 1.0},
+                                                         {"seed", number}}},
+                                  {"virtual_rig", toml::table{{"azimuth_deg", azimuth_deg},
+                                                              {"loop_ahead", size.is_software}}},
+                                  {"match", toml::table{{"preset", size.preset},
+                                                        {"disparities", size.disparities}}}});
+    }
+}
+
+std::vector<std::unique_ptr<ChildProcess>> start_rigs(const DemoStage& stage, bool is_software) {
+    // What stands for rig computers yields to the host, which has this one for itself elsewhere.
+    // They share the processor that draws: one drawing thread each does the same work with less
+    // waiting.
+    constexpr int niceness = 5;
+    std::vector<std::string> environment;
+    if (is_software) environment.emplace_back("LP_NUM_THREADS=1");
+    std::vector<std::unique_ptr<ChildProcess>> rigs;
+    for (const std::string& name : stage.rigs()) {
+        const std::filesystem::path log = stage.folder() / (name + ".log");
+        rigs.push_back(std::make_unique<ChildProcess>(
+            ChildProcess::Settings{.program = program_beside("vantage-rig"),
+                                   .arguments = {"run", "--config", stage.rig_file(name)},
+                                   .err = log,
+                                   .environment = environment,
+                                   .niceness = niceness}));
+    }
+    return rigs;
+}
+
+LiveOptions live_options(const DemoOptions& options, const std::filesystem::path& folder,
+                         const DemoStage& stage, const std::string& rate,
+                         const std::filesystem::path& move) {
+    LiveOptions live;
+    live.stage = stage.stage_file();
+    live.wait_s = 60;  // a processor that draws everything also compiles the programs first
+    live.show.rate = rate;
+    live.show.path = move;
+    live.show.flight = folder / ("flight-" + move.filename().string());
+    live.takes = folder;
+    live.show.json = options.json;
+    if (!options.headless) return live;
+    live.show.headless = true;
+    live.past_mb = 64;  // nobody goes back in time here
+    live.show.seconds = options.seconds;
+    live.show.flight.clear();
+    live.show.film = folder / "flight.mkv";
+    live.show.overwrite = true;
+    live.show.contact_sheet = folder / "contact_sheet.png";
+    live.show.snapshot = folder / "last_view.png";
+    return live;
+}
+
+bool has_display() {
+    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
+        if (const char* value = std::getenv(name); value && *value) return true;
+    return false;
+}
+
+void demo(DemoOptions options) {
+    options.headless = options.headless || !has_display();
+    const std::filesystem::path folder = std::filesystem::absolute(options.folder);
+    DemoStage stage(folder / "demo", options.kept.empty()
+                                         ? std::filesystem::path()
+                                         : std::filesystem::absolute(options.kept));
+    const AskProgram ask = [&](const std::string& name, const std::vector<std::string>& arguments) {
+        return ask_program(stage.folder(), name, arguments);
+    };
+    DemoSize size = demo_size(
+        ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true));
+    std::string move_name = "demo.toml", move = demo_move(move_name);
+    if (options.sweep) {
+        // Thirteen rigs share what four do.
+        size.rate_hz = size.is_software ? 1 : 5;
+        size.latency_budget_ms = 2000;
+        add_virtual_rigs(13, size, stage);
+        move_name = "sweep.toml";
+        move = demo_move(move_name);
+    } else if (options.films_the_stage()) {
+        add_virtual_rigs(4, size, stage);
+    } else {
+        const std::vector<std::string>& sides = options.rig.empty() ? options.files : options.rig;
+        FilmedPair pair;
+        pair.left = std::filesystem::absolute(sides.end()[-2]);
+        pair.right = sides.back() == "-" ? std::filesystem::path("-")
+                                         : std::filesystem::absolute(sides.back());
+        if (!options.rig.empty()) pair.calibration = std::filesystem::absolute(options.rig.front());
+        pair.disparities = options.disparities;
+        pair.rate_hz = options.rate_hz;
+        move = add_filmed_rig(pair, ask, stage, size);
+        move_name = options.rig.empty() ? "pair.toml" : "rig.toml";
+    }
+    stage.write(size);
+    const std::filesystem::path move_file = stage.folder() / ("move-" + move_name);
+    write_text_atomically(move_file, move);
+
+    const auto rigs = start_rigs(stage, size.is_software);
+    log_info("{} started at {:.4g} pulses a second; logs are in {}",
+             rigs.size() == 1 ? "a rig" : fmt::format("{} rigs", rigs.size()), size.rate_hz,
+             stage.folder().string());
+    if (options.films_the_stage() && size.is_software)
+        log_info("the rigs draw the stage's loop of 24 s before they begin, a few seconds' work");
+    if (options.rigs_only) {
+        StopSignal stop;
+        fmt::print("ready: {}\n", stage.stage_file().string());
+        std::fflush(stdout);
+        while (!stop.wait_for(std::chrono::seconds(3600))) {
+        }
+        return;
+    }
+    // Before a real rig in a window the camera begins where the rig stands.
+    const bool flies = options.rig.empty() || options.headless;
+    LiveOptions live = live_options(options, folder, stage, size.rate, move_file);
+    if (!flies) live.show.path.clear();
+    run_live_session(live);
+    if (options.headless && !options.json)
+        fmt::print("\nThe flight:        {}\nIts contact sheet: {}\n", live.show.film,
+                   live.show.contact_sheet);
+}
+
+}  // namespace
+
+CommandEntry demo_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<DemoOptions>();
+        CLI::App* command = program.add_subcommand(
+            "demo",
+            "Rigs as processes of this computer, and the host that flies around what they film");
+        CLI::Option* files = command
+                                 ->add_option("--files", options->files,
+                                              "One rectified pair instead of the virtual stage")
+                                 ->expected(2)
+                                 ->type_name("LEFT RIGHT");
+        CLI::Option* rig =
+            command
+                ->add_option("--rig", options->rig,
+                             "What a real rig filmed, by its calibration: pictures, a folder, "
+                             "'pattern*.png' or a video a side; RIGHT '-': both side by side")
+                ->expected(3)
+                ->type_name("CALIB.yaml LEFT RIGHT")
+                ->excludes(files);
+        command
+            ->add_option("--disparities", options->disparities,
+                         "How far to search, px (default: a quarter of the width)")
+            ->check(CLI::Range(1, 256))
+            ->needs(rig);
+        command
+            ->add_option("--rate", options->rate_hz,
+                         "Pictures a second (default: the video's, or what this computer holds)")
+            ->check(CLI::Range(0.01, 1000.0))
+            ->needs(rig);
+        command
+            ->add_option("--folder", options->folder,
+                         "Where films, takes, logs and the demo's keys go")
+            ->capture_default_str();
+        command
+            ->add_flag("--sweep", options->sweep,
+                       "Thirteen rigs 20 degrees apart, and a flight along all of them; Space "
+                       "freezes the instant")
+            ->excludes(rig)
+            ->excludes(files);
+        command->add_flag("--headless", options->headless,
+                          "No window, as where there is no display: write the flight as a film and "
+                          "a contact sheet");
+        command->add_option("--seconds", options->seconds, "Length of the flight with --headless")
+            ->check(CLI::PositiveNumber)
+            ->capture_default_str();
+        command->add_flag("--json", options->json, "Print the summary as JSON");
+        command->add_flag(
+            "--rigs-only", options->rigs_only,
+            "Start the rigs, say where their stage's file is, and wait: other hosts may use them");
+        command->add_option("--keep", options->kept,
+                            "The rigs keep takes of their own in this folder");
+        command->footer(
+            "Without a GPU the processor draws everything: then rigs and picture are smaller, and "
+            "slower.");
+        command->callback([options] { demo(*options); });
+    }};
+}
+
+}  // namespace vantage

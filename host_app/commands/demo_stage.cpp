@@ -1,0 +1,94 @@
+#include "host_app/commands/demo_stage.h"
+
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/base/folder.h"
+#include "common/base/unique_fd.h"
+#include "common/wire/curve_keys.h"
+
+namespace vantage {
+namespace {
+
+/// One that nobody listens on now.
+int free_port() {
+    const UniqueFd socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* plain = reinterpret_cast<sockaddr*>(&address);
+    if (!socket || ::bind(socket.get(), plain, size) != 0 ||
+        ::getsockname(socket.get(), plain, &size) != 0)
+        fail("no port of this computer is free for a rig: {}", std::strerror(errno));
+    return ntohs(address.sin_port);
+}
+
+}  // namespace
+
+DemoSize demo_size(bool is_software) {
+    DemoSize size;
+    if (!is_software) return size;
+    size.rate_hz = 5;
+    size.latency_budget_ms = 600;
+    size.rate = "15";
+    size.preset = "fast";
+    size.picture = {480, 270};
+    size.rig = {320, 240};
+    size.disparities = 32;
+    size.is_software = true;
+    return size;
+}
+
+DemoStage::DemoStage(std::filesystem::path folder, std::filesystem::path kept)
+    : folder_(std::move(folder)), kept_(std::move(kept)) {
+    make_folder(folder_);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        if (const auto kind = entry.path().extension(); kind == ".key" || kind == ".toml")
+            std::filesystem::remove(entry.path());
+    // The secret halves never leave this folder.
+    const CurveKeys host = generate_curve_keys();
+    write_key_file(folder_ / "host.key", host);
+    write_text_atomically(folder_ / "authorized_hosts", host.public_key + '\n');
+}
+
+void DemoStage::add_rig(const std::string& name, toml::table parts) {
+    const CurveKeys keys = generate_curve_keys();
+    write_key_file(folder_ / (name + ".key"), keys);
+    const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", free_port());
+    parts.insert("version", 1);
+    parts.insert("name", name);
+    parts.insert("stream", toml::table{{"bind", endpoint},
+                                       {"key_file", name + ".key"},
+                                       {"authorized_hosts", "authorized_hosts"}});
+    if (!kept_.empty()) parts.insert("keep", toml::table{{"folder", kept_.string()}});
+    write(name + ".toml", parts);
+    rigs_.push_back(
+        toml::table{{"name", name}, {"endpoint", endpoint}, {"public_key", keys.public_key}});
+    names_.push_back(name);
+}
+
+void DemoStage::write(const std::string& name, const toml::table& table) const {
+    std::ostringstream text;
+    text << table << '\n';
+    write_text_atomically(folder_ / name, text.str());
+}
+
+void DemoStage::write(const DemoSize& size) const {
+    write("stage.toml", toml::table{{"version", 1},
+                                    {"rate_hz", size.rate_hz},
+                                    {"key_file", "host.key"},
+                                    {"latency_budget_ms", size.latency_budget_ms},
+                                    {"view", toml::table{{"width_px", size.picture[0]},
+                                                         {"height_px", size.picture[1]}}},
+                                    {"rigs", rigs_}});
+}
+
+}  // namespace vantage

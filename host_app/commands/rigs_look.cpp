@@ -1,0 +1,42 @@
+#include "host_app/commands/rigs_look.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "common/base/time.h"
+#include "common/wire/status_report.h"
+#include "host_app/live/live_report.h"
+
+namespace vantage {
+
+ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop) {
+    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
+    constexpr std::chrono::milliseconds look_every(50);
+    const auto has_answered = [&](const RigStatus& rig) {
+        return rig.connected || (until == LookUntil::all_answered && !rig.refused.empty());
+    };
+    const MonotonicTime end = MonotonicClock::now() + from_s(wait_s);
+    while (MonotonicClock::now() < end && !stop.wait_for(look_every)) {
+        const ReceiverStatus status = receiver.status();
+        if (std::all_of(status.rigs.begin(), status.rigs.end(), has_answered)) break;
+    }
+    return receiver.status();
+}
+
+bool delivers(const RigStatus& rig) {
+    return trouble_of(rig).empty() && rig.health.published_hz > 0;
+}
+
+nlohmann::ordered_json to_json(const RigStatus& rig) {
+    nlohmann::ordered_json json{{"name", rig.rig}, {"state", state_of(rig)}};
+    if (const std::string trouble = trouble_of(rig); !trouble.empty()) json["trouble"] = trouble;
+    json["delivers"] = delivers(rig);
+    json["clock"] = clock_text(rig);
+    json["same_clock"] = rig.same_clock;
+    json["sync"] = to_json(rig.sync);
+    json["health"] = to_json(rig.health);
+    json["frames"] = to_json(rig.since_start);
+    return json;
+}
+
+}  // namespace vantage

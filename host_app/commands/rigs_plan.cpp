@@ -1,0 +1,225 @@
+#include "host_app/commands/rigs_plan.h"
+
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.h"
+#include "common/base/stop_signal.h"
+#include "common/base/time.h"
+#include "common/config/stage_config.h"
+#include "common/receive/link_budget.h"
+#include "common/receive/stage_receiver.h"
+#include "common/wire/colour_codec.h"
+#include "common/wire/frame_codec.h"
+
+namespace vantage {
+namespace {
+
+struct PlanOptions {
+    std::string stage;
+    double seconds = 3, wait_s = 10, rate_hz = 0;
+    LinkLimits limits;
+    bool start = false, json = false;
+};
+
+/// Qualities that are tried where it does not fit as it is.
+constexpr int ladder[] = {90, 85, 80, 75, 70, 65, 60, 50, 40};
+
+/// Sums of what came, by rig.
+class Scales {
+  public:
+    explicit Scales(const StageConfig& stage) {
+        for (const StageConfig::Rig& rig : stage.rigs) weights_.push_back({.rig = rig.name});
+    }
+    void see(const ArrivedFrame& frame) {
+        const std::lock_guard lock(mutex_);
+        RigWeight& weight = weights_[frame.rig];
+        ++weight.frames;
+        weight.colour_bytes += static_cast<double>(frame.packed->colour.size());
+        weight.other_bytes +=
+            static_cast<double>(frame.packed->bytes() - frame.packed->colour.size());
+    }
+    std::vector<RigWeight> means() const {
+        const std::lock_guard lock(mutex_);
+        std::vector<RigWeight> means = weights_;
+        for (RigWeight& weight : means) {
+            weight.colour_bytes /= std::max(1, weight.frames);
+            weight.other_bytes /= std::max(1, weight.frames);
+        }
+        return means;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<RigWeight> weights_;
+};
+
+/// A rig's latest picture, packed anew at every quality.
+void weigh(const ColourImage& colour, RigWeight& weight) {
+    JpegEncoder encoder;
+    for (const int quality : ladder)
+        weight.ladder.push_back(
+            {quality, static_cast<double>(encoder.encode(colour, quality).size())});
+}
+
+struct Measured {
+    std::vector<RigWeight> weights;
+    std::vector<ColourImage> latest;  ///< of each; empty: it has no colour
+};
+
+Measured measure(const PlanOptions& options, const StageConfig& stage) {
+    StopSignal stop;
+    Scales scales(stage);
+    StageReceiver receiver(
+        stage, options.start ? StageReceiver::Purpose::film : StageReceiver::Purpose::look_on,
+        [&](const ArrivedFrame& frame) { scales.see(frame); });
+    for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, true, 1);
+    std::vector<ColourImage> latest(stage.rigs.size());
+    const MonotonicTime give_up = MonotonicClock::now() + from_s(options.wait_s);
+    std::optional<MonotonicTime> end;
+    while (!stop.requested()) {
+        const MonotonicTime now = MonotonicClock::now();
+        if (end ? now >= *end : now >= give_up) break;
+        const std::optional<FrameSet> set = receiver.next(std::chrono::milliseconds(100));
+        if (!set) continue;
+        if (!end) end = MonotonicClock::now() + from_s(options.seconds);
+        for (std::size_t i = 0; i < set->slots.size(); ++i)
+            if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
+                latest[i] = set->slots[i].frame->colour;
+    }
+    std::vector<RigWeight> weights = scales.means();
+    std::string silent;
+    for (const RigWeight& weight : weights)
+        if (weight.frames == 0) silent += (silent.empty() ? "" : ", ") + weight.rig;
+    if (!silent.empty())
+        fail("nothing came of {}: {}; vantage rigs status says how the rigs are", silent,
+             options.start ? "a rig that sends nothing cannot be weighed"
+                           : "rigs film once a host runs the stage, or this is told --start");
+    return {std::move(weights), std::move(latest)};
+}
+
+std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
+    std::string text;
+    if (proposal.jpeg_quality) text = fmt::format("jpeg_quality = {}", *proposal.jpeg_quality);
+    if (proposal.rate_divisor > 1)
+        text +=
+            fmt::format("{}{:.4g} pictures a second, every {}{} pulse", text.empty() ? "" : " and ",
+                        rate_hz / proposal.rate_divisor, proposal.rate_divisor,
+                        proposal.rate_divisor == 2   ? "nd"
+                        : proposal.rate_divisor == 3 ? "rd"
+                                                     : "th");
+    return text;
+}
+
+void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, double rate_hz) {
+    constexpr double bytes_a_kb = 1e3, percent = 100;
+    std::size_t width = 4;
+    for (const RigWeight& weight : weights) width = std::max(width, weight.rig.size());
+    std::cout << fmt::format("{:{}}  {:>9}  {:>8}  {:>8}  {:>22}\n", "", width, "colour kB",
+                             "other kB", "Mbit/s", "of what is planned for");
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        std::cout << fmt::format("{:{}}  {:9.1f}  {:8.1f}  {:8.1f}  {:20.0f} %\n", weights[i].rig,
+                                 width, weights[i].colour_bytes / bytes_a_kb,
+                                 weights[i].other_bytes / bytes_a_kb, budget.rigs[i].mbit_s,
+                                 percent * budget.rigs[i].share);
+    std::cout << fmt::format("{:{}}  {:9}  {:8}  {:8.1f}  {:20.0f} %\n", "host", width, "", "",
+                             budget.host_mbit_s, percent * budget.host_share);
+    if (budget.fits()) return;
+    for (const LinkBudget::Proposal& proposal : budget.proposals)
+        std::cout << fmt::format("it would fit with {}: {:.0f} Mbit/s at the host\n",
+                                 words_of(proposal, rate_hz), proposal.host_mbit_s);
+}
+
+nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const LinkBudget& budget,
+                               double rate_hz) {
+    nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), proposals = rigs;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        rigs.push_back({{"name", weights[i].rig},
+                        {"frames", weights[i].frames},
+                        {"colour_bytes", weights[i].colour_bytes},
+                        {"other_bytes", weights[i].other_bytes},
+                        {"mbit_s", budget.rigs[i].mbit_s},
+                        {"share", budget.rigs[i].share}});
+    for (const LinkBudget::Proposal& proposal : budget.proposals) {
+        nlohmann::ordered_json json{{"rate_divisor", proposal.rate_divisor},
+                                    {"host_mbit_s", proposal.host_mbit_s}};
+        if (proposal.jpeg_quality) json["jpeg_quality"] = *proposal.jpeg_quality;
+        proposals.push_back(std::move(json));
+    }
+    return {{"rate_hz", rate_hz},
+            {"rigs", rigs},
+            {"host", {{"mbit_s", budget.host_mbit_s}, {"share", budget.host_share}}},
+            {"fits", budget.fits()},
+            {"proposals", proposals}};
+}
+
+void plan(const PlanOptions& options) {
+    const StageConfig stage = load_stage_config(options.stage);
+    auto [weights, latest] = measure(options, stage);
+    const double rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz;
+    LinkBudget budget = plan_links(weights, rate_hz, options.limits);
+    if (!budget.fits()) {
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            if (!latest[i].empty()) weigh(latest[i], weights[i]);
+        budget = plan_links(weights, rate_hz, options.limits);
+    }
+    if (options.json)
+        std::cout << to_json(weights, budget, rate_hz).dump() << '\n';
+    else
+        print(weights, budget, rate_hz);
+    if (budget.fits()) return;
+    std::string full;
+    for (const LinkBudget::Rig& rig : budget.rigs)
+        if (rig.share > 1)
+            full +=
+                fmt::format("{}{} needs {:.0f} Mbit/s of a link of {:g}", full.empty() ? "" : "; ",
+                            rig.rig, rig.mbit_s, options.limits.rig_mbit_s);
+    if (budget.host_share > 1)
+        full +=
+            fmt::format("{}the host needs {:.0f} Mbit/s of a link of {:g}",
+                        full.empty() ? "" : "; ", budget.host_mbit_s, options.limits.host_mbit_s);
+    fail("{}, of which four fifths are planned for", full);
+}
+
+}  // namespace
+
+void add_rigs_plan(CLI::App& rigs) {
+    auto options = std::make_shared<PlanOptions>();
+    CLI::App* plans = rigs.add_subcommand(
+        "plan",
+        "Weighs what every rig sends and says whether the network carries it; ends with 1 if not, "
+        "and says what would fit");
+    plans->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
+        ->required();
+    plans
+        ->add_option("--rig-link", options->limits.rig_mbit_s,
+                     "Mbit/s of each rig's network interface")
+        ->check(CLI::Range(1.0, 1e6))
+        ->capture_default_str();
+    plans
+        ->add_option("--host-link", options->limits.host_mbit_s,
+                     "Mbit/s of the host's network interface")
+        ->check(CLI::Range(1.0, 1e6))
+        ->capture_default_str();
+    plans
+        ->add_option("--rate", options->rate_hz,
+                     "Pictures a second to plan for (default: the stage's)")
+        ->check(CLI::Range(0.01, 1000.0));
+    plans->add_option("--seconds", options->seconds, "How long frames are weighed")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    plans->add_option("--wait", options->wait_s, "Seconds to wait for the first frames")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    plans->add_flag("--start", options->start,
+                    "Start the stage's pulses: no other host runs it now");
+    plans->add_flag("--json", options->json, "Print it as JSON");
+    plans->callback([options] { plan(*options); });
+}
+
+}  // namespace vantage

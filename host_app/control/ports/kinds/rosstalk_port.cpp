@@ -1,0 +1,94 @@
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "host_app/control/ports/command_intake.h"
+#include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/rosstalk_map.h"
+#include "host_app/control/ports/tcp_listener.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t most_peers = 8;
+constexpr int usual_port = 7788, most_lines_a_look = 256;
+
+/// The protocol has a port of its own.
+OutputUrl with_port(OutputUrl url) {
+    const bool has_port = url.place.rfind(':') != std::string::npos && !url.place.ends_with(']');
+    if (!has_port) url.place += fmt::format(":{}", usual_port);
+    return url;
+}
+
+class RossTalkPort final : public ControlPort {
+  public:
+    RossTalkPort(const OutputUrl& url, const ControlBench& bench)
+        : intake_(bench.hands),
+          map_(RossTalkMap::load(url.option("map").value_or(""))),
+          listener_(listening_place_of(with_port(url)), "control " + url.shown, most_peers) {
+        url.require_options_of({"open", "map"});
+    }
+
+    void serve(std::chrono::milliseconds most) override {
+        int lines = 0;
+        for (const TcpListener::Arrived& arrived : listener_.receive(most)) {
+            if (arrived.bytes.empty()) {
+                lines_.erase(arrived.peer);
+                continue;
+            }
+            RossTalkLines& waiting = lines_[arrived.peer];
+            waiting.take(arrived.bytes);
+            while (const std::optional<std::string> line = waiting.next()) {
+                obey(*line, MonotonicClock::now());
+                ++lines;
+            }
+            if (!waiting.is_flooded()) continue;
+            refuse(&PortBooks::malformed,
+                   fmt::format("more than {} bytes without CR LF, after which the connection is "
+                               "closed",
+                               RossTalkLines::most_line_bytes));
+            lines_.erase(arrived.peer);
+            listener_.close(arrived.peer);
+        }
+        books_.dropped += listener_.turned_away() - seen_turned_away_;
+        seen_turned_away_ = listener_.turned_away();
+        // A flood takes no processor from pictures: TCP holds it up.
+        if (lines >= most_lines_a_look) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+
+  private:
+    void obey(const std::string& line, MonotonicTime now) {
+        const RossTalkLine said = parse_rosstalk(line);
+        if (!said.order) {
+            refuse(said.is_known ? &PortBooks::malformed : &PortBooks::unknown,
+                   fmt::format("'{}' is {}", printable(line),
+                               said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
+                                             : "no command that is taken"));
+            return;
+        }
+        const CommandCall* call = map_.find(*said.order);
+        if (!call) {
+            refuse(&PortBooks::unknown, fmt::format("'{}' is mapped to nothing", printable(line)));
+            return;
+        }
+        ++(intake_.take(*call, now) ? books_.obeyed : books_.dropped);
+    }
+
+    CommandIntake intake_;
+    RossTalkMap map_;
+    TcpListener listener_;
+    std::map<int, RossTalkLines> lines_;
+    std::uint64_t seen_turned_away_ = 0;
+};
+
+}  // namespace
+
+PortEntry rosstalk_port_entry() {
+    return {"rosstalk", "rosstalk://HOST[:PORT] (GPI n, XPT D:S over TCP; ?map=FILE, open=yes)",
+            [](const OutputUrl& url, const ControlBench& bench) {
+                return std::make_unique<RossTalkPort>(url, bench);
+            }};
+}
+
+}  // namespace vantage

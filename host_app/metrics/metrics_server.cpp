@@ -1,0 +1,79 @@
+#include "host_app/metrics/metrics_server.h"
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include <microhttpd.h>
+
+#include "common/base/error.h"
+#include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/udp_socket.h"
+
+namespace vantage {
+namespace {
+
+constexpr unsigned most_peers = 8, patience_s = 10;
+constexpr std::size_t bytes_a_peer = 16384;
+constexpr const char* metrics_type = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+
+MHD_Result answer_with(MHD_Connection* connection, unsigned status, std::string_view body,
+                       const char* type) {
+    MHD_Response* response = MHD_create_response_from_buffer(
+        body.size(), const_cast<char*>(body.data()), MHD_RESPMEM_MUST_COPY);
+    if (!response) return MHD_NO;
+    MHD_add_response_header(response, MHD_HTTP_HEADER_CONTENT_TYPE, type);
+    const MHD_Result result = MHD_queue_response(connection, status, response);
+    MHD_destroy_response(response);
+    return result;
+}
+
+MHD_Result answer(void* server, MHD_Connection* connection, const char* path, const char* method,
+                  const char*, const char*, std::size_t* body_bytes, void**) {
+    constexpr const char* plain = "text/plain";
+    if (*body_bytes != 0) return MHD_NO;
+    if (std::string_view(method) != MHD_HTTP_METHOD_GET &&
+        std::string_view(method) != MHD_HTTP_METHOD_HEAD)
+        return answer_with(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "only GET\n", plain);
+    if (std::string_view(path) != "/metrics")
+        return answer_with(connection, MHD_HTTP_NOT_FOUND, "there is only /metrics\n", plain);
+    const auto text = static_cast<const MetricsServer*>(server)->shown();
+    return answer_with(connection, MHD_HTTP_OK, *text, metrics_type);
+}
+
+}  // namespace
+
+void MetricsServer::Stop::operator()(MHD_Daemon* daemon) const { MHD_stop_daemon(daemon); }
+
+MetricsServer::MetricsServer(const std::string& text)
+    : text_(std::make_shared<const std::string>("# EOF\n")) {
+    const OutputUrl url = OutputUrl::parse(text, "metrics");
+    if (url.scheme != "http") fail("the metrics {} are at no http://HOST:PORT", url.shown);
+    const NetworkPlace place = listening_place_of(url);
+    url.require_options_of({"open"});
+    const SocketAddress address = resolve(place, "metrics " + url.shown);
+    const unsigned flags = MHD_USE_INTERNAL_POLLING_THREAD |
+                           (address.bytes.ss_family == AF_INET6 ? MHD_USE_IPv6 : MHD_NO_FLAG);
+    daemon_.reset(MHD_start_daemon(
+        flags, 0, nullptr, nullptr, answer, this, MHD_OPTION_SOCK_ADDR, &address.bytes,
+        MHD_OPTION_CONNECTION_LIMIT, most_peers, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_a_peer, MHD_OPTION_END));
+    if (!daemon_)
+        fail("metrics {}: cannot listen on port {} ({}); choose another, or end what has it",
+             url.shown, place.port, std::strerror(errno));
+}
+
+MetricsServer::~MetricsServer() = default;
+
+void MetricsServer::show(std::string text) {
+    auto next = std::make_shared<const std::string>(std::move(text));
+    const std::lock_guard lock(mutex_);
+    text_ = std::move(next);
+}
+
+std::shared_ptr<const std::string> MetricsServer::shown() const {
+    const std::lock_guard lock(mutex_);
+    return text_;
+}
+
+}  // namespace vantage

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+struct MHD_Daemon;
+
+namespace vantage {
+
+/// Tells whoever asks over HTTP (GET /metrics) what it was shown last, on a thread of its own. At
+/// most eight ask at a time, and one that says nothing for ten seconds is let go.
+class MetricsServer {
+  public:
+    /// `url`: "http://HOST:PORT"; without a host at 127.0.0.1, beyond this computer with
+    /// "?open=yes" only. Throws Error for a place that is taken or not allowed.
+    explicit MetricsServer(const std::string& url);
+    ~MetricsServer();
+    MetricsServer(const MetricsServer&) = delete;
+    MetricsServer& operator=(const MetricsServer&) = delete;
+
+    void show(std::string text);
+    std::shared_ptr<const std::string> shown() const;
+
+  private:
+    struct Stop {
+        void operator()(MHD_Daemon* daemon) const;
+    };
+    mutable std::mutex mutex_;
+    std::shared_ptr<const std::string> text_;
+    std::unique_ptr<MHD_Daemon, Stop> daemon_;
+};
+
+}  // namespace vantage

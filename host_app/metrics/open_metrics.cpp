@@ -1,0 +1,156 @@
+#include "host_app/metrics/open_metrics.h"
+
+#include <fmt/format.h>
+
+#include "common/base/version.h"
+#include "host_app/metrics/metric_text.h"
+
+namespace vantage {
+namespace {
+
+double number(std::uint64_t count) { return static_cast<double>(count); }
+
+void write_programme(const LiveReport& report, MetricText& text) {
+    const ProgrammeBooks& programme = report.programme;
+    text.info("program", "This program.");
+    text.sample(1, {{"version", version()},
+                    {"synthesiser", report.synthesiser},
+                    {"renderer", report.renderer}});
+    text.gauge("rate_hz", "Pictures a second that are asked for.");
+    text.sample(report.rate_hz);
+    text.counter("ticks", "Ticks of the programme since its first picture.");
+    text.sample(number(programme.ticks));
+    text.counter("new_pictures", "Ticks with a new picture.");
+    text.sample(number(programme.pictures));
+    text.counter("repeated_ticks", "Ticks for which a new picture was due and not ready.");
+    text.sample(number(programme.repeated));
+    text.gauge("live", "1 while the programme shows what happens now.");
+    text.sample(report.signal == SignalState::live ? 1 : 0);
+    text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");
+    for (const auto& [work, shares] :
+         {std::pair("render", &programme.render_shares), {"prepare", &programme.prepare_shares}})
+        for (std::size_t level = 0; level < shares->size(); ++level)
+            text.sample((*shares)[level], {{"work", work}, {"level", std::to_string(level)}});
+    text.summary("picture_interval_seconds", "Between two new pictures.");
+    text.percentiles(programme.interval_ms);
+    text.summary("exposure_to_picture_seconds", "From exposure to the hand-over of its picture.");
+    text.percentiles(programme.latency_ms);
+    text.summary("hand_to_picture_seconds", "From an input to the first picture with it.");
+    text.percentiles(programme.hand_ms);
+    text.summary("seek_to_picture_seconds", "From a jump in time to its picture.");
+    text.percentiles(programme.seek_ms);
+    text.summary("step_seconds", "Steps of a frame's way, of rigs the worst one's.");
+    for (const StepTime& step : step_times(report))
+        text.percentiles(step.ms, {{"step", step.name}});
+    text.counter("faults", "Renderers and preparers that were made anew.");
+    text.sample(report.faults);
+    text.counter("gpu_resets", "Resets of the GPU that were got over.");
+    text.sample(report.contexts_lost);
+    if (!report.corridor.now) return;
+    text.gauge("coverage_ratio", "Of the picture, that the rigs cover.");
+    text.sample(report.corridor.now->share);
+}
+
+void write_sets(const LiveReport& report, MetricText& text) {
+    text.counter("frame_sets", "Sets of frames that were closed, whole or not.");
+    text.sample(number(report.sets_complete), {{"rigs", "all"}});
+    text.sample(number(report.sets_closed - report.sets_complete), {{"rigs", "some"}});
+    text.counter("instants", "Instants that were prepared, of sets or between two pulses.");
+    text.sample(number(report.instants_prepared), {{"of", "set"}});
+    text.sample(number(report.instants_between), {{"of", "between"}});
+    text.counter("sets_left_out", "Sets that no instant was made of.");
+    text.sample(number(report.sets_superseded), {{"why", "superseded"}});
+    text.sample(number(report.sets_dropped), {{"why", "dropped"}});
+}
+
+void write_rigs(const LiveReport& report, MetricText& text) {
+    text.gauge("rig_up", "1 while the rig is connected.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(rig.status.connected ? 1 : 0, {{"rig", rig.status.rig}});
+    text.counter("rig_frames", "Frames by the place that they came to, and what became of them.");
+    for (const RigAccount& rig : report.rigs)
+        for (const CounterGroup& group : counters_of(rig))
+            for (const Counter& counter : group.counters)
+                text.sample(
+                    number(counter.value),
+                    {{"rig", rig.status.rig}, {"place", group.key}, {"result", counter.key}});
+    text.counter("rig_outages", "Times that the rig was away.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(number(rig.status.outages), {{"rig", rig.status.rig}});
+    text.counter("rig_outage_seconds", "Time that the rig was away.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(rig.status.outage_s, {{"rig", rig.status.rig}});
+    text.summary("rig_latency_seconds", "From exposure to decoded.");
+    for (const RigAccount& rig : report.rigs)
+        text.percentiles(rig.status.latency_ms, {{"rig", rig.status.rig}});
+    text.gauge("rig_temperature_celsius", "Of the hottest of the rig's sensors.");
+    for (const RigAccount& rig : report.rigs)
+        if (rig.status.health.temperature_c)
+            text.sample(*rig.status.health.temperature_c, {{"rig", rig.status.rig}});
+    text.gauge("rig_under_voltage", "1 while the rig's supply sags.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(rig.status.health.under_voltage ? 1 : 0, {{"rig", rig.status.rig}});
+    text.gauge("rig_clock_disciplined", "1 while PTP keeps the rig's clock, or it is this one's.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(rig.status.same_clock || rig.status.sync.disciplined ? 1 : 0,
+                    {{"rig", rig.status.rig}});
+    text.gauge("rig_set_known_ratio", "Of the rig's set, that is known.");
+    for (const RigAccount& rig : report.rigs)
+        if (rig.set) text.sample(rig.set->known, {{"rig", rig.status.rig}});
+}
+
+void write_outputs(const LiveReport& report, MetricText& text) {
+    text.gauge("output_up", "1 while the output is on.");
+    for (const OutputState& output : report.outputs)
+        text.sample(output.phase == OutputPhase::on ? 1 : 0, {{"output", output.name}});
+    text.counter("output_pictures", "Pictures that the output took, and that it left out.");
+    for (const OutputState& output : report.outputs) {
+        text.sample(number(output.pictures), {{"output", output.name}, {"result", "taken"}});
+        text.sample(number(output.dropped), {{"output", output.name}, {"result", "left_out"}});
+    }
+    text.counter("output_bytes", "Bytes that the output wrote.");
+    for (const OutputState& output : report.outputs)
+        text.sample(number(output.bytes), {{"output", output.name}});
+    text.gauge("output_queued_pictures", "Pictures that wait for the output.");
+    for (const OutputState& output : report.outputs)
+        text.sample(number(output.queued), {{"output", output.name}});
+    text.counter("output_failures", "Times that the output failed.");
+    for (const OutputState& output : report.outputs)
+        text.sample(number(output.failures), {{"output", output.name}});
+}
+
+void write_take(const TakeState& take, MetricText& text) {
+    text.gauge("take_recording", "1 while a take is recorded.");
+    text.sample(take.phase == TakePhase::recording ? 1 : 0);
+    text.gauge("take_frames", "Frames that the take has.");
+    text.sample(number(take.frames));
+    text.gauge("take_missing_frames", "Frames that the take lacks.");
+    text.sample(number(take.gaps));
+    text.gauge("take_bytes", "Bytes that the take has.");
+    text.sample(number(take.bytes));
+}
+
+void write_ports(const LiveReport& report, MetricText& text) {
+    text.counter("control_messages", "Messages of others who steer, and what became of them.");
+    for (const PortState& port : report.ports)
+        for (const auto& [result, count] : {std::pair("obeyed", port.books.obeyed),
+                                            {"unknown", port.books.unknown},
+                                            {"malformed", port.books.malformed},
+                                            {"dropped", port.books.dropped}})
+            text.sample(number(count), {{"port", port.name}, {"result", result}});
+}
+
+}  // namespace
+
+std::string to_open_metrics(const LiveReport& report) {
+    MetricText text;
+    write_programme(report, text);
+    write_sets(report, text);
+    write_rigs(report, text);
+    write_outputs(report, text);
+    if (report.take) write_take(*report.take, text);
+    write_ports(report, text);
+    return text.whole();
+}
+
+}  // namespace vantage

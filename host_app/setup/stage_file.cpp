@@ -1,0 +1,73 @@
+#include "host_app/setup/stage_file.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/error.h"
+#include "common/base/folder.h"
+#include "common/config/toml_edit.h"
+#include "common/config/toml_text.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t max_file_bytes = 1 << 20;
+
+std::string rig_text(const StageConfig::Rig& rig) {
+    return fmt::format("\n[[rigs]]\nname = {}\nendpoint = {}\npublic_key = {}\n",
+                       toml_string(rig.name), toml_string(rig.endpoint),
+                       toml_string(rig.public_key));
+}
+
+}  // namespace
+
+StageFile::StageFile(std::filesystem::path file) : file_(std::filesystem::absolute(file)) {
+    is_there_ = std::filesystem::exists(file_);
+    if (is_there_) config_ = load_stage_config(file_);
+    key_file_ = config_.key_file.empty() ? file_.parent_path() / "host.key" : config_.key_file;
+}
+
+CurveKeys StageFile::host_keys() const {
+    if (!std::filesystem::exists(key_file_)) {
+        make_folder(key_file_.parent_path());
+        write_key_file(key_file_, generate_curve_keys());
+    }
+    return load_key_file(key_file_);
+}
+
+void StageFile::add(const StageConfig::Rig& rig, double rate_hz) {
+    const std::string key_file = toml_string(key_file_.filename().string());
+    std::string text;
+    if (is_there_) {
+        text = read_text_file(file_, max_file_bytes);
+        if (config_.key_file.empty()) text = with_toml_value(text, "", "key_file", key_file, file_);
+        if (!text.empty() && text.back() != '\n') text += '\n';
+    } else {
+        text = fmt::format(
+            "# The stage, as vantage setup found it; every key is in the example of this name.\n"
+            "version = 1\nkey_file = {}\nrate_hz = {}\n",
+            key_file, rate_hz);
+    }
+    write(text + rig_text(rig));
+    is_there_ = true;
+}
+
+void StageFile::write(const std::string& text) {
+    make_folder(file_.parent_path());
+    // Read before it takes the old one's place, so that what cannot be is refused and the old
+    // stays.
+    const std::filesystem::path tried = file_.string() + ".new";
+    write_text_atomically(tried, text);
+    try {
+        config_ = load_stage_config(tried);
+    } catch (const Error&) {
+        std::error_code ignored;
+        std::filesystem::remove(tried, ignored);
+        throw;
+    }
+    std::filesystem::rename(tried, file_);
+}
+
+}  // namespace vantage

@@ -1,0 +1,88 @@
+#include "rig_firmware/daemon/rig_report.h"
+
+#include <chrono>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/child_process.h"
+#include "common/base/computer.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/secrets.h"
+#include "common/base/time.h"
+#include "common/base/version.h"
+#include "common/wire/limits.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::seconds probe_limit{20};
+constexpr std::size_t max_config_bytes = 1 << 18;
+
+/// A file of this process's own, removed with it.
+class ScratchFile {
+  public:
+    ScratchFile() : path_((std::filesystem::temp_directory_path() / "vantage-XXXXXX").string()) {
+        const int fd = ::mkstemp(path_.data());
+        if (fd < 0) fail("no file can be made in {}", path_);
+        ::close(fd);
+    }
+    ~ScratchFile() { ::unlink(path_.c_str()); }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+/// In a process of its own: a probe opens devices and contexts that this one may hold.
+nlohmann::json probe(const std::atomic<bool>& stopping) {
+    const ScratchFile out;
+    ChildProcess child({.program = program_folder() / "vantage-rig",
+                        .arguments = {"probe", "--json"},
+                        .out = out.path(),
+                        .niceness = 10});
+    const MonotonicTime end = MonotonicClock::now() + probe_limit;
+    while (!child.ended()) {
+        if (stopping) fail("the daemon ends");
+        if (MonotonicClock::now() > end)
+            fail("the probe took longer than {} s", probe_limit.count());
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return nlohmann::json::parse(read_text_file(out.path(), max_report_bytes / 2));
+}
+
+}  // namespace
+
+std::string rig_report(const RigConfig& config, const std::vector<std::string>& said_at_start,
+                       const std::atomic<bool>& stopping) {
+    nlohmann::ordered_json report{
+        {"rig", config.name}, {"version", version()}, {"computer", computer_words()}};
+    const auto add = [&](const char* key, const auto& make) {
+        try {
+            report[key] = make();
+        } catch (const std::exception& error) {
+            report[key] = fmt::format("cannot be had: {}", without_secrets(error.what()));
+        }
+    };
+    add("config", [&] { return without_secrets(read_text_file(config.file, max_config_bytes)); });
+    for (const std::string& line : said_at_start) report["start"].push_back(without_secrets(line));
+    for (const std::string& line : recent_log_lines())
+        report["log"].push_back(without_secrets(line));
+    add("probe", [&] { return probe(stopping); });
+    // Device names and files are bytes that need not be UTF-8.
+    constexpr auto replace = nlohmann::json::error_handler_t::replace;
+    std::string text = report.dump(2, ' ', false, replace);
+    if (text.size() <= max_report_bytes) return text;
+    report["probe"] = "too long";
+    text = report.dump(2, ' ', false, replace);
+    if (text.size() <= max_report_bytes) return text;
+    return nlohmann::ordered_json{{"rig", config.name}, {"version", version()}}.dump(2);
+}
+
+}  // namespace vantage

@@ -1,0 +1,45 @@
+// Takes single pixels out of a picture that resemble none around them: one at a depth edge that is brighter, or darker,
+// in any channel than all but one of its eight neighbours, by more than a tolerance, gets the median of the nine.
+#define MEDIAN_OF vec3
+#include "stereo_median9.glsl"
+
+uniform sampler2D picture;
+uniform sampler2D depth_m;  // its magnitude counts; 0 = nothing
+uniform float edge_ratio;   // two depths whose ratio is larger lie on two surfaces
+uniform float tolerance;    // of colours 0..1
+
+layout(location = 0) out vec4 filtered;
+
+vec3 around[9];
+
+bool is_one_surface(ivec2 at, ivec2 most) {
+    float near = 1e9, far = 0.0;
+    for (int k = 0; k < 9; ++k) {
+        float z = abs(texelFetch(depth_m, clamp(at + ivec2(k % 3, k / 3) - 1, ivec2(0), most), 0).r);
+        near = min(near, z);
+        far = max(far, z);
+    }
+    return far <= near * edge_ratio;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy), most = textureSize(picture, 0) - 1;
+    filtered = texelFetch(picture, at, 0);
+    if (is_one_surface(at, most)) return;
+    // The least and the greatest two of the neighbours.
+    vec3 low = vec3(1.0), next_low = vec3(1.0), high = vec3(0.0), next_high = vec3(0.0);
+    for (int k = 0; k < 9; ++k) {
+        vec3 c = texelFetch(picture, clamp(at + ivec2(k % 3, k / 3) - 1, ivec2(0), most), 0).rgb;
+        around[k] = c;
+        if (k == 4) continue;
+        next_low = min(next_low, max(low, c));
+        low = min(low, c);
+        next_high = max(next_high, min(high, c));
+        high = max(high, c);
+    }
+    if (all(lessThanEqual(filtered.rgb, next_high + tolerance)) &&
+        all(greaterThanEqual(filtered.rgb, next_low - tolerance)))
+        return;
+    filtered.rgb = median9(around[0], around[1], around[2], around[3], around[4], around[5], around[6], around[7],
+                           around[8]);
+}

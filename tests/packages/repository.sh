@@ -1,0 +1,130 @@
+#!/usr/bin/env bash
+# The signed repository, as apt of a bare Debian sees it: installed from, upgraded, gone back, purged, and refused where
+# somebody changed it.
+#   repository.sh WORK BUILD_FOLDER
+# Exits 77 with one line "SKIPPED: reason" where this computer lacks what it takes; with VANTAGE_HIL_REQUIRED in the
+# environment that is a failure.
+set -euo pipefail
+tools=$(cd "$(dirname "$0")/../../tools" && pwd)
+work=$1 build=$2
+skip() {
+  [ -z "${VANTAGE_HIL_REQUIRED:-}" ] || { echo "repository: $1" >&2; exit 1; }
+  echo "SKIPPED: $1"
+  exit 77
+}
+for tool in aptly gpg mmdebstrap dpkg-shlibdeps; do
+  command -v $tool >/dev/null || skip "$tool is missing (./test installs it)"
+done
+codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+case "$codename" in bookworm | trixie) ;; *) skip "this is neither Debian 12 nor 13, whose packages are made here" ;; esac
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  sudo -n true 2>/dev/null || skip "a bare Debian is made by root: be root, or have sudo ask for no password"
+  as_root=(sudo)
+fi
+
+rm -rf "$work"
+mkdir -p "$work"
+work=$(realpath "$work")
+root=$(mktemp -d "${TMPDIR:-/var/tmp}/vantage-repository.XXXXXX")
+export GNUPGHOME=$work/gnupg
+finish() {
+  gpgconf --kill all
+  "${as_root[@]}" umount "$root/repository" 2>/dev/null || true
+  "${as_root[@]}" rm -rf --one-file-system "$root"
+}
+trap finish EXIT
+trap 'exit 130' INT TERM
+
+passed=0 failed=0
+check() { # what command...
+  local what=$1
+  shift
+  if "$@" >"$work/check.log" 2>&1; then
+    echo "ok    $what"
+    passed=$((passed + 1))
+  else
+    echo "FAIL  $what: $(tail -n 5 "$work/check.log")"
+    failed=$((failed + 1))
+  fi
+}
+not() { ! "$@"; }
+refuses() { # words command...
+  local words=$1
+  shift
+  ! "$@" 2>"$work/refusal" && grep -q "$words" "$work/refusal"
+}
+
+(
+  cd "$build"
+  cpack -B "$work/first" >"$work/cpack.log" 2>&1
+  version=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
+  cpack -B "$work/next" -D CPACK_COMPONENTS_ALL=rig -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
+) || { tail -20 "$work/cpack.log" >&2; exit 1; }
+first=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
+mkdir -m 700 "$GNUPGHOME"
+gpg --batch --quiet --passphrase '' --quick-generate-key 'Vantage <vantage@localhost>' ed25519 sign never
+
+settings=$work/apt.conf
+apt-config dump | grep -E '^Acquire::([a-z]+::([^ ]*::)?Proxy|Check-|Retries)' >"$settings" || true
+sources=$("$tools/debian_sources.sh" "$codename")
+if [ "$codename" = bookworm ]; then
+  # As docs/deploy.md says: libcamera and libgpiod are too old there.
+  sources+=$'\n'$(awk '$3 == "bookworm" {print $1, $2, "bookworm-backports main"; exit}' <<<"$sources")
+fi
+"${as_root[@]}" mmdebstrap --quiet --mode=root --variant=apt --aptopt="$settings" "$codename" "$root" - <<<"$sources" 2>"$work/root.log" ||
+  { tail -5 "$work/root.log" >&2; skip "no bare Debian can be had"; }
+"${as_root[@]}" mkdir -p "$root/repository" "$root/etc/apt/keyrings"
+inside() { "${as_root[@]}" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
+apt_get() { inside apt-get -q -y --no-install-recommends "$@"; }
+
+repository() { "$tools/apt_repository.sh" "$work/repository" --key 'Vantage <vantage@localhost>' "$@"; }
+check "the repository is made by one command" repository "$work"/first/*.deb
+check "again with the same packages it stays as it is" repository "$work"/first/*.deb
+mkdir -p "$work/other/DEBIAN"
+printf 'Package: other\nVersion: 1.0\nArchitecture: all\nMaintainer: x <x@localhost>\nDescription: x\n' >"$work/other/DEBIAN/control"
+dpkg-deb --build "$work/other" "$work/other.deb" >/dev/null
+check "a package of no known release is refused" refuses "names no release of Debian" repository "$work/other.deb"
+check "and a key that nobody has" refuses "has no secret key" "$tools/apt_repository.sh" "$work/repository" --key nobody "$work"/first/*.deb
+"${as_root[@]}" mount --bind "$work/repository/public" "$root/repository"
+"${as_root[@]}" cp "$work/repository/public/vantage.gpg" "$root/etc/apt/keyrings/"
+printf 'Types: deb\nURIs: file:///repository\nSuites: %s\nComponents: main\nSigned-By: /etc/apt/keyrings/vantage.gpg\n' "$codename" |
+  "${as_root[@]}" tee "$root/etc/apt/sources.list.d/vantage.sources" >/dev/null
+check "apt takes it by its key" apt_get update
+options=()
+[ "$codename" != bookworm ] || options=(-t bookworm-backports)
+check "apt installs all three from it" apt_get install "${options[@]}" vantage-rig vantage vantage-calib
+for program in vantage-rig vantage vantage-calib; do
+  check "$program runs" inside $program --version
+done
+
+inside sh -c 'echo "# the administrator'"'"'s own line" >>/etc/vantage/rig.toml
+  echo secret >/etc/vantage/rig.key && chown root:vantage /etc/vantage/rig.key && chmod 640 /etc/vantage/rig.key
+  echo numbers >/etc/vantage/calibration.yaml
+  install -d -o vantage -g vantage /var/lib/vantage /var/lib/vantage/takes
+  echo seen >/var/lib/vantage/takes/take.mkv && chown vantage:vantage /var/lib/vantage/takes/take.mkv'
+kept() {
+  inside sh -c 'grep -q "own line" /etc/vantage/rig.toml && test -s /etc/vantage/calibration.yaml &&
+    test -s /var/lib/vantage/takes/take.mkv && test "$(stat -c "%U %G %a" /etc/vantage/rig.key)" = "root vantage 640"'
+}
+version_is() { test "$(inside dpkg-query -W -f '${Version}' vantage-rig)" = "$1"; }
+check "a newer package is added" repository "$work"/next/*.deb
+check "apt sees it" apt_get update
+check "and upgrades to it" apt_get upgrade
+check "in its version" version_is "$first+1"
+check "configuration, key, calibration and take are kept" kept
+check "apt goes back to the one before" apt_get install --allow-downgrades "vantage-rig=$first"
+check "in its version" version_is "$first"
+check "configuration, key, calibration and take are kept" kept
+
+check "all is purged" apt_get purge vantage-rig vantage vantage-calib
+check "with configuration and keys" not inside test -e /etc/vantage
+check "but never a take" inside test -s /var/lib/vantage/takes/take.mkv
+check "which is still the service's" inside test "$(inside stat -c %U /var/lib/vantage/takes/take.mkv)" = vantage
+
+index=$(find "$work/repository/public/dists/$codename/main/binary-amd64" -name Packages)
+echo >>"$index"
+rm -f "${index}".gz "${index}".bz2
+check "what somebody changed is refused" not inside sh -c 'rm -rf /var/lib/apt/lists/* && apt-get -q update -o APT::Update::Error-Mode=any'
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

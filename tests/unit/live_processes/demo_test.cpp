@@ -1,0 +1,86 @@
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/image/image_file.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+/// Whether a rig with a key answers there.
+bool serves(const std::string& stage) {
+    return run_to_end(VANTAGE_PROGRAM, {"rigs", "status", "--stage", stage, "--wait", "1"})
+               .status == 0;
+}
+
+class Demo : public testing::Test {
+  protected:
+    Demo() {
+        // A wall of noise that stands 8 px deep.
+        std::mt19937 random(1);
+        ColourImage right(96, 128);
+        for (auto& texel : right)
+            texel = cv::Vec4b(static_cast<unsigned char>(random()),
+                              static_cast<unsigned char>(random()),
+                              static_cast<unsigned char>(random()), 255);
+        ColourImage left = right.clone();
+        right.colRange(0, 120).copyTo(left.colRange(8, 128));
+        write_colour_image(file("left.png"), left);
+        write_colour_image(file("right.png"), right);
+    }
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
+    const ProgramResult result = run_to_end(
+        VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("right.png"), "--headless",
+                          "--seconds", "2", "--folder", file("out"), "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    EXPECT_GE(summary["new_pictures"], 5);
+    EXPECT_EQ(summary["signal"], "live");
+    EXPECT_TRUE(std::filesystem::exists(file("out/flight.mkv")));
+    EXPECT_FALSE(read_colour_image(file("out/contact_sheet.png")).empty());
+}
+
+TEST_F(Demo, RigsEndWithItHoweverItEnds) {
+    ChildProgram demo(VANTAGE_PROGRAM,
+                      {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
+                       "--folder", file("out")},
+                      folder_.path());
+    for (int tries = 0; tries < 600 && demo.out().empty(); ++tries) ::usleep(100'000);
+    ASSERT_TRUE(demo.out().starts_with("ready: ")) << demo.err();
+    const std::string stage = file("out/demo/stage.toml");
+    bool served = false;
+    for (int tries = 0; tries < 60 && !served; ++tries) served = serves(stage);
+    EXPECT_TRUE(served) << demo.err();
+    demo.send_signal(SIGKILL);
+    (void)demo.wait();
+    bool is_gone = false;
+    for (int tries = 0; tries < 20 && !is_gone; ++tries) is_gone = !serves(stage);
+    EXPECT_TRUE(is_gone);
+}
+
+TEST_F(Demo, SaysWhatIsWrongWithAPair) {
+    const ProgramResult missing =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("none.png"),
+                                     "--headless", "--folder", file("out")});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
+    const ProgramResult alone =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--disparities", "64", "--folder", file("out")});
+    EXPECT_EQ(alone.status, 2);
+    EXPECT_NE(alone.err.find("--rig"), std::string::npos) << alone.err;
+}
+
+}  // namespace
+}  // namespace vantage

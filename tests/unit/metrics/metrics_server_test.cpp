@@ -1,0 +1,70 @@
+#include "host_app/metrics/metrics_server.h"
+
+#include <string>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include "common/base/unique_fd.h"
+#include "tests/support/free_ports.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+class MetricsServerTest : public testing::Test {
+  protected:
+    /// What the server answers to these bytes, until it closes.
+    std::string answer_to(const std::string& request) const {
+        const UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port = htons(static_cast<std::uint16_t>(port_));
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) return "";
+        (void)::send(fd.get(), request.data(), request.size(), MSG_NOSIGNAL);
+        std::string answer;
+        char buffer[4096];
+        for (ssize_t size = 0; (size = ::recv(fd.get(), buffer, sizeof buffer, 0)) > 0;)
+            answer.append(buffer, static_cast<std::size_t>(size));
+        return answer;
+    }
+    std::string answer_of(const std::string& method, const std::string& path) const {
+        return answer_to(
+            fmt::format("{} {} HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", method, path));
+    }
+
+    const int port_ = two_free_ports().first;
+    MetricsServer server_{fmt::format("http://:{}", port_)};
+};
+
+TEST_F(MetricsServerTest, TellsWhatItWasShownLast) {
+    server_.show("vantage_ticks_total 7\n# EOF\n");
+    const std::string answer = answer_of("GET", "/metrics");
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+    EXPECT_NE(answer.find("application/openmetrics-text; version=1.0.0"), std::string::npos);
+    EXPECT_TRUE(answer.ends_with("\r\n\r\nvantage_ticks_total 7\n# EOF\n")) << answer;
+}
+
+TEST_F(MetricsServerTest, HasNothingElse) {
+    EXPECT_TRUE(answer_of("GET", "/").starts_with("HTTP/1.1 404"));
+    EXPECT_TRUE(answer_of("GET", "/metrics/../../etc/passwd").starts_with("HTTP/1.1 404"));
+    EXPECT_TRUE(answer_of("DELETE", "/metrics").starts_with("HTTP/1.1 405"));
+    EXPECT_FALSE(answer_to("rubbish\r\n\r\n").starts_with("HTTP/1.1 200"));
+    EXPECT_TRUE(answer_of("GET", "/metrics").starts_with("HTTP/1.1 200")) << "it goes on";
+}
+
+TEST_F(MetricsServerTest, ListensHereOnlyUnlessItIsOpen) {
+    const auto refusal = [](const std::string& url) {
+        return thrown_sentence([&] { const MetricsServer server(url); });
+    };
+    EXPECT_NE(refusal("http://0.0.0.0:9464").find("open=yes"), std::string::npos);
+    EXPECT_NE(refusal("udp://:9464").find("http://HOST:PORT"), std::string::npos);
+    EXPECT_NE(refusal("http://:9464?opn=yes").find("open"), std::string::npos);
+    EXPECT_NE(refusal(fmt::format("http://:{}", port_)).find("choose another"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,64 @@
+#include "common/receive/link_budget.h"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+/// 1456x1088 colour and 640x400 depth.
+RigWeight full_size(const char* name) {
+    return {.rig = name,
+            .frames = 30,
+            .colour_bytes = 700'000,
+            .other_bytes = 120'000,
+            .ladder = {{85, 700'000}, {75, 520'000}, {60, 380'000}, {50, 320'000}}};
+}
+
+std::vector<RigWeight> four_full_size() {
+    return {full_size("a"), full_size("b"), full_size("c"), full_size("d")};
+}
+
+TEST(LinkBudget, CountsWhatGoesOverTheWire) {
+    const LinkBudget budget = plan_links({full_size("north")}, 30, {});
+    ASSERT_EQ(budget.rigs.size(), 1u);
+    // 820 kB, 30 a second, with 7 % of packets' headers.
+    EXPECT_NEAR(budget.rigs[0].mbit_s, 8 * 0.82 * 30 * 1.073, 0.5);
+    EXPECT_NEAR(budget.rigs[0].share, budget.rigs[0].mbit_s / 800, 1e-9);
+    EXPECT_EQ(budget.host_mbit_s, budget.rigs[0].mbit_s);
+    EXPECT_TRUE(budget.fits());
+    EXPECT_TRUE(budget.proposals.empty());
+}
+
+TEST(LinkBudget, OfFourFullSizeRigsOnOneGigabitSaysWhatFits) {
+    const LinkBudget budget = plan_links(four_full_size(), 30, {});
+    for (const LinkBudget::Rig& rig : budget.rigs) EXPECT_LT(rig.share, 1);
+    EXPECT_GT(budget.host_share, 1);
+    EXPECT_FALSE(budget.fits());
+    ASSERT_EQ(budget.proposals.size(), 2u);
+    EXPECT_EQ(budget.proposals[0].rate_divisor, 1);
+    EXPECT_EQ(budget.proposals[0].jpeg_quality, 75);
+    EXPECT_EQ(budget.proposals[1].rate_divisor, 2);
+    EXPECT_EQ(budget.proposals[1].jpeg_quality, std::nullopt);
+    for (const LinkBudget::Proposal& proposal : budget.proposals)
+        EXPECT_LE(proposal.host_mbit_s, 800);
+}
+
+TEST(LinkBudget, NamesTheRigWhoseOwnLinkIsTooNarrow) {
+    std::vector<RigWeight> weights = four_full_size();
+    weights[2].colour_bytes *= 4;
+    const LinkBudget budget = plan_links(weights, 30, {.rig_mbit_s = 500, .host_mbit_s = 10'000});
+    EXPECT_LT(budget.host_share, 1);
+    EXPECT_FALSE(budget.fits());
+    for (std::size_t i = 0; i < budget.rigs.size(); ++i)
+        EXPECT_EQ(budget.rigs[i].share > 1, i == 2);
+    EXPECT_FALSE(budget.proposals.empty());
+}
+
+TEST(LinkBudget, HasNothingToProposeWhereNothingFits) {
+    const LinkBudget budget = plan_links(four_full_size(), 30, {.host_mbit_s = 10});
+    EXPECT_FALSE(budget.fits());
+    EXPECT_TRUE(budget.proposals.empty());
+}
+
+}  // namespace
+}  // namespace vantage
