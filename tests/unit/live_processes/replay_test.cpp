@@ -152,7 +152,7 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     ask("clip i 1");
     ask("add_entry");
     ASSERT_TRUE(shows("entries", "3"));
-    ask("clip_speed i 50");
+    ask("clip_speed i 30");
     ask("entry i 1");
     ask("play_list");
     EXPECT_TRUE(shows("replay", "list"));
@@ -193,7 +193,7 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     ASSERT_EQ(book.list.size(), 3u);
     EXPECT_EQ(book.list[1].clip, 1);
     EXPECT_EQ(book.list[2].clip, 2);
-    EXPECT_EQ(book.clips.at(1).speed, 0.5);
+    EXPECT_EQ(book.clips.at(1).speed, 0.3);
 
     expect_the_camera_to_have_flown_without_a_jump();
 
