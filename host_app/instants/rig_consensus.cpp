@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "host_app/instants/depth_edges.h"
@@ -20,6 +21,10 @@ constexpr double least_news = 2;
 constexpr double coarse_step_px = 2, fine_step_px = 1;
 /// Parallax that does not show, and that depth is not moved for.
 constexpr double exact_px = 0.7, least_change_px = 0.5;
+/// Of all points, those that lie on a floor that can be seen.
+constexpr double floor_share = 0.05;
+/// Relative uncertainty of depth that does not come of stereo.
+constexpr double least_sigma = 0.002;
 
 /// The view's camera for a depth map of some size.
 VirtualView depth_camera(const ComparedView& view, cv::Size size) {
@@ -53,6 +58,22 @@ std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> 
     return all;
 }
 
+bool shows_floor(std::span<const ComparedView> views) {
+    std::size_t all = 0, on_floor = 0;
+    for (const ComparedView& view : views) {
+        const Pose& pose = view.camera().world_from_camera;
+        const double spread = static_cast<double>(depth_spread(view.camera()));
+        for (const Eigen::Vector3d& point_m : view.sample_points_m()) {
+            const Eigen::Vector3d away_m = point_m - pose.translation();
+            const double z_m = pose.linear().col(2).dot(away_m);
+            const double sigma_m = std::abs(away_m.y()) * std::max(z_m * spread, least_sigma);
+            ++all;
+            if (std::abs(point_m.y()) < sigma_m) ++on_floor;
+        }
+    }
+    return static_cast<double>(on_floor) > floor_share * static_cast<double>(all);
+}
+
 RigConsensus::Sweep::Sweep(cv::Size size)
     : unlike{Texture(TextureFormat::rgba8, size.width, size.height),
              Texture(TextureFormat::rgba8, size.width, size.height),
@@ -72,6 +93,7 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
         move_and_carve_.emplace_back(library, "rig_carve.frag",
                                      ShaderDefines{count, {"MOVES", "1"}});
         adopt_.emplace_back(library, "rig_adopt.frag", ShaderDefines{count});
+        floor_.emplace_back(library, "rig_floor.frag", ShaderDefines{count});
     }
 }
 
@@ -223,6 +245,26 @@ const Texture& RigConsensus::better(const ComparedView& view, std::span<const Co
     judged_.texture().bind(free_unit);
     adopting.draw(result_.target());
     return result_.texture();
+}
+
+const Texture& RigConsensus::better_set(const ComparedView& view,
+                                        std::span<const ComparedView> all) {
+    const Texture& bettered = better(view, all);
+    if (others_.empty() || !shows_floor(all)) return bettered;
+    with_floor_.resize(bettered.size());
+    FullscreenPass& standing = floor_[others_.size() - 1];
+    Program& program = standing.use();
+    const int unit = bind_others(program, *view.depth_m, view);
+    // Of the points where z times the ray from the camera is at y = 0.
+    const Pose& pose = view.camera().world_from_camera;
+    const Eigen::RowVector3d inverse_z =
+        pose.linear().row(1) * view.K_depth().inverse() / -pose.translation().y();
+    program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
+    program.set("softness", softness);
+    program.set("before", unit);
+    bettered.bind(unit);
+    standing.draw(with_floor_.target());
+    return with_floor_.texture();
 }
 
 }  // namespace vantage

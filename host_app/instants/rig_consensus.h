@@ -29,6 +29,10 @@ struct ComparedView {
 ComparedView compared(const RigHistory& rig);
 std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> rigs);
 
+/// Whether as many points lie at y = 0, as exactly as stereo knows, as of a stage that shows its
+/// floor.
+bool shows_floor(std::span<const ComparedView> views);
+
 /// Betters a rig's depth by what the other rigs see. A stereo rig's baseline is short: what a tenth
 /// of a pixel is to it are centimetres of depth, and several pixels in a view from far aside. Other
 /// rigs look from there. So depth is moved to where their pictures and this one's are most alike (a
@@ -37,6 +41,9 @@ std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> 
 /// much, what no other rig confirms takes over the depth of confirmed pixels near it, where the
 /// pictures agree better on that. Where the rigs' depths agree already nothing is moved, nor where
 /// the other rigs stand no farther apart than the rig's own two cameras.
+///
+/// The set's depth is held against the stage's floor too, y = 0 of the world, if enough of what the
+/// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.
 class RigConsensus {
   public:
     explicit RigConsensus(const ShaderLibrary& library);
@@ -45,6 +52,8 @@ class RigConsensus {
     /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
     /// view itself; their depths are those of the same instant.
     const Texture& better(const ComparedView& view, std::span<const ComparedView> all);
+    /// The same of the set, which may have a floor.
+    const Texture& better_set(const ComparedView& view, std::span<const ComparedView> all);
 
   private:
     /// How unlike the pictures are at sixteen depths, four a texture.
@@ -70,10 +79,11 @@ class RigConsensus {
 
     FullscreenPass halve_, smooth_, refine_;
     /// One for every number of other views.
-    std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_;
+    std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_, floor_;
     std::vector<const ComparedView*> others_;
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
+    DrawnTexture with_floor_{TextureFormat::r32f};
     DrawnTexture judged_{TextureFormat::rg32f};
     DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
     DrawnInTurn half_{TextureFormat::r32f};

@@ -103,8 +103,9 @@ void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
     const std::shared_ptr<RigSurface> model = surfaces_.take();
     model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
     rig.generate_mipmaps();
-    const Texture& bettered =
-        level.is_refined ? consensus_.better(compared(rig), compared(rigs_)) : rig.steady_depth();
+    const Texture& bettered = level.is_refined
+                                  ? consensus_.better_set(compared(rig), compared(rigs_))
+                                  : rig.steady_depth();
     closer_.close(bettered, rig.steady_depth(), rig.colour(), model->depth_target());
     rig.set_model({model, level.rank, now_s_, instant_});
 }
