@@ -6,17 +6,21 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/build.sh release
-# Without the precompiled headers of another compiler; so what a file forgot to include shows as well.
+# How each source is compiled alone, without the precompiled headers of another compiler; so what a file forgot to include
+# shows as well. What is generated lies in the build.
 mkdir -p build/tidy/clean
-sed -E 's# -(Winvalid-pch|fpch-preprocess)##g; s# -include [^ "]*cmake_pch\.hxx##g' build/release/compile_commands.json \
-  >build/tidy/compile_commands.json
+cmake --preset release -B build/tidy/alone -D VANTAGE_TESTS=ON -D VANTAGE_UNITY=OFF -D VANTAGE_PRECOMPILE=OFF \
+  >build/tidy/configure.log 2>&1 || { cat build/tidy/configure.log >&2; exit 1; }
+sed 's#/build/tidy/alone/#/build/release/#g' build/tidy/alone/compile_commands.json >build/tidy/compile_commands.json
 
-# A line a source: it, then what it includes of ours, all as seen from the build folder.
+# A line a source: it, then what it, and those compiled together with it, include of ours, all as seen from the build folder.
 sources_and_headers() {
   ninja -C build/release -t deps | awk '
-    /^[^ ]/ {source = ""}
-    /^ / && $1 !~ /^\// && $1 !~ /cmake_pch/ {if (!source) source = $1; else headers[source] = headers[source] " " $1}
-    END {for (source in headers) print source headers[source]}'
+    function tell() {for (i = 1; i <= count; i++) print sources[i] headers; count = 0; headers = ""}
+    /^[^ ]/ {tell()}
+    /^ / && $1 !~ /^\// && $1 !~ /cmake_pch|unity_/ {
+      if ($1 ~ /\.cpp$/) sources[++count] = $1; else headers = headers " " $1}
+    END {tell()}'
 }
 
 look_at() { # source, the stamp that says it is clean

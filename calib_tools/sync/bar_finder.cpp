@@ -54,6 +54,7 @@ std::vector<BlinkingSpot> spots_above(const GreyImage& change, int threshold) {
               [](const auto& a, const auto& b) { return a.first > b.first; });
     if (found.size() > most_spots) found.resize(most_spots);
     std::vector<BlinkingSpot> spots;
+    spots.reserve(found.size());
     for (const auto& [strength, spot] : found) spots.push_back(spot);
     return spots;
 }

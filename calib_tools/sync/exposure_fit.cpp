@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "calib_tools/board/median.h"
 
@@ -276,7 +277,9 @@ ExposureFit fit_exposures(const SyncBar& bar, const LedLight& seen) {
     const double period_ms = static_cast<double>(bar.period().count()) / ns_a_ms;
     std::optional<Explanation> best;
     double least = std::numeric_limits<double>::infinity();
-    for (double length_ms = shortest_steps * step_ms; length_ms < period_ms; length_ms *= ratio) {
+    double next_ms = shortest_steps * step_ms;
+    while (next_ms < period_ms) {
+        const double length_ms = std::exchange(next_ms, next_ms * ratio);
         Explanation way(bar, seen, length_ms);
         if (!way.begin()) continue;
         way.settle(1, 1);
