@@ -71,6 +71,10 @@ void FrameSetAssembler::set_asked(std::size_t rig, std::uint32_t rate_divisor) {
     rigs_[rig].rate_divisor = rate_divisor;
 }
 
+void FrameSetAssembler::set_at_stage_rate(std::size_t rig, bool is_at_it) {
+    step_.set_at_stage_rate(rig, is_at_it);
+}
+
 std::vector<FrameSet> FrameSetAssembler::take_closed(MonotonicTime now) {
     std::optional<std::uint64_t> through;
     for (const auto& [index, set] : open_)

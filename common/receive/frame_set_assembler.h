@@ -54,6 +54,9 @@ class FrameSetAssembler {
     void set_connected(std::size_t rig, bool connected);
     /// Which pulses the rig is asked for: those whose index this divides; 0: none. At first all.
     void set_asked(std::size_t rig, std::uint32_t rate_divisor);
+    /// Whether the rig's pulses are as frequent as the stage's, as far as is known; at first it is
+    /// taken to be so.
+    void set_at_stage_rate(std::size_t rig, bool is_at_it);
 
     /// The sets that are closed by now, oldest first.
     std::vector<FrameSet> take_closed(MonotonicTime now);

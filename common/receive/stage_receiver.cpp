@@ -171,6 +171,7 @@ struct StageReceiver::Impl {
             show(rig, rig.link.view(now), now);
             // What came before the rig was gone still joins its sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
+            assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
             assembler.set_asked(i, rig.wish.streaming ? rig.wish.rate_divisor : 0);
         }
         collect_closed(now);

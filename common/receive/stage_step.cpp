@@ -50,16 +50,19 @@ double StageStep::elect(MonotonicTime now) const {
     const auto agree = [&](double a, double b) {
         return std::abs(a - b) <= as_ns(options_.tolerance);
     };
-    // Most votes, then the incumbent, then the lead.
-    std::tuple<int, bool, double> best{0, false, 0};
+    // Most votes of rigs at the stage's rate, then of all, then the incumbent, then the lead.
+    std::tuple<int, int, bool, double> best{0, 0, false, 0};
     for (std::size_t candidate = 0; candidate < rigs_.size(); ++candidate) {
         if (!active(candidate, now)) continue;
         const double lead_ns = rigs_[candidate].lead_ns;
-        int votes = 0;
-        for (std::size_t other = 0; other < rigs_.size(); ++other)
-            votes += active(other, now) && agree(rigs_[other].lead_ns, lead_ns);
+        int votes = 0, votes_at_rate = 0;
+        for (std::size_t other = 0; other < rigs_.size(); ++other) {
+            if (!active(other, now) || !agree(rigs_[other].lead_ns, lead_ns)) continue;
+            ++votes;
+            votes_at_rate += rigs_[other].at_stage_rate;
+        }
         const bool incumbent = step_ns_ && agree(*step_ns_, lead_ns);
-        best = std::max(best, std::tuple(votes, incumbent, lead_ns));
+        best = std::max(best, std::tuple(votes_at_rate, votes, incumbent, lead_ns));
     }
     return std::get<double>(best);
 }

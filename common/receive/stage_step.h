@@ -14,8 +14,9 @@ namespace vantage {
 /// less the time it came. Rigs of one stage agree in that up to their latencies; a rig that was
 /// given another epoch, or whose clock runs free, stands apart. The stage's step is where most
 /// active rigs agree within the tolerance (ties: where it was), so that one rig's jump takes
-/// nothing from the others, and a jump of all is followed. Clocks come in as arguments; not
-/// thread-safe.
+/// nothing from the others, and a jump of all is followed. Rigs at another rate than the stage's
+/// count differently by nature: they have a say only where none is at the stage's. Clocks come in
+/// as arguments; not thread-safe.
 class StageStep {
   public:
     struct Options {
@@ -41,6 +42,9 @@ class StageStep {
     Result hear(std::size_t rig, std::uint64_t trigger_index, bool new_session,
                 MonotonicTime arrival);
 
+    /// At first every rig is.
+    void set_at_stage_rate(std::size_t rig, bool is_at_it) { rigs_[rig].at_stage_rate = is_at_it; }
+
     /// A frame came from it within the silence limit.
     bool active(std::size_t rig, MonotonicTime now) const;
     Verdict verdict(std::size_t rig) const;
@@ -49,6 +53,7 @@ class StageStep {
     struct Rig {
         double lead_ns = 0;  ///< index times period less arrival
         std::optional<MonotonicTime> heard;
+        bool at_stage_rate = true;
     };
 
     double elect(MonotonicTime now) const;

@@ -72,6 +72,37 @@ void start(Stage& stage, std::size_t rigs, std::uint64_t index) {
     stage.closed();
 }
 
+/// Pulse `index` of the stage's rate by rig 0, and the same moment as rigs at thrice that number
+/// it.
+void one_at_the_rate_of_three(Stage& stage, std::uint64_t index) {
+    stage.at(index, 10ms);
+    for (const std::size_t rig : {1, 2}) stage.frame(rig, 3 * index);
+    stage.frame(0, index);
+}
+
+TEST(FrameSetAssembler, RigsAtAnotherRateTakeNothingFromTheRigAtTheStages) {
+    Stage stage(3);
+    for (const std::size_t rig : {1, 2}) stage.assembler().set_at_stage_rate(rig, false);
+    one_at_the_rate_of_three(stage, 1000);
+    for (std::uint64_t index = 1001; index <= 1010; ++index) {
+        one_at_the_rate_of_three(stage, index);
+        EXPECT_THAT(stage.closed_indices(), testing::Contains(index));
+    }
+    EXPECT_EQ(stage.count(FrameFate::in_set), 11 + 2) << "the first ones came before any other";
+    EXPECT_EQ(stage.count(FrameFate::out_of_step), 2 * 10);
+}
+
+TEST(FrameSetAssembler, RigsThatAreAllAtAnotherRateAreJoined) {
+    Stage stage(2);
+    for (const std::size_t rig : {0, 1}) stage.assembler().set_at_stage_rate(rig, false);
+    for (std::uint64_t index = 1000; index < 1010; ++index) {
+        stage.at(3 * index, 10ms);
+        for (const std::size_t rig : {0, 1})
+            EXPECT_EQ(stage.frame(rig, index), FrameFate::in_set) << index;
+        EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
+    }
+}
+
 TEST(FrameSetAssembler, ASetClosesAtOnceWhenEveryRigHasDelivered) {
     Stage stage(3);
     start(stage, 3, 100);
