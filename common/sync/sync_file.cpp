@@ -55,7 +55,8 @@ SyncRecord read_record(const YamlSection& top) {
     record.bar_step_ms = top.number("bar_step_ms");
     record.reference = top.text("reference");
     const cv::FileNode sensors = top.get("sensors");
-    if (!sensors.isSeq() || sensors.size() == 0 || sensors.size() > most_sensors)
+    const std::size_t count = sensors.isSeq() ? sensors.size() : 0;
+    if (count < 1 || count > most_sensors)
         fail("'sensors' is to be a list of 1 to {} sensors", most_sensors);
     for (const cv::FileNode& node : sensors)
         record.sensors.push_back(

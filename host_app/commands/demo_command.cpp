@@ -31,7 +31,7 @@ struct DemoOptions {
 constexpr std::size_t most_said_bytes = 1 << 20;
 
 std::filesystem::path program_beside(const std::string& name) {
-    const std::filesystem::path program = program_folder() / name;
+    std::filesystem::path program = program_folder() / name;
     if (!std::filesystem::exists(program))
         fail("the demo needs {} beside vantage in {}: install the package {}", name,
              program_folder().string(), name);
@@ -50,7 +50,7 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
         said.erase(said.find_last_not_of('\n') + 1);
         fail("{} {} failed: {}", name, arguments.front(), said.substr(said.find_last_of('\n') + 1));
     }
-    const nlohmann::json answer =
+    nlohmann::json answer =
         nlohmann::json::parse(read_text_file(out, most_said_bytes), nullptr, false);
     if (answer.is_discarded()) fail("{} {} printed no JSON", name, arguments.front());
     return answer;
