@@ -88,8 +88,9 @@ void require_fit(const BoardPattern& pattern, bool is_cut_out, const Paper& pape
         paper.name, sheet_in_words(paper), largest_square_m(pattern, is_cut_out, paper) / mm);
 }
 
-std::string page_in_words(const PageSize& page) {
+std::string page_in_words(const PageSize& page, const std::optional<Paper>& asked) {
     const std::string size = fmt::format("{:g} x {:g} mm", page.width_m / mm, page.height_m / mm);
+    if (asked && page.fits(*asked)) return fmt::format("{}, which fits {}", size, asked->name);
     for (const Paper& paper : known_papers())
         if (page.fits(paper)) return fmt::format("{}, which fits {}", size, paper.name);
     const Paper& largest = known_papers().back();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,8 @@ double largest_square_m(BoardPattern pattern, bool is_cut_out, const Paper& pape
 /// Throws Error, with the sizes and the largest square that fits, if the board does not fit.
 void require_fit(const BoardPattern& pattern, bool is_cut_out, const Paper& paper);
 
-/// "480 x 374 mm, which fits a2" or "..., more than a2 (594 x 420 mm)": what a print needs.
-std::string page_in_words(const PageSize& page);
+/// "480 x 374 mm, which fits a2" or "..., more than a2 (594 x 420 mm)": what a print needs. Of the
+/// sheet that was asked for, if one was and the page fits it, else of the smallest that fits.
+std::string page_in_words(const PageSize& page, const std::optional<Paper>& asked);
 
 }  // namespace vantage

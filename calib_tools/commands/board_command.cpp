@@ -89,7 +89,7 @@ void run(const Options& options) {
     const std::string pdf = options.output + ".pdf", description = options.output + ".toml";
     require_not_measured(description, faces);
     const std::vector<std::byte> pages = board_as_pdf(faces, paper);
-    const std::string page = page_in_words(page_of(pattern, faces.size() > 1));
+    const std::string page = page_in_words(page_of(pattern, faces.size() > 1), paper);
     std::vector<std::string> pngs;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         pngs.push_back(options.output +

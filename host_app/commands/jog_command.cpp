@@ -60,7 +60,10 @@ void print_places(const std::vector<JogPlace>& places, bool json) {
             std::cout << fmt::format("{}  {}  {}  {}\n", to_text(place.id), place.path,
                                      name_of(place.transport), place.name);
     }
-    if (json) std::cout << nlohmann::ordered_json{{"devices", list}}.dump() << '\n';
+    if (json)
+        std::cout << nlohmann::ordered_json{{"devices", list}}.dump() << '\n';
+    else if (places.empty())
+        std::cout << "this computer has no device that could be a jog wheel (hidraw, evdev)\n";
 }
 
 void list(const JogOptions& options) {

@@ -57,6 +57,13 @@ TEST(BoardCommand, draws_on_a_sheet_and_refuses_what_does_not_fit_it) {
     EXPECT_DOUBLE_EQ(load_board(board + ".toml").marker_m, 0.0217);
 }
 
+TEST(BoardCommand, names_the_sheet_that_was_asked_for_though_a_smaller_one_would_do) {
+    const TemporaryFolder folder;
+    const ProgramResult drawn = run_to_end(
+        VANTAGE_CALIB, {"board", "--board", "9x6", "--paper", "a4", "-o", folder.path() / "board"});
+    EXPECT_THAT(drawn.out, HasSubstr("which fits a4"));
+}
+
 TEST(BoardCommand, keeps_what_somebody_measured_on_the_print) {
     const TemporaryFolder folder;
     const std::string board = folder.path() / "board", file = board + ".toml";
