@@ -36,16 +36,30 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
     ++instant_;
     uploaded_ = upload_with_fades(views, dt_s, rigs_);
-    for (RigHistory* rig : uploaded_) {
-        begin_with_learnt(*rig);
-        sets_.learn(*rig);
-    }
+    for (RigHistory* rig : uploaded_) begin_with_learnt(*rig);
+    learnt_.clear();
     has_depths_.clear();
+    if (std::exchange(is_after_cut_, false)) return;
+    learn(uploaded_);
     if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
 void StagedPreparer::forget() {
     for (const auto& rig : rigs_) rig->forget();
+    is_after_cut_ = true;
+}
+
+void StagedPreparer::learn(std::span<RigHistory* const> rigs) {
+    for (RigHistory* rig : rigs) {
+        const auto holds = [rig](const std::vector<RigHistory*>& some) {
+            return std::find(some.begin(), some.end(), rig) != some.end();
+        };
+        if (holds(learnt_) || !holds(uploaded_)) continue;
+        sets_.learn(*rig);
+        learnt_.push_back(rig);
+        // Performers are carved by all that have learnt.
+        has_depths_.clear();
+    }
 }
 
 void StagedPreparer::begin_with_learnt(RigHistory& rig) {
@@ -89,6 +103,7 @@ void StagedPreparer::begin_with(std::shared_ptr<const LearntSet> set) {
 void StagedPreparer::learn_anew() {
     begin_with(nullptr);
     forget();
+    is_after_cut_ = false;
 }
 
 LearntSet StagedPreparer::learnt() const {
@@ -141,7 +156,7 @@ std::shared_ptr<const RigPlate> StagedPreparer::plate_of(RigHistory& rig) {
 void StagedPreparer::find_performers(RigHistory& rig, const PrepareLevel& level) {
     const auto find = [&](RigHistory& one) {
         if (has_depths_.contains(&one)) return;
-        performers_.find(one, uploaded_);
+        performers_.find(one, learnt_);
         has_depths_.insert(&one);
     };
     // The others' are asked for only where they are compared.
@@ -188,7 +203,9 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
                                                        const PrepareLevel& level) {
     auto instant = std::make_shared<Instant>();
     instant->level = level.rank;
-    for (RigHistory* rig : most_useful(rigs_, target, level.rigs)) {
+    const std::vector<RigHistory*> rigs = most_useful(rigs_, target, level.rigs);
+    learn(level.is_refined ? uploaded_ : rigs);
+    for (RigHistory* rig : rigs) {
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
         instant->rigs.push_back({rig->surface(), nullptr, rig->presence()});
     }
@@ -204,6 +221,7 @@ void StagedPreparer::improve(const VirtualView& target) {
             oldest = rig;
     if (!oldest) return;
     improved_s_ = now_s_;
+    learn(uploaded_);
     make_model(*oldest, prepare_levels().front());
 }
 

@@ -36,6 +36,8 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     LearntSet learnt() const override;
     std::vector<RigSetState> states() const override { return states_; }
 
+    /// The sets of those rigs of the newest instant of which it was not done yet.
+    void learn(std::span<RigHistory* const> rigs);
     /// A rig without a past begins with what was loaded of it, if that fits.
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
@@ -51,6 +53,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     RecyclePool<RigSurface> surfaces_;
     std::vector<std::unique_ptr<RigHistory>> rigs_;
     std::vector<RigHistory*> uploaded_;  ///< those of the newest instant
+    std::vector<RigHistory*> learnt_;    ///< of them: whose sets were learnt
     std::set<RigHistory*> has_depths_;   ///< of them: whose performers were found
     SetLearner sets_;
     PerformerDepth performers_;
@@ -61,6 +64,8 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     FullscreenPass show_, over_, now_;
     DrawnTexture colours_{TextureFormat::rgba8, Filter::linear};
     RecyclePool<RigPlate> plate_pool_;
+    /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
+    bool is_after_cut_ = false;
     double now_s_ = 0;  ///< instants' time since the first one
     std::uint64_t instant_ = 0;
     double improved_s_ = 0;

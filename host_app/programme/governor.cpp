@@ -24,6 +24,8 @@ constexpr double mean_share = 0.2;
 /// Of a tick and of the time between two pulses. Rendering has the right of way over preparing:
 /// what it takes, instants are late by. Preparing counts the time that it gave way for.
 constexpr double rendering_share = 0.65, preparing_share = 0.9;
+/// Of the 200 ms that a jump in time may last.
+constexpr double sought_ms = 80;
 
 double seconds(MonotonicTime from, MonotonicTime to) {
     return std::chrono::duration<double>(to - from).count();
@@ -42,6 +44,13 @@ void LevelChooser::begin_with_the_cheapest() {
 void LevelChooser::fix(std::size_t level) {
     level_ = std::min(level, usual_ms_.size() - 1);
     is_fixed_ = true;
+}
+
+std::size_t LevelChooser::fitting(double ms) const {
+    if (is_fixed_) return level_;
+    for (std::size_t level = level_; level + 1 < usual_ms_.size(); ++level)
+        if (usual_ms_[level] && *usual_ms_[level] <= ms) return level;
+    return usual_ms_.size() - 1;
 }
 
 void LevelChooser::go_to(std::size_t level, MonotonicTime now) {
@@ -105,6 +114,10 @@ QualityWish QualityWish::parse(const std::string& text) {
         fail("--quality is best, auto or a level from 0 (the best) to {}, not '{}'",
              render_levels().size() - 1, text);
     return {level};
+}
+
+const PrepareLevel& Governor::prepare_sought() const {
+    return prepare_levels()[prepare_.fitting(sought_ms)];
 }
 
 void Governor::saw_past_instant(double ms) {

@@ -25,6 +25,10 @@ class LevelChooser {
     /// From now on this one, whatever it takes.
     void fix(std::size_t level);
 
+    /// The best level, of this one and those that are cheaper, whose works take so long at most by
+    /// what they took before; the cheapest where none is known to. A fixed one stays.
+    std::size_t fitting(double ms) const;
+
     /// A work at `level` took `work_ms` of the `time_ms` that there were for it.
     void saw(std::size_t level, double work_ms, double time_ms, MonotonicTime now);
 
@@ -61,6 +65,8 @@ class Governor {
 
     const RenderLevel& render() const { return render_levels()[render_.level()]; }
     const PrepareLevel& prepare() const { return prepare_levels()[prepare_.level()]; }
+    /// For the first picture of where time jumped to, which is waited for.
+    const PrepareLevel& prepare_sought() const;
 
     void saw_render(const RenderLevel& level, double ms, MonotonicTime now) {
         render_.saw(static_cast<std::size_t>(level.rank), ms, tick_ms_, now);

@@ -45,6 +45,19 @@ void PictureMaker::start(PictureJob job) {
     woken_.notify_all();
 }
 
+void PictureMaker::pause(bool is_paused) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::exchange(is_paused_, is_paused) == is_paused) return;
+    }
+    woken_.notify_all();
+}
+
+void PictureMaker::wait_while_paused() {
+    std::unique_lock lock(mutex_);
+    woken_.wait(lock, [&] { return is_stopping_ || !is_paused_; });
+}
+
 std::shared_ptr<const MadePicture> PictureMaker::take_finished() {
     const std::lock_guard lock(mutex_);
     return std::move(finished_);
@@ -83,7 +96,7 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
-    if (manner_ == Manner::in_slices) slices.emplace(slice, way_);
+    if (manner_ == Manner::in_slices) slices.emplace(slice, way_, [this] { wait_while_paused(); });
     const ShaderLibrary shaders;
     ViewPainter painter(synthesiser_, format_, shaders);
     std::unique_lock lock(mutex_);

@@ -56,6 +56,8 @@ class PictureMaker {
     bool is_idle() const;
     /// Precondition: is_idle().
     void start(PictureJob job);
+    /// In slices: waits between two of them, for as long as this is so.
+    void pause(bool is_paused);
     /// What was finished since the last call.
     std::shared_ptr<const MadePicture> take_finished();
     /// Times that everything was made anew after a fault.
@@ -63,6 +65,7 @@ class PictureMaker {
 
   private:
     void run();
+    void wait_while_paused();
     void make_pictures(const ContextGroup::Member& member);
 
     SynthesiserEntry synthesiser_;
@@ -73,7 +76,7 @@ class PictureMaker {
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<PictureJob> job_;
-    bool is_ready_ = false, is_stopping_ = false;
+    bool is_ready_ = false, is_stopping_ = false, is_paused_ = false;
     std::shared_ptr<const MadePicture> finished_;
     int faults_ = 0;
     std::thread thread_;

@@ -130,13 +130,14 @@ void Programme::run() {
         bool is_begun = false;
         for (;;) {
             const MonotonicTime now = MonotonicClock::now();
-            if (was_due && !is_begun && maker_->is_idle()) {
+            if (!is_begun && maker_->is_idle() && (take_up_sought() || was_due)) {
                 begin_picture();
                 is_begun = true;
             }
             better_what_is_held(now);
             if (now >= due) break;
-            sleep_until(is_begun || !was_due ? due : std::min(due, now + look_period));
+            const bool is_done = is_begun || !(was_due || seek_);
+            sleep_until(is_done ? due : std::min(due, now + look_period));
         }
         follow_synthesiser();
         const std::uint64_t next = clock.next_tick(MonotonicClock::now());
@@ -172,6 +173,8 @@ bool Programme::look(double time_s, MonotonicTime now) {
     else if (seen_jumps_ != transport().jumps())
         moments_a_pulse_ = 1;
     follow_seek(now);
+    // What is held was left: its better picture waits for the first one of where time jumped to.
+    if (still_maker_) still_maker_->pause(seek_.has_value());
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
         const std::vector<SynthesiserEntry> all = synthesiser_entries();
@@ -228,13 +231,22 @@ void Programme::follow_seek(MonotonicTime now) {
         seek_.reset();
 }
 
+bool Programme::take_up_sought() {
+    if (!seek_) return false;
+    std::shared_ptr<const ReadyInstant> newest = instants_.newest();
+    if (!newest || newest->synthesiser != maker_->synthesiser() || newest == instant_) return false;
+    instant_ = std::move(newest);
+    return true;
+}
+
 void Programme::wish_for_instant(MonotonicTime now) {
     const bool is_resting = !transport().is_moving() && now - changed_ > rest;
-    instants_.wish(
-        {transport().pulse(), moments_a_pulse_, transport().is_held(),
-         view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
-         is_resting && !settings_.quality.level ? prepare_levels().front() : governor_.prepare(),
-         transport().jumps()});
+    const PrepareLevel& level = seek_ ? governor_.prepare_sought()
+                                : is_resting && !settings_.quality.level ? prepare_levels().front()
+                                                                         : governor_.prepare();
+    instants_.wish({transport().pulse(), moments_a_pulse_, transport().is_held(),
+                    view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
+                    level, transport().jumps()});
     if (instant_ && instant_->number != seen_prepared_ && transport().is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);

@@ -109,6 +109,9 @@ class Programme {
     void run();
     /// Asks hands and plans; true if a picture is due that would differ from the last one.
     bool look(double time_s, MonotonicTime now);
+    /// While a jump is waited for: what has become ready since the look is shown at the next tick,
+    /// not a tick later. True if something has.
+    bool take_up_sought();
     void wish_for_instant(MonotonicTime now);
     void begin_picture();
     void follow_seek(MonotonicTime now);

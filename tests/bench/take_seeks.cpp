@@ -9,7 +9,9 @@
 #include <opencv2/core.hpp>
 
 #include "common/base/error.h"
+#include "common/base/percentiles.h"
 #include "common/base/stop_signal.h"
+#include "common/base/time.h"
 #include "host_app/live/live_show.h"
 #include "host_app/takes/take_sets.h"
 #include "host_app/takes/take_show.h"
@@ -61,12 +63,19 @@ void measure(const Wanted& wanted) {
     const ProgrammeState played = show.state();
     cv::RNG random(wanted.seed);
     int wrong = 0;
+    PercentileRecorder asked_ms;
     for (int i = 0; i < wanted.seeks && !stop.requested(); ++i) {
         const double pulse = static_cast<double>(span.oldest) +
                              random.uniform(0.0, static_cast<double>(span.newest - span.oldest));
+        const MonotonicTime asked = MonotonicClock::now();
         show.controls().seek(pulse);
-        wrong += !shows(show, *sets->pulse_at(pulse));
-        std::this_thread::sleep_for(std::chrono::duration<double>(wanted.pause_s));
+        if (shows(show, *sets->pulse_at(pulse)))
+            asked_ms.add(ms_since(asked));
+        else
+            ++wrong;
+        // Between ticks, wherever.
+        std::this_thread::sleep_for(
+            std::chrono::duration<double>(wanted.pause_s * random.uniform(0.5, 1.5)));
     }
     show.finish();
     const ProgrammeBooks books = show.books();
@@ -80,6 +89,7 @@ void measure(const Wanted& wanted) {
         std::cout << fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", name, p.p50, p.p95,
                                  p.p99, p.max);
     };
+    row("command to picture", asked_ms.summary());
     row("jump to picture", books.seek_ms);
     row("waiting", books.seek_steps_ms.wait);
     row("fetching", books.seek_steps_ms.fetch);
@@ -98,7 +108,8 @@ int main(int argc, char** argv) {
     app.add_option("--size", wanted.size, "Of the picture")->capture_default_str();
     app.add_option("--rate", wanted.rate_hz, "Pictures a second")->capture_default_str();
     app.add_option("--play", wanted.play_s, "Seconds before the first jump")->capture_default_str();
-    app.add_option("--pause", wanted.pause_s, "Seconds between picture and next jump")
+    app.add_option("--pause", wanted.pause_s,
+                   "Seconds between picture and next jump, half as long to one and a half")
         ->capture_default_str();
     app.add_option("--seeks", wanted.seeks, "Jumps")
         ->check(CLI::Range(1, 4096))

@@ -174,5 +174,31 @@ TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
     EXPECT_FALSE(preparer_.set_memory()->states().at(0).is_loaded);
 }
 
+/// After a cut the picture comes first: a rig that is not in it learns from the next instant on.
+TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
+    std::vector<DepthView> views{film(false), film(false)};
+    views[1].name = "other";
+    const VirtualView target{width_px, height_px, views[0].K, views[0].world_from_camera};
+    const PrepareLevel one_rig{3, 1, false, false};
+    const auto learnt = [&] { return preparer_.set_memory()->learnt().rigs.size(); };
+    const auto show = [&](const PrepareLevel& level) {
+        return preparer_.prepare(target, level)->rigs.size();
+    };
+    preparer_.take(views, 0.2);
+    EXPECT_EQ(learnt(), 2u) << "no cut";
+    preparer_.forget();
+    preparer_.take(views, 0.2);
+    EXPECT_EQ(learnt(), 0u);
+    EXPECT_EQ(show(one_rig), 1u);
+    EXPECT_EQ(learnt(), 1u);
+    EXPECT_EQ(show(prepare_levels().front()), 2u) << "bettered, all are needed";
+    EXPECT_EQ(learnt(), 2u);
+    preparer_.forget();
+    preparer_.take(views, 0.2);
+    (void)show(one_rig);
+    preparer_.take(views, 0.2);
+    EXPECT_EQ(learnt(), 2u) << "nobody is left out for ever";
+}
+
 }  // namespace
 }  // namespace vantage

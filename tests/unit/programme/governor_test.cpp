@@ -166,6 +166,28 @@ TEST(Governor, LetsEveryClockFallByItself) {
     EXPECT_EQ(governor.prepare().rank, 1);
 }
 
+/// An instant may take as long as the pulses are apart, a jump may not.
+TEST(Governor, PreparesWhatIsJumpedToCheaplyWhereTheGovernedLevelWouldTakeLong) {
+    Governor governor(25, 5, {});
+    MonotonicTime now{1h};
+    const auto work = [&](double ms) {
+        governor.saw_prepare(governor.prepare().rank, ms, now);
+        now += 200ms;
+    };
+    const int cheapest = static_cast<int>(prepare_levels().size()) - 1;
+    EXPECT_EQ(governor.prepare_sought().rank, cheapest) << "nothing is known yet";
+    for (int i = 0; i < 100; ++i) work(10);
+    ASSERT_EQ(governor.prepare().rank, 0);
+    EXPECT_EQ(governor.prepare_sought().rank, 0);
+    for (int i = 0; i < 100; ++i) work(150);
+    EXPECT_EQ(governor.prepare().rank, 0) << "of 200 ms it may take 180";
+    EXPECT_EQ(governor.prepare_sought().rank, 1) << "which took 10 ms";
+
+    Governor fixed(25, 5, {1});
+    for (int i = 0; i < 10; ++i) fixed.saw_prepare(1, 150, now);
+    EXPECT_EQ(fixed.prepare_sought().rank, 1) << "as wished for";
+}
+
 TEST(Governor, KeepsTheLevelThatIsWishedFor) {
     Governor governor(50, 25, {2});
     MonotonicTime now{1h};

@@ -488,6 +488,30 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
     EXPECT_GT(steps.prepare.max, 0);
 }
 
+TEST_F(ProgrammeTest, APictureThatIsPausedWaitsBetweenItsSlices) {
+    make();
+    push(1);
+    ASSERT_TRUE(wait_for([&] { return instants_->newest() != nullptr; }));
+    const SynthesiserEntry entry = find_synthesiser(settings_.synthesiser);
+    PictureMaker still(entry, settings_.format, contexts_, instants_->right_of_way(),
+                       PictureMaker::Manner::in_slices);
+    PictureMaker other(entry, settings_.format, contexts_, instants_->right_of_way());
+    ASSERT_TRUE(wait_for([&] { return still.is_idle() && other.is_idle(); }));
+    const PictureJob job{instants_->newest(), {}, render_levels().front()};
+    still.pause(true);
+    still.start(job);
+    other.start(job);
+    ASSERT_TRUE(wait_for([&] { return other.take_finished() != nullptr; }));
+    EXPECT_EQ(still.take_finished(), nullptr);
+    EXPECT_FALSE(still.is_idle());
+    still.pause(false);
+    EXPECT_TRUE(wait_for([&] { return still.take_finished() != nullptr; }));
+    // One that is paused can be ended.
+    still.pause(true);
+    ASSERT_TRUE(wait_for([&] { return still.is_idle(); }));
+    still.start(job);
+}
+
 TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
     constexpr std::size_t set_bytes = 2 * 46 * 62 * (4 + 2);
     instants_settings_.replay_bytes = 3 * set_bytes;
