@@ -1,5 +1,7 @@
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string>
 
 #include "host_app/camera_paths/camera_path_file.h"
