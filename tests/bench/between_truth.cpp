@@ -191,9 +191,10 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                 if (!wanted.pictures.empty() && r == 1) {
                     std::filesystem::create_directories(wanted.pictures);
                     cv::Mat row;
-                    cv::hconcat(std::vector<cv::Mat>{truth, between[nearest][r].colour,
-                                                     between[moved][r].colour},
-                                row);
+                    cv::hconcat(
+                        std::vector<cv::Mat>{truth, between[nearest][r].colour,
+                                             between[blended][r].colour, between[moved][r].colour},
+                        row);
                     write_colour_image(std::filesystem::path(wanted.pictures) /
                                            fmt::format("set{}_{}_rig.png", set, moment),
                                        ColourImage(row));
@@ -263,8 +264,8 @@ int main(int argc, char** argv) {
     app.add_flag("--exact", wanted.with_exact_depth, "Depth of the stage, not of the matchers");
     app.add_flag("--rigs-only", without_camera, "No camera between the rigs");
     app.add_option("--pictures", wanted.pictures,
-                   "Folder for pictures: truth, nearest, along the motion; of the camera also "
-                   "blended");
+                   "Folder for pictures: truth, nearest, blended, along the motion; of the camera "
+                   "also filmed there");
     CLI11_PARSE(app, argc, argv);
     try {
         EglContext context;
