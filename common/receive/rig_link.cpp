@@ -19,7 +19,9 @@ namespace {
 /// since.
 constexpr std::chrono::seconds refusal_retry_period{2};
 constexpr std::chrono::milliseconds first_reconnect_wait{100};
-constexpr std::chrono::milliseconds longest_reconnect_wait{1000};
+constexpr std::chrono::milliseconds longest_reconnect_wait{500};
+/// The kernel asks a network that is down ever more seldom; a new attempt asks at once.
+constexpr std::chrono::milliseconds connect_limit{500};
 constexpr int send_high_water_mark = 8;
 constexpr std::size_t frame_parts = 3, kept_parts = 4;
 
@@ -69,6 +71,7 @@ void RigLink::open() {
     socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_part_bytes));
     socket_.set(zmq::sockopt::reconnect_ivl, option_ms(first_reconnect_wait));
     socket_.set(zmq::sockopt::reconnect_ivl_max, option_ms(longest_reconnect_wait));
+    socket_.set(zmq::sockopt::connect_timeout, option_ms(connect_limit));
     watch_for_dead_connections(socket_);
     socket_.set(zmq::sockopt::ipv6, endpoint.ipv6);
     if (!rig_.public_key.empty()) {

@@ -1,0 +1,208 @@
+// What a network does to the frames between a rig and a host, and what becomes of them.
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "common/receive/stage_receiver.h"
+#include "common/wire/curve_keys.h"
+#include "rig_firmware/stream/publisher.h"
+#include "tests/faults/impaired_road.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/wire_frames.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Far beyond what any of this takes; a test that waits so long has failed.
+constexpr auto patience = 60s;
+/// A stage of 25 pulses a second. A slow computer makes beats longer, and never shorter.
+constexpr auto beat_period = 40ms;
+/// Two seconds.
+constexpr int beats_to_recover = 50;
+constexpr int beats_of_trouble = 50;
+
+bool comes_true(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (std::chrono::steady_clock::now() < end) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(2ms);
+    }
+    return false;
+}
+
+struct NetworkFault {
+    std::string name;
+    RoadTrouble trouble;
+    std::chrono::milliseconds lasts = beats_of_trouble * beat_period;
+    friend void PrintTo(const NetworkFault& fault, std::ostream* out) { *out << fault.name; }
+};
+
+/// A stage of two rigs: "far", at the other end of an impaired road, and "near" on this computer.
+/// The stage beats once "near" has delivered, so that whatever it lost would be seen, however slow
+/// this computer is.
+class LinkFaults : public testing::TestWithParam<NetworkFault> {
+  protected:
+    void SetUp() override {
+        if (const std::string reason = ImpairedRoad::reason_against(); !reason.empty())
+            GTEST_SKIP() << "SKIPPED: " << reason;
+        road_ = std::make_unique<ImpairedRoad>();
+        const CurveKeys host_keys = generate_curve_keys();
+        write_key_file(folder_.path() / "host.key", host_keys);
+        write_key_file(folder_.path() / "rig.key", generate_curve_keys());
+        std::ofstream(folder_.path() / "hosts.keys") << host_keys.public_key << " the host\n";
+        RigConfig::Stream stream;
+        stream.jpeg_quality = 0;
+        stream.key_file = folder_.path() / "rig.key";
+        stream.authorized_hosts = folder_.path() / "hosts.keys";
+        stream.bind = "tcp://127.0.0.1:*";
+        near_ = std::make_unique<Publisher>(stream, "near");
+        stream.bind = "tcp://*:5600";
+        road_->at_the_rigs([&] { far_ = std::make_unique<Publisher>(stream, "far"); });
+        StageConfig stage;
+        stage.rate_hz = 25;
+        stage.latency_budget_ms = 200;
+        stage.key_file = folder_.path() / "host.key";
+        stage.rigs.push_back(
+            {"far", fmt::format("tcp://{}:5600", ImpairedRoad::rig_address), far_->public_key()});
+        stage.rigs.push_back({"near", near_->endpoint(), near_->public_key()});
+        host_ = std::make_unique<StageReceiver>(stage);
+        ASSERT_TRUE(comes_true([&] { return rig(far).connected && rig(near).connected; }));
+    }
+    void TearDown() override {
+        host_.reset();
+        far_.reset();
+        near_.reset();
+    }
+
+    enum Place : std::size_t { far, near };
+    RigStatus rig(Place place) const { return host_->status().rigs.at(place); }
+
+    /// Both rigs film a pulse.
+    void beat() {
+        const auto end = std::chrono::steady_clock::now() + beat_period;
+        far_->publish(make_frame(pulse_));
+        near_->publish(make_frame(pulse_));
+        ++pulse_;
+        ++beats_;
+        ASSERT_TRUE(comes_true([&] { return rig(near).received == beats_; }))
+            << "the rig beside has lost a frame";
+        while (host_->next(0s)) {
+        }
+        std::this_thread::sleep_until(end);
+    }
+    void beat(int times) {
+        for (int i = 0; i < times && !HasFatalFailure(); ++i) beat();
+    }
+
+    std::unique_ptr<ImpairedRoad> road_;
+    TemporaryFolder folder_;
+    std::unique_ptr<Publisher> far_, near_;
+    std::unique_ptr<StageReceiver> host_;
+    std::uint64_t pulse_ = 1000, beats_ = 0;
+};
+
+TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
+    beat(5);
+    ASSERT_TRUE(comes_true([&] { return rig(far).received > 0; }));
+
+    const NetworkFault& fault = GetParam();
+    road_->impair(fault.trouble);
+    const auto end = std::chrono::steady_clock::now() + fault.lasts;
+    while (std::chrono::steady_clock::now() < end && !HasFatalFailure()) beat();
+    road_->impair({});
+
+    // It is back when a pulse is seen that was filmed after the trouble.
+    const std::uint64_t first_after = pulse_;
+    int beats = 0;
+    bool is_back = false;
+    while (!is_back && beats < 10 * beats_to_recover && !HasFatalFailure()) {
+        far_->publish(make_frame(pulse_));
+        near_->publish(make_frame(pulse_));
+        ++pulse_, ++beats_, ++beats;
+        std::this_thread::sleep_for(beat_period);
+        while (const auto set = host_->next(0s))
+            is_back |= set->trigger_index >= first_after && set->slots.at(far).frame;
+    }
+    EXPECT_TRUE(is_back);
+    EXPECT_LE(beats, beats_to_recover) << "pulses that it took to be back";
+    RecordProperty("pulses_to_recover", beats);
+
+    // Nothing is under way any more: every frame is in one counter.
+    ASSERT_TRUE(comes_true([&] {
+        while (host_->next(0s)) {
+        }
+        const RigStatus status = rig(far);
+        return status.rig_counters.published == beats_ &&
+               status.link.sent + status.link.send_dropped == status.link.offered &&
+               status.received + status.lost == status.link.sent;
+    })) <<
+        [&] {
+            const RigStatus s = rig(far);
+            return fmt::format(
+                "published {} of {}, offered {}, sent {}, dropped {}, received {}, "
+                "lost {}",
+                s.rig_counters.published, beats_, s.link.offered, s.link.sent, s.link.send_dropped,
+                s.received, s.lost);
+        }();
+    ASSERT_TRUE(comes_true([&] {
+        while (host_->next(0s)) {
+        }
+        const RigStatus status = rig(far);
+        return status.in_sets + status.late == status.received;
+    }));
+    const RigStatus status = rig(far);
+    // A rig whose host is gone for seconds offers frames to nobody.
+    if (fault.lasts <= 3s) {
+        EXPECT_EQ(status.link.offered, beats_);
+    }
+    EXPECT_LE(status.link.offered, beats_);
+    EXPECT_EQ(status.duplicate, 0u);
+    EXPECT_EQ(status.undecodable, 0u) << status.last_error;
+    EXPECT_EQ(status.restarts, 0u);
+    EXPECT_EQ(status.queue_dropped, 0u);
+    const ImpairedRoad::Counts on_the_road = road_->counts();
+    EXPECT_TRUE(fault.trouble.delay > 0ms || on_the_road.lost + on_the_road.duplicated +
+                                                     on_the_road.corrupted + on_the_road.late >
+                                                 0)
+        << "there was no trouble";
+    // And the rig beside has noticed nothing.
+    const RigStatus beside = rig(near);
+    EXPECT_EQ(beside.received, beats_);
+    EXPECT_EQ(beside.lost, 0u);
+    EXPECT_EQ(beside.link.send_dropped, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Matrix, LinkFaults,
+    testing::Values(NetworkFault{"Loss1", {.lose_every = 100}},
+                    NetworkFault{"Loss3", {.lose_every = 33}},
+                    NetworkFault{"Loss7", {.lose_every = 14}},
+                    NetworkFault{"Loss10", {.lose_every = 10}},
+                    NetworkFault{"Burst40ms", {.is_down = true}, 40ms},
+                    NetworkFault{"Jitter20ms", {.late_every = 3, .late_by = 20ms}},
+                    NetworkFault{"Jitter40ms", {.late_every = 2, .late_by = 40ms}},
+                    NetworkFault{"Reorder", {.late_every = 5, .late_by = 1ms}},
+                    NetworkFault{"Duplicate", {.duplicate_every = 3}},
+                    NetworkFault{"Corrupt3", {.corrupt_every = 33}},
+                    NetworkFault{"Corrupt10", {.corrupt_every = 10}},
+                    NetworkFault{"RoundTrip1ms", {.delay = 1ms}},
+                    NetworkFault{"RoundTrip20ms", {.delay = 10ms}},
+                    NetworkFault{"RoundTrip100ms", {.delay = 50ms}},
+                    NetworkFault{"Loss3At20ms", {.lose_every = 33, .delay = 10ms}},
+                    NetworkFault{"Loss10At100ms", {.lose_every = 10, .delay = 50ms}},
+                    NetworkFault{"Down100ms", {.is_down = true}, 100ms},
+                    NetworkFault{"Down1s", {.is_down = true}, 1s},
+                    NetworkFault{"Down10s", {.is_down = true}, 10s},
+                    // By then the kernel's own attempts are six seconds apart.
+                    NetworkFault{"Down12s", {.is_down = true}, 11900ms}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace vantage
