@@ -25,7 +25,7 @@ struct RoadTrouble {
     unsigned corrupt_every = 0;    ///< of every n-th packet one byte is another
     unsigned late_every = 0;       ///< every n-th packet comes `late_by` after its time
     std::chrono::milliseconds late_by{0};
-    std::chrono::milliseconds delay{0};  ///< of all packets
+    std::chrono::microseconds delay{0};  ///< of all packets
     bool is_down = false;                ///< nothing comes through
 };
 
