@@ -84,6 +84,11 @@ UniqueFd open_end(const char* address, const char* other) {
     if (!socket) cannot("a socket");
     set_address(socket, request, SIOCSIFADDR, address);
     set_address(socket, request, SIOCSIFDSTADDR, other);
+    // Nothing is lost but what is meant to be: longer than what TCP has under way.
+    constexpr int packets_waiting = 10000;
+    request.ifr_qlen = packets_waiting;
+    if (::ioctl(socket.get(), SIOCSIFTXQLEN, &request) != 0)
+        cannot("a longer queue of a TUN device");
     set_up(socket, request);
     ifreq loopback{};
     std::strncpy(loopback.ifr_name, "lo", IFNAMSIZ - 1);
