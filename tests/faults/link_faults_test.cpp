@@ -116,7 +116,13 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     const NetworkFault& fault = GetParam();
     road_->impair(fault.trouble);
     const auto end = std::chrono::steady_clock::now() + fault.lasts;
-    while (std::chrono::steady_clock::now() < end && !HasFatalFailure()) beat();
+    // A slow computer sends few packets: until the trouble has met one.
+    const auto has_met = [&] {
+        const ImpairedRoad::Counts counts = road_->counts();
+        return fault.trouble.delay > 0ms ||
+               counts.lost + counts.duplicated + counts.corrupted + counts.late > 0;
+    };
+    while ((std::chrono::steady_clock::now() < end || !has_met()) && !HasFatalFailure()) beat();
     road_->impair({});
 
     // It is back when a pulse is seen that was filmed after the trouble.
@@ -163,11 +169,6 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     EXPECT_EQ(status.undecodable, 0u) << status.last_error;
     EXPECT_EQ(status.restarts, 0u);
     EXPECT_EQ(status.queue_dropped, 0u);
-    const ImpairedRoad::Counts on_the_road = road_->counts();
-    EXPECT_TRUE(fault.trouble.delay > 0ms || on_the_road.lost + on_the_road.duplicated +
-                                                     on_the_road.corrupted + on_the_road.late >
-                                                 0)
-        << "there was no trouble";
     // And the rig beside has noticed nothing.
     const RigStatus beside = rig(near);
     EXPECT_EQ(beside.received, beats_);
