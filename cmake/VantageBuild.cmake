@@ -171,9 +171,10 @@ file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
-# those that only the latter does, `e2e` those that run alone, `gl` those that draw: tests/bench/gpu_day.sh
-# runs them on a GPU, by the names in build/PRESET/gl_tests. A test is a process, but for those of TOGETHER: these
-# suites make something costly once for all their tests, and each is a process and one test of CTest.
+# those that only the latter does, `e2e` those that run alone, `faults` those that ./test leaves to ./test --all, `gl`
+# those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A test is a process,
+# but for those of TOGETHER: these suites make something costly once for all their tests, and each is a process and one
+# test of CTest.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;TOGETHER" ${ARGN})
   if(NOT ARG_TIMEOUT)

@@ -184,6 +184,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
         next_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
                                                      instants_.right_of_way());
+        if (still_maker_) still_maker_->pause(false);
         retired_still_ = std::move(still_maker_);
         begun_still_.reset();
     }
