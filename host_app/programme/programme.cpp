@@ -55,6 +55,7 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
     // The first instant is prepared for where the camera begins.
     view_ = pilot_.step(0, transport().pulse()).view;
     camera_ = view_.camera();
+    forecast_.see(camera_, 0);
     wish_for_instant(MonotonicClock::now());
     instants_.prepare_for(entry_.name, entry_.make_preparer);
     maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
@@ -193,6 +194,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
         changed_ = now;
     view_ = step.view;
     camera_ = camera;
+    forecast_.see(camera_, time_s);
     wish_for_instant(now);
     {
         const std::lock_guard lock(mutex_);
@@ -240,13 +242,20 @@ bool Programme::take_up_sought() {
     return true;
 }
 
+double Programme::shown_in_s() const {
+    if (!instant_) return 0;
+    const double prepare_s = instant_->prepare_ms / 1000;
+    return prepare_s + 0.5 * std::max(prepare_s, 1 / settings_.pulse_rate_hz);
+}
+
 void Programme::wish_for_instant(MonotonicTime now) {
     const bool is_resting = !transport().is_moving() && now - changed_ > rest;
     const PrepareLevel& level = seek_ ? governor_.prepare_sought()
                                 : is_resting && !settings_.quality.level ? prepare_levels().front()
                                                                          : governor_.prepare();
     instants_.wish({transport().pulse(), moments_a_pulse_, transport().is_held(),
-                    view_of(camera_, {settings_.format.width_px, settings_.format.height_px}),
+                    view_of(forecast_.in(shown_in_s()),
+                            {settings_.format.width_px, settings_.format.height_px}),
                     level, transport().jumps()});
     if (instant_ && instant_->number != seen_prepared_ && transport().is_moving()) {
         seen_prepared_ = instant_->number;

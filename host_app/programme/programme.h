@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/percentiles.h"
+#include "host_app/flight/camera_forecast.h"
 #include "host_app/flight/pilot.h"
 #include "host_app/instants/instant_thread.h"
 #include "host_app/output/picture_sink.h"
@@ -113,6 +114,8 @@ class Programme {
     /// not a tick later. True if something has.
     bool take_up_sought();
     void wish_for_instant(MonotonicTime now);
+    /// Until the middle of the time for which an instant that is wished for now will be shown.
+    double shown_in_s() const;
     void begin_picture();
     void follow_seek(MonotonicTime now);
     void better_what_is_held(MonotonicTime now);
@@ -140,6 +143,7 @@ class Programme {
     std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;
     OrbitView view_;
     CameraState camera_;
+    CameraForecast forecast_;
     std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
     /// A jump in time of which no picture is there yet.
     struct Seek {
