@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
@@ -17,6 +18,11 @@ void BoardOptions::add_to(CLI::App& command) {
     CLI::Option* description = command.add_option(
         "--board-file", files, "description of the board that `vantage-calib board` wrote");
     board->needs(square)->excludes(description);
+    board->check([](const std::string& text) {
+        return text.ends_with(".toml")
+                   ? fmt::format("{} describes a board: give it as --board-file {}", text, text)
+                   : std::string();
+    });
     square->needs(board)->excludes(description);
 }
 

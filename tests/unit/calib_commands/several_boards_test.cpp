@@ -64,6 +64,13 @@ TEST(BoardCommand, names_the_sheet_that_was_asked_for_though_a_smaller_one_would
     EXPECT_THAT(drawn.out, HasSubstr("which fits a4"));
 }
 
+TEST(BoardCommand, the_file_of_a_board_is_not_its_corners) {
+    const ProgramResult result =
+        run_to_end(VANTAGE_CALIB, {"intrinsics", "--board", "board.toml", "one.png"});
+    EXPECT_NE(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("give it as --board-file board.toml"));
+}
+
 TEST(BoardCommand, keeps_what_somebody_measured_on_the_print) {
     const TemporaryFolder folder;
     const std::string board = folder.path() / "board", file = board + ".toml";
