@@ -10,9 +10,9 @@ layout(location = 0) out float with_floor;
 
 const float window_px = 1.5;     // from the middle to the sides of what is compared
 const float like_colour = 0.1;   // mean difference (0..1) at which a pixel's weight is 1/e
-// Mean colour differences (0..1): beyond which nothing is more unlike, by which the floor may be more unlike than a depth
-// that is known, what one that is not counts as, and what may be the floor though the pixel's own depth is far from it.
-const float most_unlike = 0.15, grace = 0.01, unknown = 0.02, alike = 0.06;
+// Mean colour differences (0..1): beyond which nothing is more unlike, by which the floor may be more unlike than the
+// pixel's own depth, and what may be the floor though that depth is far from it.
+const float most_unlike = 0.15, grace = 0.01, alike = 0.06;
 const float near = 2.0;          // deviations of a measured depth
 
 vec3 window[9];    // this rig's picture around the pixel
@@ -69,11 +69,9 @@ void main() {
     float own = texelFetch(before, at, 0).r, nearness = dot(floor_plane, vec3(pixel, 1.0));
     with_floor = own;
     const float horizon = 1e-3;
-    if (nearness < horizon) return;
+    if (own <= 0.0 || nearness < horizon) return;
     look_around(pixel);
     float on_floor = unlike_on(pixel, floor_plane);
-    bool is_near = own > 0.0 && abs(nearness - 1.0 / own) < near * spread;
-    if (on_floor > alike && !is_near) return;
-    float as_it_is = own > 0.0 ? unlike_on(pixel, vec3(0.0, 0.0, 1.0 / own)) : unknown;
-    if (on_floor < as_it_is + grace) with_floor = 1.0 / nearness;
+    if (on_floor > alike && abs(nearness - 1.0 / own) > near * spread) return;
+    if (on_floor < unlike_on(pixel, vec3(0.0, 0.0, 1.0 / own)) + grace) with_floor = 1.0 / nearness;
 }

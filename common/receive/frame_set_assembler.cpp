@@ -12,6 +12,9 @@ constexpr std::chrono::seconds silence_limit{1};
 /// A rig this far behind the others does not lag, it counts differently.
 constexpr std::chrono::seconds behind_limit{5};
 
+/// Late frames in a row, after which a rig lags.
+constexpr int lagging_after = 10;
+
 /// A rig in play may be late by the budget, and miss one of the pulses it is asked for.
 std::chrono::nanoseconds patience(const FrameSetAssembler::Options& options,
                                   std::uint32_t rate_divisor) {
@@ -47,9 +50,16 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     if (step.began_anew) {
         if (!open_.empty()) close_through(open_.rbegin()->first, arrival);
         last_closed_.reset();
+        closed_deadlines_.clear();
     }
     if (step.verdict == StageStep::Verdict::out_of_step) return FrameFate::out_of_step;
-    if (last_closed_ && index <= *last_closed_) return FrameFate::late;
+    if (last_closed_ && index <= *last_closed_) {
+        const auto closed = closed_deadlines_.find(index);
+        const bool was_in_budget = closed != closed_deadlines_.end() && arrival <= closed->second;
+        rig.late_in_a_row = was_in_budget ? 0 : std::min(rig.late_in_a_row + 1, lagging_after);
+        return FrameFate::late;
+    }
+    rig.late_in_a_row = 0;
 
     auto [place, opened] = open_.try_emplace(index);
     OpenSet& set = place->second;
@@ -99,7 +109,15 @@ bool FrameSetAssembler::in_play(std::size_t number, std::uint64_t index, Monoton
     const Rig& rig = rigs_[number];
     return rig.connected && !rig.unsynchronized && rig.newest &&
            now - rig.heard <= patience(options_, rig.rate_divisor) && asked_for(number, index) &&
-           step_.verdict(number) == StageStep::Verdict::in_step;
+           !is_out_of_step(number) && !lags(number);
+}
+
+bool FrameSetAssembler::is_out_of_step(std::size_t rig) const {
+    return step_.verdict(rig) == StageStep::Verdict::out_of_step;
+}
+
+bool FrameSetAssembler::lags(std::size_t rig) const {
+    return rigs_[rig].late_in_a_row >= lagging_after;
 }
 
 bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSet& set,
@@ -115,7 +133,7 @@ Absence FrameSetAssembler::absence(std::size_t rig, std::uint64_t index) const {
     if (!rigs_[rig].connected) return Absence::disconnected;
     if (!asked_for(rig, index)) return Absence::not_asked;
     if (rigs_[rig].unsynchronized) return Absence::unsynchronized;
-    if (step_.verdict(rig) == StageStep::Verdict::out_of_step) return Absence::out_of_step;
+    if (is_out_of_step(rig)) return Absence::out_of_step;
     if (rigs_[rig].newest && *rigs_[rig].newest > index) return Absence::missed_by_rig;
     return Absence::late;
 }
@@ -132,6 +150,9 @@ void FrameSetAssembler::close_through(std::uint64_t index, MonotonicTime now) {
             set.slots.push_back({rigs_[rig].name, std::move(frame), why});
         }
         last_closed_ = set.trigger_index;
+        closed_deadlines_[set.trigger_index] = node.mapped().deadline;
+        if (closed_deadlines_.size() > max_open_sets)
+            closed_deadlines_.erase(closed_deadlines_.begin());
         closed_.push_back(std::move(set));
     }
 }

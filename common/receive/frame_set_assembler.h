@@ -29,8 +29,9 @@ enum class FrameFate {
 /// budget is up; the budget counts from that first frame, not from the exposure, so that it bounds
 /// what one rig can cost the others whatever the rigs' own latency is and however the host's clock
 /// is set. Sets close in the order of their pulses. In play is a rig that is connected, is asked
-/// for the pulse, and was not silent for longer than the latency budget and two periods of what it
-/// is asked for; it is again with its next frame.
+/// for the pulse, was not silent for longer than the latency budget and two periods of what it is
+/// asked for (it is again with its next frame), and does not lag: one whose frames have all come
+/// beyond the budget for a while is not waited for until one comes within it.
 ///
 /// Frames that name no pulse of the stage are never joined with another rig's; only on a stage of a
 /// single rig are they taken as they come.
@@ -64,6 +65,11 @@ class FrameSetAssembler {
     /// When take_closed() has to be called again at the latest; empty while no set is open.
     std::optional<MonotonicTime> next_deadline() const;
 
+    /// Whether the rig counts pulses differently from the rest of the stage.
+    bool is_out_of_step(std::size_t rig) const;
+    /// Whether its frames come so late that it is not waited for.
+    bool lags(std::size_t rig) const;
+
     std::size_t open_sets() const { return open_.size(); }
 
   private:
@@ -79,6 +85,7 @@ class FrameSetAssembler {
         std::optional<std::uint64_t> session;
         std::optional<std::uint64_t> newest;  ///< index
         MonotonicTime heard{};                ///< when that came
+        int late_in_a_row = 0;
     };
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;
@@ -92,6 +99,7 @@ class FrameSetAssembler {
     StageStep step_;
     std::map<std::uint64_t, OpenSet> open_;
     std::optional<std::uint64_t> last_closed_;
+    std::map<std::uint64_t, MonotonicTime> closed_deadlines_;  ///< of the sets that closed last
     std::vector<FrameSet> closed_;
 };
 

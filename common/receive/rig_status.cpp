@@ -50,8 +50,11 @@ std::string trouble_of(const RigStatus& rig) {
         return rig.unreachable.empty() ? fmt::format("nothing was heard from {}", rig.endpoint)
                                        : rig.unreachable;
     if (std::string worry = rate_worry(rig); !worry.empty()) return worry;
-    if (rig.out_of_step > 0 && rig.in_sets == 0)
+    if (rig.is_out_of_step)
         return "it counts pulses differently from the rest of the stage: is its clock set?";
+    if (rig.lags)
+        return "its frames come beyond the latency budget, and nobody waits for them: is its clock "
+               "set, is its network slow?";
     if (rig.unsynchronized > 0 && rig.in_sets == 0)
         return "its pictures name no pulse of the stage: give it a trigger";
     return {};

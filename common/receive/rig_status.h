@@ -38,8 +38,10 @@ struct RigStatus {
     std::uint64_t late = 0;             ///< frames that came after their set was closed
     std::uint64_t duplicate = 0;        ///< frames of a pulse this rig had delivered already
     std::uint64_t unsynchronized = 0;   ///< frames that name no pulse of the stage
-    std::uint64_t out_of_step =
-        0;  ///< frames of a rig that counts pulses differently from the rest
+    /// Frames of a rig that counted pulses differently from the rest.
+    std::uint64_t out_of_step = 0;
+    bool is_out_of_step = false;      ///< it does so now
+    bool lags = false;                ///< its frames come so late that it is not waited for
     std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy
     LinkCounters link;         ///< of the frames on their way to this host, as the rig counts
     RigCounters rig_counters;  ///< as the rig counts

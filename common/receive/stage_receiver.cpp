@@ -173,9 +173,22 @@ struct StageReceiver::Impl {
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
             assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
             assembler.set_asked(i, rig.wish.streaming ? rig.wish.rate_divisor : 0);
+            note_step(rig, assembler.is_out_of_step(i), assembler.lags(i));
         }
         collect_closed(now);
         start_take(now);
+    }
+
+    /// Precondition: mutex is held.
+    static void note_step(Rig& rig, bool is_out_of_step, bool lags) {
+        const bool was_wrong = rig.status.is_out_of_step || rig.status.lags;
+        rig.status.is_out_of_step = is_out_of_step;
+        rig.status.lags = lags;
+        const bool is_wrong = is_out_of_step || lags;
+        if (is_wrong && !was_wrong)
+            log_warning("rig {}: {}", rig.status.rig, trouble_of(rig.status));
+        else if (was_wrong && !is_wrong)
+            log_info("rig {} is in step again", rig.status.rig);
     }
 
     /// Precondition: mutex is held.

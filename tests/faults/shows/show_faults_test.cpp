@@ -106,14 +106,16 @@ class ShowFaults : public testing::Test {
         const std::size_t last = log.rfind("rig far is ");
         return last != std::string::npos && log.compare(last + 11, state.size(), state) == 0;
     }
-    std::size_t progress() const {
+    /// In the host's log.
+    std::size_t count_of(const std::string& words) const {
         const std::string log = host_->err();
-        std::size_t lines = 0;
-        for (std::size_t at = log.find(" pictures, "); at != std::string::npos;
-             at = log.find(" pictures, ", at + 1))
-            ++lines;
-        return lines;
+        std::size_t count = 0;
+        for (std::size_t at = log.find(words); at != std::string::npos;
+             at = log.find(words, at + 1))
+            ++count;
+        return count;
     }
+    std::size_t progress() const { return count_of(" pictures, "); }
     void wait_for_progress() {
         const std::size_t now = progress();
         ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
@@ -224,11 +226,19 @@ TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
     ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
-    for (const int set : {SIGUSR1, SIGUSR2, SIGUSR2, SIGUSR1}) {  // ahead, right, back, right
-        far_->send_signal(set);
-        wait_for_progress();
-        wait_for_progress();
-    }
+    std::size_t times_right = 0;
+    const auto expect_to_be_named_until = [&](const std::string& trouble, int right) {
+        wait_for(*host_, trouble);
+        far_->send_signal(right);
+        ++times_right;
+        ASSERT_TRUE(comes([&] { return count_of("rig far is in step again") == times_right; }))
+            << host_->err();
+    };
+    const int ahead = SIGUSR1, back = SIGUSR2;
+    far_->send_signal(ahead);
+    expect_to_be_named_until("rig far: it counts pulses differently", back);
+    far_->send_signal(back);
+    expect_to_be_named_until("rig far: its frames come beyond the latency budget", ahead);
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 const cv::Size size{161, 119};
-/// On the floor, and taken for what stands before it.
+/// On the floor, and taken for something beyond it.
 const cv::Rect strip(70, 60, 16, 30);
 
 /// A rig that looks down at a plain floor at y = 0, beside others `aside_m` away.
@@ -39,7 +39,7 @@ class RigFloorTest : public testing::Test {
     DepthImage bettered(const cv::Vec4b& strip_colour, double eye_height_m = 1.5) {
         DepthView own = film_of_floor(0, eye_height_m);
         floor_m_ = own.depth_m.clone();
-        wrong_m_ = 0.8f * floor_m_;
+        wrong_m_ = 1.4f * floor_m_;
         wrong_m_(strip).copyTo(own.depth_m(strip));
         own.colour(strip) = strip_colour;
         const DepthView rigs[] = {own, film_of_floor(-0.4, eye_height_m),

@@ -103,6 +103,43 @@ TEST(FrameSetAssembler, RigsThatAreAllAtAnotherRateAreJoined) {
     }
 }
 
+TEST(FrameSetAssembler, ARigThatLagsIsWaitedForAgainOnceItComesWithinTheBudget) {
+    Stage stage(2);
+    start(stage, 2, 100);
+    std::uint64_t index = 101;
+    // Rig 1 has the pulse of ten before, as if its clock had been set back.
+    const auto lag = [&] {
+        stage.at(index, 10ms);
+        stage.frame(0, index++);
+        stage.frame(1, index - 10);
+    };
+    for (int i = 0; i < 20; ++i) {
+        lag();
+        if (stage.assembler().lags(1)) break;
+        EXPECT_THAT(stage.closed_indices(), testing::Not(testing::Contains(index - 1)))
+            << "it is waited for";
+    }
+    ASSERT_TRUE(stage.assembler().lags(1));
+    stage.closed();
+    for (int i = 0; i < 5; ++i) {
+        lag();
+        EXPECT_THAT(stage.closed_indices(), testing::Contains(index - 1));
+    }
+    // From now on it is 50 ms behind the other, which is within the budget.
+    stage.at(index, 10ms);
+    stage.frame(0, index);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
+    stage.pass(50ms);
+    EXPECT_EQ(stage.frame(1, index), FrameFate::late);
+    EXPECT_FALSE(stage.assembler().lags(1));
+    stage.at(++index, 10ms);
+    stage.frame(0, index);
+    EXPECT_THAT(stage.closed_indices(), IsEmpty());
+    stage.pass(50ms);
+    EXPECT_EQ(stage.frame(1, index), FrameFate::in_set);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
+}
+
 TEST(FrameSetAssembler, ASetClosesAtOnceWhenEveryRigHasDelivered) {
     Stage stage(3);
     start(stage, 3, 100);

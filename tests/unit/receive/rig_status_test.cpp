@@ -49,10 +49,11 @@ TEST(RigStatus, SaysWhyARigIsNotConnected) {
 
 TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
     RigStatus rig = good_rig();
-    rig.out_of_step = 5;
+    rig.is_out_of_step = true;
     EXPECT_THAT(trouble_of(rig), HasSubstr("counts pulses differently"));
-    rig.in_sets = 1;
-    EXPECT_EQ(trouble_of(rig), "");
+    rig = good_rig();
+    rig.lags = true;
+    EXPECT_THAT(trouble_of(rig), HasSubstr("beyond the latency budget"));
     rig = good_rig();
     rig.unsynchronized = 5;
     EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
