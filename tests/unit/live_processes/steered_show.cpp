@@ -16,6 +16,16 @@ std::vector<std::string> steered(std::vector<std::string> arguments, int port, i
     return arguments;
 }
 
+/// False if that does not come in a minute.
+template <class Condition>
+bool comes(Condition condition) {
+    for (int i = 0; i < 3000; ++i) {
+        if (condition()) return true;
+        usleep(20'000);
+    }
+    return false;
+}
+
 }  // namespace
 
 SteeredShow::SteeredShow(std::vector<std::string> arguments, const TemporaryFolder& folder)
@@ -33,11 +43,7 @@ bool SteeredShow::send(const std::string& words) const {
 }
 
 bool SteeredShow::is_told(const std::string& words) const {
-    for (int i = 0; i < 3000; ++i) {
-        if (watcher_.out().find(words) != std::string::npos) return true;
-        usleep(20'000);
-    }
-    return false;
+    return comes([&] { return watcher_.out().find(words) != std::string::npos; });
 }
 
 std::string SteeredShow::lamp(const std::string& name) const {
@@ -57,19 +63,14 @@ std::string SteeredShow::lamp(const std::string& name) const {
 }
 
 bool SteeredShow::shows(const std::string& name, const std::string& value) const {
-    for (int i = 0; i < 3000; ++i) {
-        if (lamp(name) == value) return true;
-        usleep(20'000);
-    }
-    return false;
+    return comes([&] { return lamp(name) == value; });
 }
 
 bool SteeredShow::goes_past(const std::string& name, double value) const {
-    for (int i = 0; i < 3000; ++i) {
-        if (const std::string now = lamp(name); !now.empty() && std::stod(now) > value) return true;
-        usleep(20'000);
-    }
-    return false;
+    return comes([&] {
+        const std::string now = lamp(name);
+        return !now.empty() && std::stod(now) > value;
+    });
 }
 
 }  // namespace vantage
