@@ -1,11 +1,29 @@
-// A rig's colours of this instant: the set's without noise, where it is seen, and the performers' as they are.
+// The colours of a rig's set at this instant, behind its performers too. Alpha says how far they count: what is only
+// remembered hardly does.
+#include "set_kinds.glsl"
+
 uniform sampler2D picture;
+uniform sampler2D seen;        // from set_see.frag
+uniform sampler2D matte;       // the performers' share
 uniform sampler2D set_colour;  // from set_colour.frag: alpha is 1 where the set is seen now
+uniform sampler2D performers;  // their depth, metres, 0 = none there nor beside
+uniform sampler2D set_depth;   // from set_show.frag, metres, negative = guessed
+uniform float remembered;      // alpha of what is
+
+const float before = 0.97;  // share of the set's depth: what is farther than that does not stand before it
 
 layout(location = 0) out vec4 colour;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 set = texelFetch(set_colour, at, 0);
-    colour = vec4(set.a == 1.0 ? set.rgb : texelFetch(picture, at, 0).rgb, 1.0);
+    colour = texelFetch(set_colour, at, 0);
+    if (colour.a == 1.0) return;
+    vec2 uv = gl_FragCoord.xy / vec2(textureSize(picture, 0));
+    // Beside a performer, too, what is neither of the set nor of the performer is not what was there before.
+    float share = texelFetch(matte, at, 0).r;
+    bool is_third = share == 0.0 && is_kind(textureLod(seen, uv, 0.0).r, untold);
+    float performer_m = abs(textureLod(performers, uv, 0.0).r);
+    bool stands_before = performer_m > 0.0 && performer_m < before * abs(textureLod(set_depth, uv, 0.0).r);
+    bool is_now = is_third || !stands_before;
+    colour = is_now ? vec4(texelFetch(picture, at, 0).rgb, 1.0) : vec4(colour.rgb, share < 0.5 ? colour.a : remembered);
 }

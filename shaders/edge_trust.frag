@@ -11,6 +11,7 @@ uniform float edge_ratio;     // two depths whose ratio is larger lie on two sur
 layout(location = 0) out vec4 trusted;
 
 const float least_trust = 0.02;  // something is better than nothing
+const float least_alpha = 1.0 / 255.0;
 
 float depth_at(ivec2 at, ivec2 picture_size) {
     ivec2 size = textureSize(depth_map, 0);
@@ -29,5 +30,5 @@ void main() {
         }
     float pure = (sqrt(nearest) - 1.0) / float(REACH);
     vec4 own_colour = texelFetch(picture, at, 0);
-    trusted = vec4(own_colour.rgb, own_colour.a * mix(least_trust, 1.0, pure * pure));
+    trusted = vec4(own_colour.rgb, max(own_colour.a * mix(least_trust, 1.0, pure * pure), own_colour.a > 0.0 ? least_alpha : 0.0));
 }

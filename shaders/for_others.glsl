@@ -4,7 +4,9 @@
 #endif
 
 // Runs X(0), X(1), ... for every other rig: samplers take constant indices only.
-#if OTHERS == 1
+#if OTHERS == 0
+#define FOR_OTHERS(X)
+#elif OTHERS == 1
 #define FOR_OTHERS(X) X(0)
 #elif OTHERS == 2
 #define FOR_OTHERS(X) X(0) X(1)

@@ -46,6 +46,7 @@ struct Evidence {
     float apart;     // from the nearest line of sight that supports it
     float say;       // of the next rig, 0..1
     float seen;      // how well that one sees it that does best, 0..1
+    float trust;     // the most in a rig's colour, 0..1
 };
 
 // The share of a rig's four pixels around a point that lie on its surface.
@@ -103,6 +104,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     float weight = e.say * seen * finer * finer * closeness(away);
     e.seen = max(e.seen, seen);
     e.apart = min(e.apart, away);
+    e.trust = max(e.trust, middle.a);
     // The most useful rigs come first; finesse is lost on what hardly counts beside them.
     vec3 c = middle.rgb;
     if (weight > least_share * e.weight) {
@@ -135,7 +137,7 @@ float say_of_others(vec2 pixel, float z, Evidence e) {
 #endif
 
 Evidence gather(vec2 pixel, float z, vec2 slope, bool near_edge) {
-    Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0);
+    Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0);
     // Within a surface, where others have a say, the first two see little.
     const bool are_first_fine = EDGES == 1 || FIRST_RIGS_ONLY == 1 || LAYERS <= 2;
 #define ADD(i) add(i, colour[i], source_depth[i], pixel, z, slope, near_edge, i >= 2 || are_first_fine, e);
@@ -239,7 +241,7 @@ void main() {
     bool is_known = near.own > 0.0;
     if (wa > wb ? a.apart > far_aside && !is_clear(pixel, z) : b.apart > far_aside && !is_clear(pixel, other))
         is_known = false;
-    tell(vec4(c / (wa + wb), is_known ? 1.0 : 0.25), wa > wb ? z : other,
+    tell(vec4(c / (wa + wb), alpha_of(is_known, wa > wb ? a.trust : b.trust)), wa > wb ? z : other,
          (wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
              (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
 }
@@ -261,6 +263,6 @@ void main() {
     if (e.weight == 0.0) return;
     bool is_known = own > 0.0 && (e.apart <= far_aside || is_clear(pixel, z));
 #endif
-    tell(vec4(e.sum / e.weight, is_known ? 1.0 : 0.25), z, e.shares / e.weight);
+    tell(vec4(e.sum / e.weight, alpha_of(is_known, e.trust)), z, e.shares / e.weight);
 }
 #endif

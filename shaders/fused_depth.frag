@@ -1,31 +1,69 @@
 // The surface at every pixel of the virtual view: the nearest one that one of the two most useful rigs has measured, or,
 // where neither has, another rig, averaged over the rigs that agree on it within a soft distance. From farther aside
-// errors of depth are longer, and would stand before what those two see. A guessed depth counts only where nobody
-// measured.
+// errors of depth are longer, and would stand before what those two see. What more rigs see through than have it is not
+// there, nor what as many do in whose pictures it looks otherwise (votes for and against a surface, after Penner and
+// Zhang, Soft 3D reconstruction, 2017): the next one behind it counts, if there is one for which rigs vote. A guessed
+// depth counts only where nobody measured.
 #include "rig_layers.glsl"
 
 uniform float softness;  // relative depth within which two surfaces are one
 
 layout(location = 0) out float fused_depth;  // metres, 0 = nothing, negative = guessed
 
+const float alike = 0.06;  // range of the rigs' colours (0..1, mean of channels) at one surface, at most
+
 bool is_guess(int i, sampler2D map, vec2 pixel, float z) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     return all(lessThanEqual(textureGather(map, (q.xy / q.z + 0.5) / colour_size[i]), vec4(0.0)));
 }
 
+struct Votes {
+    float rigs;        // that have a surface there
+    float through;     // that see through it to a measured one
+    vec3 least, most;  // colours of those that are not hidden
+};
+
+void ask(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout Votes votes) {
+    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+    if (q.z <= 0.0) return;
+    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
+    vec2 inside = min(uv, 1.0 - uv);
+    if (min(inside.x, inside.y) < 0.0) return;
+    vec4 measured = textureGather(map, uv) / q.z - 1.0, off = abs(measured + 1.0) - 1.0;
+    float tolerance = 2.0 * (softness + spread[i] * q.z);
+    if (all(lessThan(off, vec4(-tolerance)))) return;
+    if (any(lessThan(abs(off), vec4(tolerance))))
+        votes.rigs += 1.0;
+    else if (all(greaterThan(measured, vec4(tolerance))))
+        votes.through += 1.0;
+    vec3 seen = textureLod(picture, uv, 0.0).rgb;
+    votes.least = min(votes.least, seen);
+    votes.most = max(votes.most, seen);
+}
+
+bool is_there(vec2 pixel, float z) {
+    Votes votes = Votes(0.0, 0.0, vec3(1.0), vec3(0.0));
+#define ASK(i) ask(i, colour[i], source_depth[i], pixel, z, votes);
+    FOR_LAYERS(ASK)
+    if (votes.through == 0.0 || votes.through < votes.rigs) return true;
+    return votes.through == votes.rigs && dot(votes.most - votes.least, vec3(1.0 / 3.0)) < alike;
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
-    float z[LAYERS];
+    float z[LAYERS], candidates[LAYERS];
     float measured = nothing, guessed = nothing;
 #define LOOK(i)                                                 \
     z[i] = layer_z(layer_depth[i], at);                         \
+    candidates[i] = nothing;                                    \
     if (z[i] < nothing) {                                       \
         if (is_guess(i, source_depth[i], pixel, z[i]))          \
             guessed = min(guessed, z[i]);                       \
         else                                                    \
-            measured = min(measured, z[i]);                     \
-    }
+            candidates[i] = z[i];                               \
+    }                                                           \
+    measured = min(measured, candidates[i]);
     LOOK(0)
 #if LAYERS > 1
     LOOK(1)
@@ -38,6 +76,17 @@ void main() {
 #endif
     if (by_the_first < nothing) measured = by_the_first;
 #endif
+    bool is_voted_for = measured == nothing || is_there(pixel, measured);
+    float next = measured;
+    for (int k = 1; k < LAYERS && !is_voted_for; ++k) {
+        float before = next * (1.0 + 2.0 * softness);
+        next = nothing;
+        for (int i = 0; i < LAYERS; ++i)
+            if (candidates[i] > before) next = min(next, candidates[i]);
+        if (next == nothing) break;
+        is_voted_for = is_there(pixel, next);
+        if (is_voted_for) measured = next;
+    }
     float nearest = measured < nothing ? measured : guessed;
     fused_depth = 0.0;
     if (nearest == nothing) return;

@@ -13,6 +13,7 @@ const float like_colour = 0.05;   // difference (0..1) at which a pixel's word c
 const float like_set_here = 0.04; // difference below which those around decide
 const float least_around = 0.15;  // share of pixels before the set around one that is taken for one
 const float most_around = 0.8;    // share from which on a pixel that looks like the set is taken for one
+const float new_around = 0.4;     // and one that looks like a set which has just changed, among what looks like it
 
 void main() {
     vec2 size = vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy / size;
@@ -26,18 +27,20 @@ void main() {
             vec2 there = uv + step_px * vec2(x, y) / size;
             float kind = textureLod(seen, there, 0.0).r;
             float is_before = is_kind(kind, before_set) ? 1.0 : 0.0, is_set = is_kind(kind, untold) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
+            float is_known = is_kind(kind, new_set) ? 0.0 : is_set;
             before += is_before;
             count += is_before + is_set;
             vec3 off = abs(textureLod(picture, there, 0.0).rgb - now);
             float w = exp(-(off.r + off.g + off.b) / (3.0 * like_colour)) + 1e-3;
             like_before += w * is_before;
-            like_set += w * is_set;
+            like_set += w * is_known;
         }
     if (is_kind(own, uncovered)) performer = 1.0;
     if (before == 0.0 || performer > 0.0) return;
     float around = before / max(count, 1.0);
     bool is_performer = is_kind(own, before_set) ? around > least_around && (seen_here.b > like_set_here || like_before > like_set)
                         : is_kind(own, untold)   ? like_before > like_set
+                        : is_kind(own, new_set)  ? around > new_around && like_before > like_set
                                                  : around > most_around;
     performer = is_performer ? 1.0 : 0.0;
 }

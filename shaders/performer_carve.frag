@@ -6,13 +6,16 @@
 uniform sampler2D depth_map;             // this instant's, metres, 0 = unknown
 uniform sampler2D seen;                  // from set_see.frag
 uniform sampler2D matte;                 // the performers' share
+#if OTHERS
 uniform sampler2D other_matte[OTHERS];
 uniform sampler2D other_set[OTHERS];     // depth of their sets, metres
 uniform mat4 other_from_pixel[OTHERS];   // the other's (u * z, v * z, z, 1) from this depth map's
 uniform vec2 other_size[OTHERS];         // of its picture, px
+#endif
 
 layout(location = 0) out float carved;  // metres, 0 = unknown
 
+#if OTHERS
 const float hidden = 0.95;  // a set nearer than this share of a point's depth hides it
 
 // Whether the other rig sees its set where the point would be.
@@ -27,16 +30,14 @@ bool is_outside(int i, sampler2D its_matte, sampler2D its_set, vec2 pixel, float
     float behind = textureLod(its_set, uv, 0.0).r;
     return behind > hidden * q.z;
 }
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     carved = 0.0;
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
     float kind = texelFetch(seen, at, 0).r, z = texelFetch(depth_map, at, 0).r;
-    if (textureLod(matte, uv, 0.0).r < 0.1 || !is_apart(kind) || z == 0.0) return;
-    carved = z;
-    if (is_kind(kind, uncovered)) return;
-    carved = 0.0;
+    if (textureLod(matte, uv, 0.0).r < 0.1 || !is_kind(kind, before_set) || z == 0.0) return;
 #define LOOK(i) if (is_outside(i, other_matte[i], other_set[i], vec2(at), z)) return;
     FOR_OTHERS(LOOK)
     carved = z;

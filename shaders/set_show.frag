@@ -1,19 +1,27 @@
-// The set of a rig behind its performers, as a background plate.
+// The depth of a rig's set at this instant, behind its performers too. What was uncovered is the set before it is learnt;
+// what nobody has seen is unknown.
+#include "set_kinds.glsl"
 #include "set_known.glsl"
 #include "set_now.glsl"
 
-uniform sampler2D colour;       // from set_colour.frag
+uniform sampler2D depth_map;    // this instant's, metres, 0 = unknown
+uniform sampler2D seen;         // from set_see.frag
+uniform sampler2D performers;   // their depth, metres, 0 = none
+uniform sampler2D colour;       // from set_colour.frag: alpha is 1 where the set is seen now
 uniform sampler2D colour_mean;  // likewise
 
-layout(location = 0) out vec4 plate_colour;
-layout(location = 1) out float plate_m;
+layout(location = 0) out float depth_m;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    float known = set_depth_m(at);
-    plate_m = abs(known);
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(model, 0));
-    // What was only guessed nobody has seen.
-    bool is_seen = known > 0.0 && is_set_known(texelFetch(set_state, at, 0), textureLod(colour_mean, uv, 0.0));
-    plate_colour = vec4(textureLod(colour, uv, 0.0).rgb, is_seen ? 1.0 : 0.0);
+    float z = texelFetch(depth_map, at, 0).r;
+    bool has_performer = texelFetch(performers, at, 0).r > 0.0;
+    if (z > 0.0 && is_kind(texelFetch(seen, at, 0).r, uncovered) && !has_performer) {
+        depth_m = z;
+        return;
+    }
+    depth_m = set_depth_m(at);
+    bool is_hidden = textureLod(colour, uv, 0.0).a < 1.0;
+    if (is_hidden && !is_set_known(texelFetch(set_state, at, 0), textureLod(colour_mean, uv, 0.0))) depth_m = 0.0;
 }

@@ -1,41 +1,63 @@
-// Steadies the disparities of a stream: where a pixel looks as it did and its disparity is near what it was, a running
-// mean (a quarter of the way to the new value) stands in for the new value; everywhere else the new value counts at
-// once, so that nothing trails.
+// Steadies the disparities of a stream. Where a pixel looks as it did, it keeps the disparity that most frames agree on:
+// what is near moves a running mean, what is not is outvoted until it has come more often. Where the pixel looks
+// different the new value counts at once, so that nothing trails.
 uniform highp usampler2D disparity;  // 1/32 px, 0 = unknown
 uniform sampler2D picture;           // rgba8, what the disparities belong to
-uniform highp usampler2D state;      // the last frame's: mean disparity in 1/8192 px << 8 | luma
+uniform highp usampler2D state;      // the last frame's: mean disparity in 1/1024 px << 13 | votes << 8 | mean luma
+layout(std430, binding = 0) readonly buffer Exposure { int gain_4096; };  // of the picture since the last frame
 uniform int has_state;
 
 layout(location = 0) out uint steadied;
 layout(location = 1) out uint next_state;
 
-// Grey levels that the five pixels of a cross may differ by, all together; 1/8192 px that a disparity may.
+// See temporal_reference.h.
 #ifndef MOST_CHANGE
 #define MOST_CHANGE 40
 #endif
+#ifndef MOST_HOLDING_CHANGE
+#define MOST_HOLDING_CHANGE 20
+#endif
 #ifndef MOST_STEP
-#define MOST_STEP 12288
+#define MOST_STEP 1536
+#endif
+#ifndef VOTES
+#define VOTES 2
+#endif
+#ifndef FIRST_VOTES
+#define FIRST_VOTES 4
+#endif
+#ifndef MOST_VOTES
+#define MOST_VOTES 15
 #endif
 
 int luma_at(ivec2 at) {
     ivec4 c = ivec4(texelFetch(picture, at, 0) * 255.0 + 0.5);
     return (77 * c.r + 150 * c.g + 29 * c.b + 128) >> 8;
 }
+int exposed(uint state) { return min((int(state & 255u) * gain_4096 + 2048) >> 12, 255); }
 int change_at(ivec2 at, ivec2 last) {
     at = clamp(at, ivec2(0), last);
-    return abs(luma_at(at) - int(texelFetch(state, at, 0).r & 255u));
+    return abs(luma_at(at) - exposed(texelFetch(state, at, 0).r));
 }
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(disparity, 0) - 1;
-    int now = int(texelFetch(disparity, at, 0).r) << 8, luma = luma_at(at), mean = now;
+    int now = min(int(texelFetch(disparity, at, 0).r) << 5, 0x7ffff), luma = luma_at(at), mean = now, votes = 0;
     if (has_state != 0 && now != 0) {
-        int before = int(texelFetch(state, at, 0).r >> 8);
+        uint before = texelFetch(state, at, 0).r;
+        int mean_before = int(before >> 13), votes_before = int(before >> 8) & 31;
         int change = change_at(at, last) + change_at(at + ivec2(1, 0), last) + change_at(at - ivec2(1, 0), last) +
                      change_at(at + ivec2(0, 1), last) + change_at(at - ivec2(0, 1), last);
-        bool is_still = before != 0 && change <= MOST_CHANGE && abs(now - before) <= MOST_STEP;
-        mean = is_still ? before + ((now - before) >> 2) : now;
+        if (change <= MOST_CHANGE) luma = exposed(before) + ((luma - exposed(before) + 2) >> 2);
+        bool agrees = abs(now - mean_before) <= MOST_STEP;
+        if (mean_before != 0 && agrees && change <= MOST_CHANGE) {
+            mean = mean_before + ((now - mean_before) >> (votes_before < 8 ? 2 : 3));
+            votes = min(votes_before + VOTES, MOST_VOTES);
+        } else if (mean_before != 0 && !agrees && change <= MOST_HOLDING_CHANGE) {
+            mean = votes_before > 0 ? mean_before : now;
+            votes = votes_before > 0 ? votes_before - 1 : FIRST_VOTES;
+        }
     }
-    steadied = now == 0 ? 0u : uint(max((mean + 128) >> 8, 1));
-    next_state = (uint(mean) << 8) | uint(luma);
+    steadied = now == 0 ? 0u : uint(max((mean + 16) >> 5, 1));
+    next_state = (uint(mean) << 13) | (uint(votes) << 8) | uint(luma);
 }

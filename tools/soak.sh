@@ -1,41 +1,129 @@
 #!/usr/bin/env bash
-# Plays the demo stage for long, and holds it to account: memory stays bounded, every frame is accounted for.
-#   tools/soak.sh [SECONDS, default 300]
-# Prints each process' memory along the way, the account of every rig, and closes with a line `N passed, N failed`.
+# Plays the demo stage for long, and holds it to account: memory, file descriptors and threads stay bounded, every frame is
+# accounted for.
+#   tools/soak.sh [SECONDS, default 300] [SEED] [DOCUMENT]
+# With a SEED something befalls the stage every ten seconds, drawn at random from it: a rig hangs (SIGSTOP), a rig is killed
+# and started anew, the GPU is reset, strangers send garbage, strangers connect and say nothing. Then a Vantage is needed
+# that was built with its tests. A DOCUMENT's table is written anew.
+# Prints the account of every rig, and closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seconds=${1:-300}
+seconds=${1:-300} seed=${2-} document=${3-}
 case "$seconds" in
   *[!0-9]* | "" | ? | [12]?) echo "soak.sh: '$seconds' is no number of seconds of at least 30" >&2; exit 2 ;;
 esac
-mkdir -p out
-report=out/soak.json samples=out/soak_memory.txt
-: >"$samples"
-build/release/bin/vantage demo --folder out --headless --seconds "$seconds" --json >"$report" 2>out/soak.log &
-demo=$!
-trap 'kill $demo 2>/dev/null || true; wait' EXIT
+out=$PWD/out/soak
+rm -rf "$out"
+mkdir -p "$out"
 
-# One line a process and sample: second, name, process, resident KiB.
-started=$SECONDS
-while kill -0 $demo 2>/dev/null; do
-  sleep 3
-  for pid in $demo $(pgrep -P $demo vantage || true); do
-    kib=$(awk '/VmRSS/ {print $2}' "/proc/$pid/status" 2>/dev/null) || continue
-    [ -n "$kib" ] && echo "$((SECONDS - started)) $(cat "/proc/$pid/comm") $pid $kib" >>"$samples"
-  done
-  tail -c 200 out/soak.log | tr '\r' '\n' | tail -1
+rigs= host=
+declare -A begun=()  # rigs that were started anew
+rig_process() { echo "${begun[$1]:-$(pgrep -P "$rigs" -f "/$1\.toml")}"; }
+end_all() {
+  for process in $host ${begun[*]} $rigs; do kill -CONT "$process" 2>/dev/null && kill "$process" || true; done
+  wait
+}
+trap end_all EXIT
+trap 'exit 130' INT TERM
+
+build/release/bin/vantage demo --folder "$out" --rigs-only >"$out/ready" 2>"$out/rigs.log" &
+rigs=$!
+until grep -q '^ready:' "$out/ready" && [ "$(grep -ls 'publishing on' "$out"/demo/rig?.log | wc -l)" -eq 4 ]; do
+  sleep 0.2
+  kill -0 $rigs
 done
-wait $demo || { tail -5 out/soak.log >&2; echo "0 passed, 1 failed"; exit 1; }
-trap - EXIT
+reset=$PWD/build/release/lib/vantage_gpu_reset.so
+[ -z "$seed" ] || [ -e "$reset" ] || { echo "soak.sh: $reset is missing; ./test builds it" >&2; exit 2; }
+LD_PRELOAD=${seed:+$reset} build/release/bin/vantage live --stage "$out/demo/stage.toml" --headless --no-jog --past-mb 64 \
+  --rate 15 --seconds "$seconds" --path hw_config/moves/demo.toml --json >"$out/soak.json" 2>"$out/live.log" &
+host=$!
+until grep -qs ' pictures, ' "$out/live.log"; do sleep 0.2; kill -0 $host; done
+started=$(date +%s)
 
-memory=$(tools/check_memory.sh "$samples" "$seconds" || true)
-account=$(tools/check_account.sh "$report" || true)
+declare -A times=()
+port_of() { sed -n 's/^bind = "tcp:\/\/.*:\([0-9]*\)"$/\1/p' "$out/demo/$1.toml"; }
+befall() {
+  local what=$((RANDOM % 5)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
+  names=(hangs killed resets garbage silence)
+  times[${names[what]}]=$((${times[${names[what]}]:-0} + 1))
+  echo "$(($(date +%s) - started)) s: ${names[what]} $rig, $length s" >>"$out/faults.log"
+  case $what in
+    0) kill -STOP "$(rig_process "$rig")"; (sleep $length; kill -CONT "$(rig_process "$rig")") & ;;
+    1) kill -CONT "$(rig_process "$rig")" || true
+      kill -KILL "$(rig_process "$rig")"
+      sleep $length
+      LP_NUM_THREADS=1 build/release/bin/vantage-rig run --config "$out/demo/$rig.toml" >>"$out/$rig.log" 2>&1 &
+      begun[$rig]=$! ;;
+    2) kill -USR2 $host ;;
+    3) (for _ in {1..20}; do head -c 5000 /dev/urandom >"/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done) 2>/dev/null & ;;
+    4) (for file in {100..160}; do eval "exec $file<>/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done; sleep $length) 2>/dev/null & ;;
+  esac
+}
+
+# One line a process and sample: second, name, process, resident KiB, threads, file descriptors.
+[ -z "$seed" ] || RANDOM=$seed
+last=0
+while kill -0 $host 2>/dev/null; do
+  sleep 2
+  now=$(($(date +%s) - started))
+  for process in $host $(pgrep -P "$rigs" vantage-rig || true) ${begun[*]}; do
+    read -r kib threads < <(awk '/VmRSS/ {kib = $2} /Threads/ && kib {print kib, $2}' "/proc/$process/status" 2>/dev/null) || continue
+    echo "$now $(cat "/proc/$process/comm") $process $kib $threads $(ls "/proc/$process/fd" | wc -l)" >>"$out/samples" || true
+  done 2>/dev/null
+  # The last rig that was touched is back before the end.
+  if [ -n "$seed" ] && [ $((now - last)) -ge 10 ] && [ "$now" -lt $((seconds - 20)) ]; then
+    last=$now
+    befall 2>>"$out/befall.log"
+  fi
+done
+status=0
+wait $host || status=$?
+host=
+[ $status -eq 0 ] || { tail -5 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
+
+# A rig that was started anew on the way still fills its pools.
+awk -v third=$((seconds / 3)) 'NR == FNR { if ($1 < third) begun[$3] = 1; next } $3 in begun' "$out/samples" "$out/samples" \
+  >"$out/settled"
 passed=0 failed=0
-for result in "$memory" "$account"; do
+for result in "$(tools/check_memory.sh "$out/settled" "$seconds" || true)" "$(tools/check_account.sh "$out/soak.json" || true)"; do
   sed '$d' <<<"$result"
   read -r p _ f _ <<<"$(tail -n 1 <<<"$result")"
   passed=$((passed + p)) failed=$((failed + f))
 done
-jq -r '"\(.pictures) pictures in \(.duration_s | round) s; \(.sets.closed) sets: \(.sets.complete) complete, \(.sets.fused) fused, \(.sets.superseded) superseded, \(.sets.dropped) dropped"' "$report"
+figure() { jq -r "$1" "$out/soak.json"; }
+# Of the second half: the least-squares slope of memory in MiB an hour, the most memory, threads and file descriptors.
+process_rows() {
+  awk -v half=$((seconds / 2)) '
+    { key = $2 " " $3; if ($1 < half) { if ($5 > threads[key]) threads[key] = $5; if ($6 > files[key]) files[key] = $6; next }
+      n[key]++; x[key] += $1; y[key] += $4; xx[key] += $1 * $1; xy[key] += $1 * $4
+      if ($4 > most[key]) most[key] = $4
+      if ($5 > late_threads[key]) late_threads[key] = $5; if ($6 > late_files[key]) late_files[key] = $6 }
+    END { for (key in n) { if (n[key] < 10 || !(key in threads)) continue
+      slope = (n[key] * xy[key] - x[key] * y[key]) / (n[key] * xx[key] - x[key] * x[key])
+      printf "| %s | %.1f | %.1f | %d, %d | %d, %d |\n", key, slope * 3600 / 1024, most[key] / 1024, threads[key], late_threads[key], files[key], late_files[key] } }' \
+    "$out/samples" | sort
+}
+table=$(
+  echo "| | |"
+  echo "| --- | --- |"
+  echo "| played | $(figure '.duration_s | round') s, load $(cut -d' ' -f1 /proc/loadavg) at the end |"
+  [ -z "$seed" ] || echo "| befallen, seed $seed | $(for name in "${!times[@]}"; do printf '%s %s, ' "$name" "${times[$name]}"; done | sed 's/, $//') |"
+  echo "| ticks, repeated | $(figure '"\(.pictures), \(.repeated_ticks)"') |"
+  echo "| between two new pictures: p50, p99, most | $(figure '"\(.interval_ms.p50 | round), \(.interval_ms.p99 | round), \(.interval_ms.max | round) ms"') |"
+  echo "| sets: closed, complete, fused | $(figure '"\(.sets.closed), \(.sets.complete), \(.sets.fused)"') |"
+  echo "| resets of the GPU that were got over | $(figure .contexts_lost) |"
+  echo "| rigs that were away | $(figure '[.rigs[] | "\(.name) \(.outages.count) times"] | join(", ")') |"
+  echo "| frames sent, lost, received | $(figure '"\([.rigs[].link.sent] | add), \([.rigs[].link.lost] | add), \([.rigs[].host.received] | add)"') |"
+  echo "| what was held to account | $passed of $((passed + failed)) hold |"
+  echo
+  echo "| process | memory, MiB an hour in the second half | most, MiB | threads: most in either half | file descriptors, likewise |"
+  echo "| --- | --- | --- | --- | --- |"
+  process_rows
+)
+echo "$table"
+if [ -n "$document" ]; then
+  awk -v table="$table" '/<!-- measured: begin -->/ {print; print table; skip = 1} /<!-- measured: end -->/ {skip = 0; print ""} !skip' \
+    "$document" >"$out/document" && cp "$out/document" "$document"
+fi
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

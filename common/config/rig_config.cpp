@@ -96,6 +96,7 @@ void read_stream(TomlTable& table, RigConfig::Stream& stream) {
     table.read("bind", stream.bind);
     check_endpoint(table, "bind", stream.bind);
     table.read("jpeg_quality", stream.jpeg_quality, {0, 100});
+    table.read_choice("chroma", stream.chroma, {"4:4:4", "4:2:2", "4:2:0"});
     table.read("queue_frames", stream.queue_frames, {1, 64});
     table.read("key_file", stream.key_file);
     table.read("authorized_hosts", stream.authorized_hosts);

@@ -84,7 +84,8 @@ struct RigConfig {
 
     struct Stream {
         std::string bind = "tcp://127.0.0.1:5600";
-        int jpeg_quality = 85;  ///< 1..100; 0: lossless colour
+        int jpeg_quality = 82;         ///< 1..100; 0: lossless colour
+        std::string chroma = "4:2:0";  ///< of JPEG: 4:4:4 | 4:2:2 | 4:2:0
         int queue_frames =
             4;  ///< frames the socket may hold for one host before it drops the oldest
         std::filesystem::path key_file;  ///< this rig's CURVE key pair; needed beyond loopback

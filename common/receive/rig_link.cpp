@@ -138,6 +138,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     const bool with_frame = parts.size() == 1 + frame_parts;
     account_.hear(message, with_frame);
     view_.heard = now;
+    view_.session = message.session;
     gone_ = false;
     view_.refused.clear();
     view_.lost = account_.lost();

@@ -45,6 +45,7 @@ class RigLink {
     struct View {
         bool connected = false;
         std::optional<MonotonicTime> heard;  ///< its last message
+        std::uint64_t session = 0;           ///< of its daemon, as it said last
         std::string refused;
         std::string last_error;
         std::uint64_t malformed = 0;  ///< messages that were no delivery, heartbeat or refusal

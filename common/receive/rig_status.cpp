@@ -23,7 +23,15 @@ std::string clock_text(const RigStatus& rig) {
     else
         text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
     if (const std::string worry = tai_worry(rig); !worry.empty()) text += "; " + worry;
+    if (const std::string step = clock_step_text(sync); !step.empty()) text += "; " + step;
     return text;
+}
+
+std::string clock_step_text(const RigSync& sync) {
+    if (sync.clock_steps == 0) return {};
+    return fmt::format("its clock was set {}, by {:+.1f} ms the last time",
+                       sync.clock_steps == 1 ? "once" : fmt::format("{} times", sync.clock_steps),
+                       sync.clock_step_ms);
 }
 
 std::string tai_worry(const RigStatus& rig) {

@@ -72,6 +72,10 @@ inline constexpr const char* clocks_not_disciplined = "clocks not disciplined: s
 /// clocks_not_disciplined and why; and where both go by different numbers of TAI's seconds.
 std::string clock_text(const RigStatus& rig);
 
+/// By how much the rig's clock was set last, in words; empty where it was not since it started.
+/// Below the latency budget nothing else shows that: its frames still meet sets, of other pulses.
+std::string clock_step_text(const RigSync& sync);
+
 /// Empty where rig and host have the same offset of CLOCK_TAI from UTC. Where not, they number the
 /// same pulse differently, however well PTP keeps their clocks together.
 std::string tai_worry(const RigStatus& rig);

@@ -10,6 +10,8 @@
 #include <utility>
 #include <zmq.hpp>
 
+#include <pthread.h>
+
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "common/base/kernel_clock.h"
@@ -35,6 +37,10 @@ namespace {
 /// Closed sets that wait for next(); a program that draws slower than the stage runs takes the
 /// newest of these.
 constexpr std::size_t max_closed_sets = 4;
+
+/// ZeroMQ reads and decrypts on threads of its own; one would be the limit of a large stage
+/// (docs/results/scale.md).
+constexpr std::size_t rigs_a_network_thread = 8;
 
 /// A rig that is not connected is looked into so soon, and then so often.
 constexpr std::chrono::milliseconds first_probe_after{300};
@@ -87,6 +93,7 @@ struct StageReceiver::Impl {
         RigLink link;
         BoundedQueue<RigLink::Delivery> inbox;
         std::atomic<std::uint64_t> unhandled = 0;
+        std::atomic<bool> is_looked_at = true;
         std::thread decoder;
 
         // Under Impl::mutex.
@@ -102,6 +109,7 @@ struct StageReceiver::Impl {
     Impl(const StageConfig& stage, Purpose why, FrameTap frame_tap)
         : purpose(why),
           tap(std::move(frame_tap)),
+          context(static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
           closed_sets(max_closed_sets) {
@@ -127,7 +135,15 @@ struct StageReceiver::Impl {
         for (const auto& rig : rigs) rig->decoder.join();
     }
 
+    Rig& named(std::string_view name) {
+        const auto rig = std::find_if(rigs.begin(), rigs.end(),
+                                      [&](const auto& each) { return each->name == name; });
+        if (rig == rigs.end()) fail("the stage has no rig named {}", name);
+        return **rig;
+    }
+
     void run() {
+        ::pthread_setname_np(::pthread_self(), "receive");
         try {
             while (!stopping) turn();
         } catch (const std::exception& error) {
@@ -237,6 +253,7 @@ struct StageReceiver::Impl {
     }
 
     void decode_all(std::size_t number) {
+        ::pthread_setname_np(::pthread_self(), "decode");
         Rig& rig = *rigs[number];
         FrameDecoder decoder;
         std::chrono::milliseconds patience = first_probe_after;
@@ -265,7 +282,8 @@ struct StageReceiver::Impl {
         const MonotonicTime start = MonotonicClock::now();
         const PackedFrame& packed = *delivery.frame;
         auto frame = std::make_shared<RigFrame>(
-            decoder.decode(packed.header, packed.colour, packed.disparity));
+            rig.is_looked_at ? decoder.decode(packed.header, packed.colour, packed.disparity)
+                             : decode_frame_head(packed.header).frame);
         frame->packed = delivery.frame;
         if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
             fail("a frame of rig {} came under the name of rig {}", frame->rig,
@@ -315,6 +333,7 @@ struct StageReceiver::Impl {
     /// Precondition: mutex is held.
     static void show(Rig& rig, RigLink::View view, MonotonicTime now) {
         RigStatus& status = rig.status;
+        const bool goes_on = status.connected && view.restarts == status.restarts;
         if (!view.refused.empty() && view.refused != status.refused)
             log_warning("{}", view.refused);
         if (view.connected != status.connected)
@@ -325,6 +344,12 @@ struct StageReceiver::Impl {
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
         status.restarts = view.restarts;
         const std::string rate_before = rate_worry(status);
+        if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
+            log_warning(
+                "rig {}: {}; what it films now is so far off the other rigs' pictures, or was "
+                "before: see that its clock follows the stage's, and prove it by light "
+                "(vantage-calib sync)",
+                rig.name, clock_step_text(view.sync));
         status.connected = view.connected;
         status.refused = std::move(view.refused);
         status.lost = view.lost;
@@ -403,15 +428,17 @@ ReceiverStatus StageReceiver::status() const {
 void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t rate_divisor) {
     if (rate_divisor < 1 || rate_divisor > max_rate_divisor)
         fail("a rate divisor of {} is outside 1..{}", rate_divisor, max_rate_divisor);
-    const auto rig = std::find_if(impl_->rigs.begin(), impl_->rigs.end(),
-                                  [&](const auto& each) { return each->name == rig_name; });
-    if (rig == impl_->rigs.end()) fail("the stage has no rig named {}", rig_name);
+    Impl::Rig& rig = impl_->named(rig_name);
     {
         const std::lock_guard lock(impl_->mutex);
-        (*rig)->wish.streaming = streaming;
-        (*rig)->wish.rate_divisor = rate_divisor;
+        rig.wish.streaming = streaming;
+        rig.wish.rate_divisor = rate_divisor;
     }
     impl_->wake.notify();
+}
+
+void StageReceiver::look_at(std::string_view rig_name, bool is_looked_at) {
+    impl_->named(rig_name).is_looked_at = is_looked_at;
 }
 
 void StageReceiver::ask_for_reports() {

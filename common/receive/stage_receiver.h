@@ -38,6 +38,11 @@ class StageReceiver {
     /// Error for a rig that is not of the stage or a divisor outside 1..max_rate_divisor.
     void ask(std::string_view rig, bool streaming, std::uint32_t rate_divisor);
 
+    /// Whether the pictures of a rig's frames are decoded, as they are at first. Where not, its
+    /// frames are in sets as they came (RigFrame::has_pictures()), for what keeps them. Throws
+    /// Error for a rig that is not of the stage.
+    void look_at(std::string_view rig, bool is_looked_at);
+
     /// Asks every rig to say how it is, for help (JSON).
     void ask_for_reports();
     /// What the rig of this number said; null: nothing yet. An older rig never does.

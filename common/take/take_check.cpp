@@ -4,34 +4,11 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/pulse_grid.h"
 #include "common/take/take_pulses.h"
 
 namespace vantage {
 namespace {
-
-void add(std::string& text, std::uint64_t before, std::uint64_t after, const char* what) {
-    if (after > before)
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", after - before, what);
-}
-
-/// What became of the frames between two of a rig.
-std::string why_of(const TakeReader::Frame& before, const TakeReader::Frame& after) {
-    if (before.session != after.session) return "the rig was started anew";
-    std::string text;
-    add(text, before.rig.missed, after.rig.missed, "missed by the rig");
-    add(text, before.rig.late, after.rig.late, "late at the rig");
-    add(text, before.link.send_dropped, after.link.send_dropped, "pushed out on the way");
-    add(text, before.link.thinned, after.link.thinned, "not asked for");
-    add(text, before.dropped, after.dropped, "left out by the recording host");
-    return text;
-}
-
-/// Before frame `i`. A rig counts while a frame is still on its way to be packed, so the one before
-/// the gap may know of it already.
-std::string why_of(const std::vector<TakeReader::Frame>& frames, std::size_t i) {
-    const std::string why = why_of(frames[i - 1], frames[i]);
-    return why.empty() && i >= 2 ? why_of(frames[i - 2], frames[i - 1]) : why;
-}
 
 void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std::uint64_t last,
                std::vector<TakeGap>& gaps) {
@@ -44,11 +21,33 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
     }
     if (frames.front().pulse - first > ragged)
         gaps.push_back({name, first, frames.front().pulse - 1, "the rig came later"});
-    for (std::size_t i = 1; i < frames.size(); ++i)
-        if (frames[i].pulse > frames[i - 1].pulse + 1)
-            gaps.push_back({name, frames[i - 1].pulse + 1, frames[i].pulse - 1, why_of(frames, i)});
+    for (TakeGap& gap : gaps_between(name, frames)) gaps.push_back(std::move(gap));
     if (last - frames.back().pulse > ragged)
         gaps.push_back({name, frames.back().pulse + 1, last, "the rig went earlier"});
+}
+
+void look_at_sound(const TakeReader& take, const PulseSpan& span, TakeVerdict& verdict) {
+    if (!take.facts().has_sound) return;
+    const PulseGrid pulses(take.facts().pulse_rate_hz);
+    // Sound that begins or ends within a second of the take has no gap there.
+    std::int64_t end = sound_sample_at(pulses.time_of(span.first)) + sound_rate_hz;
+    const std::int64_t last = sound_sample_at(pulses.time_of(span.last)) - sound_rate_hz;
+    const auto add_gap = [&](std::int64_t from, std::int64_t to) {
+        if (to > from)
+            verdict.sound_gaps.push_back(
+                {time_of_sound(from), static_cast<double>(to - from) / sound_rate_hz});
+    };
+    for (const TakeReader::Sound& sound : take.sounds()) {
+        add_gap(end, sound.first);
+        end = sound.end();
+        try {
+            take.load(sound);
+            verdict.sound_s += static_cast<double>(sound.count) / sound_rate_hz;
+        } catch (const Error& error) {
+            verdict.damage.push_back({sound.record.at, error.what()});
+        }
+    }
+    add_gap(end, last);
 }
 
 }  // namespace
@@ -73,6 +72,7 @@ TakeVerdict check_take(const TakeReader& take, const std::function<void(double)>
                 progress(static_cast<double>(done) / static_cast<double>(all));
         }
     }
+    if (all > 0) look_at_sound(take, span, verdict);
     return verdict;
 }
 

@@ -81,11 +81,63 @@ std::vector<CameraRecord> cameras_of(const std::vector<const TakeReader*>& takes
     return cameras;
 }
 
+/// Sound of one of the takes.
+struct SoundSourceOf {
+    const TakeReader* take;
+    const TakeReader::Sound* sound;
+};
+
+std::vector<SoundSourceOf> sounds_of(const std::vector<const TakeReader*>& takes) {
+    std::vector<SoundSourceOf> sounds;
+    for (const TakeReader* take : takes)
+        for (const TakeReader::Sound& sound : take->sounds()) sounds.push_back({take, &sound});
+    std::stable_sort(sounds.begin(), sounds.end(),
+                     [](const SoundSourceOf& a, const SoundSourceOf& b) {
+                         return a.sound->first < b.sound->first;
+                     });
+    return sounds;
+}
+
+/// Writes sound in its time, from the take's origin to its end.
+class SoundCopy {
+  public:
+    SoundCopy(const std::vector<const TakeReader*>& takes, TaiTime end, TakeWriter& writer,
+              TakeCopy& copy)
+        : sounds_(sounds_of(takes)), end_(sound_sample_at(end)), writer_(writer), copy_(copy) {}
+
+    /// What begins by then.
+    void write_until(TaiTime time) {
+        if (!writer_.facts().has_sound) return;
+        const std::int64_t until = std::min(sound_sample_at(time), end_);
+        for (; at_ < sounds_.size() && sounds_[at_].sound->first < until; ++at_) {
+            const TakeReader::Sound& sound = *sounds_[at_].sound;
+            try {
+                std::vector<std::byte> bytes = sounds_[at_].take->load(sound);
+                if (sound.end() > end_)
+                    bytes.resize(static_cast<std::size_t>(end_ - sound.first) * stored_sound_bytes);
+                writer_.add_sound(sound.first, bytes);
+            } catch (const TakeDamaged&) {
+                ++copy_.damaged;
+            }
+        }
+        copy_.sound_s = writer_.sound_s();
+    }
+
+  private:
+    std::vector<SoundSourceOf> sounds_;
+    std::size_t at_ = 0;
+    std::int64_t end_;
+    TakeWriter& writer_;
+    TakeCopy& copy_;
+};
+
 void write(const std::vector<const TakeReader*>& takes, const std::vector<Source>& sources,
            TakeWriter& writer, TakeCopy& copy, const std::function<void(double)>& progress) {
     const PulseGrid pulses(writer.facts().pulse_rate_hz);
     const std::vector<CameraRecord> cameras =
         cameras_of(takes, writer.facts().origin, pulses.time_of(sources.back().pulse + 1));
+    const TaiTime end = pulses.time_of(sources.back().pulse + 1);
+    SoundCopy sounds(takes, end, writer, copy);
     auto camera = cameras.begin();
     std::optional<std::pair<std::uint64_t, std::size_t>> written;
     std::size_t done = 0;
@@ -95,6 +147,7 @@ void write(const std::vector<const TakeReader*>& takes, const std::vector<Source
             progress(static_cast<double>(done) / static_cast<double>(sources.size()));
         for (; camera != cameras.end() && camera->time <= pulses.time_of(source.pulse); ++camera)
             copy.cameras += writer.add(*camera);
+        sounds.write_until(pulses.time_of(source.pulse));
         if (written == std::pair(source.pulse, source.rig)) {
             ++copy.twice;
             continue;
@@ -110,6 +163,7 @@ void write(const std::vector<const TakeReader*>& takes, const std::vector<Source
         }
     }
     for (; camera != cameras.end(); ++camera) copy.cameras += writer.add(*camera);
+    sounds.write_until(end);
     writer.finish();
 }
 
@@ -121,6 +175,8 @@ TakeCopy copy_takes(const std::vector<const TakeReader*>& takes, std::uint64_t f
     require_new_take(path, "written");
     TakeFacts facts = takes.front()->facts();
     facts.rigs = rigs_of(takes);
+    facts.has_sound = std::any_of(takes.begin(), takes.end(),
+                                  [](const TakeReader* take) { return take->facts().has_sound; });
     const std::vector<Source> sources = sources_of(takes, facts.rigs, from, to);
     if (sources.empty()) fail("{} is not written: no frame is in that part", path.string());
     const Source& first = sources.front();

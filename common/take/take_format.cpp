@@ -1,5 +1,6 @@
 #include "common/take/take_format.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -116,12 +117,16 @@ std::string seal_record(std::string text) {
 }
 
 nlohmann::ordered_json to_json(const TakeFacts& facts) {
-    nlohmann::ordered_json json{
-        {"vantage_take", take_version},         {"program", facts.program},
-        {"pulse_rate_hz", facts.pulse_rate_hz}, {"origin_tai_ns", to_ns(facts.origin)},
-        {"timecode", facts.timecode},           {"tai_offset_s", facts.tai_offset_s},
-        {"disparity_step_px", 1.0 / 32},        {"unknown_disparity", 0}};
+    nlohmann::ordered_json json{{"vantage_take", facts.has_sound ? take_version : 1},
+                                {"program", facts.program},
+                                {"pulse_rate_hz", facts.pulse_rate_hz},
+                                {"origin_tai_ns", to_ns(facts.origin)},
+                                {"timecode", facts.timecode},
+                                {"tai_offset_s", facts.tai_offset_s},
+                                {"disparity_step_px", 1.0 / 32},
+                                {"unknown_disparity", 0}};
     for (const TakeRig& rig : facts.rigs) json["rigs"].push_back(rig.name);
+    if (facts.has_sound) json["sound"] = {{"rate_hz", sound_rate_hz}, {"channels", sound_channels}};
     json["show"] = facts.show;
     return json;
 }
@@ -151,6 +156,10 @@ TakeFacts take_facts_from(std::string_view text) {
             facts.rigs.emplace_back();
             facts.rigs.back().name = rig.get<std::string>();
         }
+        facts.has_sound = json.contains("sound");
+        if (facts.has_sound && (fact<int>(json.at("sound"), "rate_hz") != sound_rate_hz ||
+                                fact<std::size_t>(json.at("sound"), "channels") != sound_channels))
+            fail("its sound is not of {} channels at {} Hz", sound_channels, sound_rate_hz);
         facts.show = json.at("show");
         return facts;
     } catch (const nlohmann::json::exception&) {
@@ -207,6 +216,50 @@ FrameRecord frame_record_from(std::string_view text) {
     record.depth_crc = crc_of(json, "depth_crc32");
     record.header = from_base64(header->get_ref<const std::string&>());
     return record;
+}
+
+std::string to_text(const SoundRecord& record) {
+    return sealed({{"first_sample", record.first},
+                   {"samples", record.count},
+                   {"heard_tai_ns", to_ns(time_of_sound(record.first))},
+                   {"sound_crc32", record.crc}});
+}
+
+SoundRecord sound_record_from(std::string_view text) {
+    const nlohmann::json json = unsealed(text, "sound");
+    SoundRecord record{number<std::int64_t>(json, "first_sample"),
+                       number<std::uint32_t>(json, "samples"),
+                       number<std::uint32_t>(json, "sound_crc32")};
+    // Within the times that nanoseconds count, and no longer than a second.
+    constexpr std::int64_t most = (std::int64_t{1} << 62) / nanoseconds_per_second * sound_rate_hz;
+    if (record.first < 0 || record.first > most || record.count < 1 || record.count > sound_rate_hz)
+        fail("a sound's record names samples that cannot be");
+    return record;
+}
+
+std::vector<std::byte> stored_sound(std::span<const float> samples) {
+    constexpr float most = 8388607;
+    std::vector<std::byte> bytes;
+    bytes.reserve(3 * samples.size());
+    for (const float sample : samples) {
+        const auto value = static_cast<std::uint32_t>(static_cast<std::int32_t>(
+            std::lround(std::clamp(sample * (most + 1), -most - 1, most))));
+        for (const int shift : {0, 8, 16}) bytes.push_back(static_cast<std::byte>(value >> shift));
+    }
+    return bytes;
+}
+
+std::vector<float> sound_from_stored(std::span<const std::byte> bytes) {
+    std::vector<float> samples(bytes.size() / 3);
+    constexpr float whole = 1.0F / 2147483648.0F;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto byte = [&](std::size_t n) {
+            return std::to_integer<std::uint32_t>(bytes[3 * i + n]);
+        };
+        const std::uint32_t value = byte(0) << 8 | byte(1) << 16 | byte(2) << 24;
+        samples[i] = whole * static_cast<float>(static_cast<std::int32_t>(value));
+    }
+    return samples;
 }
 
 nlohmann::ordered_json pose_json(const Pose& pose) {

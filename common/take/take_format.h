@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/av/sound.h"
 #include "common/base/time.h"
 #include "common/wire/frame_message.h"
 
@@ -19,7 +20,11 @@ namespace vantage {
 // of text with a FrameRecord a frame, and one with a CameraRecord a tick of the programme. Times
 // are milliseconds since the take's origin, and those of a frame are its pulse's.
 
-inline constexpr int take_version = 1;
+// A take with sound has a track of it, 24 bits a sample as they were heard, and one of text with a
+// SoundRecord for every tenth of a second of it; their times are those at which it was heard.
+
+/// Of a take with sound; one without is of version 1, as before there was any.
+inline constexpr int take_version = 2;
 
 /// A track of pictures.
 struct TakePictures {
@@ -55,6 +60,7 @@ struct TakeFacts {
     int tai_offset_s = 0;         ///< of the rigs' clock from UTC
     nlohmann::ordered_json show;  ///< the stage, calibrations and colours, as the host writes them
     std::vector<TakeRig> rigs;
+    bool has_sound = false;
     std::vector<TakeAttachment> attachments;  ///< beside take.json, which holds the above
 
     /// In the file: milliseconds since the origin. Negative: before the take.
@@ -94,6 +100,21 @@ struct CameraRecord {
     Pose world_from_camera = Pose::Identity();
     double field_of_view_rad = 0, focus_m = 0;
 };
+/// What is told of a piece of sound.
+struct SoundRecord {
+    std::int64_t first = 0;   ///< sample, counted as those of SoundBlock
+    std::uint32_t count = 0;  ///< samples
+    std::uint32_t crc = 0;    ///< CRC-32 of what the track holds
+};
+std::string to_text(const SoundRecord& record);
+/// Throws Error if the text is damaged.
+SoundRecord sound_record_from(std::string_view text);
+/// As the track holds it: 24 bits a value, the lowest byte first.
+inline constexpr std::size_t stored_sound_bytes = 3 * sound_channels;
+std::vector<std::byte> stored_sound(std::span<const float> samples);
+/// Precondition: whole samples.
+std::vector<float> sound_from_stored(std::span<const std::byte> bytes);
+
 /// Twelve numbers, row after row.
 nlohmann::ordered_json pose_json(const Pose& pose);
 std::string to_text(const CameraRecord& record);

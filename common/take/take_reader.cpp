@@ -67,6 +67,7 @@ TakeReader::TakeReader(std::filesystem::path path) : path_(std::move(path)), fil
         fail("{} is no take that can be read: {}", path_.string(), error.what());
     }
     sort_frames();
+    sort_sounds();
 }
 
 void TakeReader::add_damage(std::uint64_t at, std::string words) {
@@ -171,6 +172,13 @@ void TakeReader::name_tracks(const std::vector<HeadTrack>& found) {
     frames_.resize(facts_.rigs.size());
     for (const HeadTrack& track : found) {
         if (track.name == "camera") tracks_[track.number] = {Track::Kind::camera, 0};
+        if (facts_.has_sound && track.name == "sound") {
+            if (track.codec != "A_PCM/INT/LIT")
+                fail("its sound is coded as {}, which is not as it was heard", track.codec);
+            tracks_[track.number] = {Track::Kind::sound, 0};
+        }
+        if (facts_.has_sound && track.name == "sound times")
+            tracks_[track.number] = {Track::Kind::sound_record, 0};
         for (std::size_t rig = 0; rig < facts_.rigs.size(); ++rig) {
             const std::string& name = facts_.rigs[rig].name;
             if (track.name == name + " frames") tracks_[track.number] = {Track::Kind::record, rig};
@@ -285,6 +293,12 @@ void TakeReader::take_block(std::uint64_t at, std::uint64_t end, std::int64_t cl
         case Track::Kind::record:
             take_record(track.rig, time_ms, block);
             return;
+        case Track::Kind::sound:
+            take_sound(at, time_ms, block);
+            return;
+        case Track::Kind::sound_record:
+            take_sound_record(time_ms, block);
+            return;
         case Track::Kind::camera:
             try {
                 if (block.size > most_text_bytes) fail("a camera's record is too long");
@@ -318,6 +332,44 @@ void TakeReader::take_record(std::size_t rig, std::int64_t time_ms, const Block&
     } catch (const Error& error) {
         add_damage(block.at, fmt::format("rig {}: {}", facts_.rigs[rig].name, error.what()));
     }
+}
+
+void TakeReader::take_sound_record(std::int64_t time_ms, const Block& block) {
+    try {
+        if (block.size > most_text_bytes) fail("a sound's record is too long");
+        const SoundRecord record = sound_record_from(text_of(file_.bytes(block.at, block.size)));
+        if (time_ms != facts_.time_ms_of(time_of_sound(record.first)))
+            fail("sound stands at another time than its record says");
+        sounds_.push_back({record.first, record.count, block, {}, record.crc});
+    } catch (const Error& error) {
+        add_damage(block.at, error.what());
+    }
+}
+
+void TakeReader::take_sound(std::uint64_t at, std::int64_t time_ms, const Block& block) {
+    // Its record came right before it.
+    if (sounds_.empty() || sounds_.back().samples.size != 0 ||
+        facts_.time_ms_of(time_of_sound(sounds_.back().first)) != time_ms ||
+        block.size != sounds_.back().count * stored_sound_bytes)
+        add_damage(at, "sound is without a record");
+    else
+        sounds_.back().samples = block;
+}
+
+void TakeReader::sort_sounds() {
+    std::erase_if(sounds_, [&](const Sound& sound) {
+        if (sound.samples.size == 0) add_damage(sound.record.at, "sound of a record is not there");
+        return sound.samples.size == 0;
+    });
+    std::stable_sort(sounds_.begin(), sounds_.end(),
+                     [](const Sound& a, const Sound& b) { return a.first < b.first; });
+    std::int64_t end = 0;
+    std::erase_if(sounds_, [&](const Sound& sound) {
+        const bool is_twice = sound.first < end;
+        if (is_twice) add_damage(sound.record.at, "sound is there twice");
+        end = std::max(end, sound.end());
+        return is_twice;
+    });
 }
 
 void TakeReader::sort_frames() {
@@ -357,6 +409,14 @@ double TakeReader::duration_s() const {
         last = std::max(last.value_or(frames.back().time_ms), frames.back().time_ms);
     }
     return first ? static_cast<double>(*last - *first) / 1000 : 0;
+}
+
+std::vector<std::byte> TakeReader::load(const Sound& sound) const {
+    std::vector<std::byte> bytes = file_.bytes(sound.samples.at, sound.samples.size);
+    if (crc32(bytes) != sound.crc)
+        throw TakeDamaged(
+            fmt::format("{}: sound at byte {} is damaged", path_.string(), sound.samples.at));
+    return bytes;
 }
 
 StoredFrame TakeReader::load(std::size_t rig, const Frame& frame) const {

@@ -48,6 +48,14 @@ class TakeReader {
         LinkCounters link;
     };
 
+    struct Sound {
+        std::int64_t first = 0;   ///< sample
+        std::uint32_t count = 0;  ///< samples
+        Block record, samples;
+        std::uint32_t crc = 0;
+        std::int64_t end() const { return first + count; }
+    };
+
     const std::filesystem::path& path() const { return path_; }
     const TakeFacts& facts() const { return facts_; }
     std::uint64_t bytes() const { return file_.size(); }
@@ -55,6 +63,8 @@ class TakeReader {
     const std::vector<Frame>& frames(std::size_t rig) const { return frames_[rig]; }
     /// The camera of every tick, in their order.
     const std::vector<CameraRecord>& cameras() const { return cameras_; }
+    /// In the order in which it was heard; of no sample twice.
+    const std::vector<Sound>& sounds() const { return sounds_; }
     /// What opening found.
     const std::vector<TakeDamage>& damage() const { return damage_; }
     /// False: whoever wrote it was ended before it was.
@@ -64,10 +74,20 @@ class TakeReader {
 
     /// The frame with all its bytes. Throws TakeDamaged if they are not those that were written.
     StoredFrame load(std::size_t rig, const Frame& frame) const;
+    /// A piece of sound as the file has it. Throws likewise.
+    std::vector<std::byte> load(const Sound& sound) const;
 
   private:
     struct Track {
-        enum class Kind { none, colour, depth, record, camera } kind = Kind::none;
+        enum class Kind {
+            none,
+            colour,
+            depth,
+            record,
+            camera,
+            sound,
+            sound_record
+        } kind = Kind::none;
         std::size_t rig = 0;
     };
     struct HeadTrack;
@@ -79,7 +99,10 @@ class TakeReader {
     void read_cluster(const EbmlFile::Element& cluster);
     void take_block(std::uint64_t at, std::uint64_t end, std::int64_t cluster_ms);
     void take_record(std::size_t rig, std::int64_t time_ms, const Block& block);
+    void take_sound_record(std::int64_t time_ms, const Block& block);
+    void take_sound(std::uint64_t at, std::int64_t time_ms, const Block& block);
     void sort_frames();
+    void sort_sounds();
     void add_damage(std::uint64_t at, std::string words);
 
     std::filesystem::path path_;
@@ -88,6 +111,7 @@ class TakeReader {
     std::map<std::uint64_t, Track> tracks_;  ///< by Matroska's number
     std::vector<std::vector<Frame>> frames_;
     std::vector<CameraRecord> cameras_;
+    std::vector<Sound> sounds_;
     std::vector<TakeDamage> damage_;
     std::uint64_t segment_begin_ = 0, segment_end_ = 0;
     bool is_ended_ = false;

@@ -4,6 +4,8 @@
 #include <future>
 #include <utility>
 
+#include <pthread.h>
+
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
@@ -24,6 +26,11 @@ constexpr std::chrono::milliseconds patience{100};
 constexpr std::size_t most_frames_a_rig = 16;
 /// What is in memory only for longer than that is worth a word.
 constexpr std::chrono::seconds long_unwritten{1};
+/// A block of sound in the file.
+constexpr std::int64_t sound_block = sound_rate_hz / 10;
+/// Before the first frame came: what may have been heard since that was exposed.
+constexpr std::int64_t sound_before = 3 * sound_rate_hz;
+constexpr double sound_mb_s = 1e-6 * sound_rate_hz * stored_sound_bytes;
 
 nlohmann::ordered_json calibration_json(const RigFrame& frame) {
     const RectifiedStereo& geometry = frame.geometry;
@@ -48,6 +55,8 @@ struct TakeRecorder::Take {
     std::vector<std::optional<TakeRig>> rigs;  ///< as the first frame of each says
     std::vector<std::unique_ptr<FrameStorer>> storers;
     std::vector<Item> held;  ///< until the writer is there
+    std::deque<SoundBlock> held_sound;
+    SoundBlock sound;  ///< that waits to be a block
     std::optional<MonotonicTime> first_arrival;
     std::optional<TaiTime> origin;
     int tai_offset_s = 0;
@@ -61,7 +70,9 @@ struct TakeRecorder::Take {
 };
 
 std::size_t TakeRecorder::Item::bytes() const {
-    return frame ? frame->packed->bytes() : sizeof(Item);
+    return frame   ? frame->packed->bytes()
+           : sound ? sizeof(float) * sound->samples.size()
+                   : sizeof(Item);
 }
 
 TakeRecorder::TakeRecorder(Settings settings) : settings_(std::move(settings)) {
@@ -80,16 +91,25 @@ TakeRecorder::~TakeRecorder() {
 }
 
 void TakeRecorder::offer(const ArrivedFrame& frame) {
+    offer_with_pre_roll({frame, {}, nullptr, frame.arrival});
+}
+
+void TakeRecorder::offer(const SoundBlock& sound) {
+    offer_with_pre_roll(
+        {std::nullopt, {}, std::make_shared<const SoundBlock>(sound), MonotonicClock::now()});
+}
+
+void TakeRecorder::offer_with_pre_roll(Item item) {
     {
         const std::lock_guard lock(mutex_);
-        Item item{frame, {}};
+        const MonotonicTime arrival = item.arrival;
         const std::size_t bytes = item.bytes();
         // What comes after the end of one take belongs to the next.
         if (!is_taking_ || is_ending_) {
             if (settings_.pre_roll.count() == 0) return;
             pre_roll_.push_back(std::move(item));
             pre_roll_bytes_ += bytes;
-            while (frame.arrival - pre_roll_.front().frame->arrival > settings_.pre_roll) {
+            while (arrival - pre_roll_.front().arrival > settings_.pre_roll) {
                 pre_roll_bytes_ -= pre_roll_.front().bytes();
                 pre_roll_.pop_front();
             }
@@ -107,6 +127,7 @@ void TakeRecorder::push(Item item) {
     while (queued_bytes_ > most_queued_bytes_ && queue_.size() > 1) {
         const Item& oldest = queue_.front();
         if (oldest.frame) ++state_.rigs[oldest.frame->rig].dropped;
+        if (oldest.sound) state_.sound_dropped += static_cast<std::uint64_t>(oldest.sound->count());
         queued_bytes_ -= oldest.bytes();
         queue_.pop_front();
     }
@@ -128,7 +149,7 @@ std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
 
 void TakeRecorder::offer(const CameraRecord& camera) {
     const std::lock_guard lock(mutex_);
-    if (is_taking_ && !is_ending_) push({std::nullopt, camera});
+    if (is_taking_ && !is_ending_) push({std::nullopt, camera, nullptr, {}});
 }
 
 void TakeRecorder::begin(const std::filesystem::path& path) {
@@ -147,6 +168,7 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
         state_.phase = TakePhase::opening;
         state_.path = path.string();
         state_.takes = takes;
+        state_.has_sound = settings_.has_sound;
         for (const std::string& rig : settings_.rigs) state_.rigs.push_back({rig, 0, 0, 0});
     }
     woken_.notify_all();
@@ -180,12 +202,13 @@ TakeState TakeRecorder::state() const {
 TakeRecorder::PreRoll TakeRecorder::pre_roll() const {
     const std::lock_guard lock(mutex_);
     if (pre_roll_.empty()) return {};
-    return {pre_roll_bytes_, std::chrono::duration<double>(pre_roll_.back().frame->arrival -
-                                                           pre_roll_.front().frame->arrival)
-                                 .count()};
+    return {pre_roll_bytes_,
+            std::chrono::duration<double>(pre_roll_.back().arrival - pre_roll_.front().arrival)
+                .count()};
 }
 
 void TakeRecorder::run() {
+    ::pthread_setname_np(::pthread_self(), "take");
     std::optional<Take> take;
     for (;;) {
         std::vector<Item> items;
@@ -234,6 +257,10 @@ void TakeRecorder::work(Take& take, std::vector<Item> items) {
         return;
     }
     for (Item& item : items) {
+        if (item.sound) take.held_sound.push_back(*item.sound);
+        while (!take.first_arrival && !take.held_sound.empty() &&
+               take.held_sound.back().end() - take.held_sound.front().first > sound_before)
+            take.held_sound.pop_front();
         if (!item.frame) continue;
         try {
             look_at_first(take, item);
@@ -274,7 +301,8 @@ void TakeRecorder::open_if_ready(Take& take) {
 
 void TakeRecorder::open(Take& take) {
     const std::filesystem::path folder = std::filesystem::absolute(take.path).parent_path();
-    const double needed_mb_s = take.bytes_a_pulse * settings_.pulse_rate_hz / 1e6;
+    const double needed_mb_s =
+        take.bytes_a_pulse * settings_.pulse_rate_hz / 1e6 + (settings_.has_sound ? sound_mb_s : 0);
     take.disk_mb_s = settings_.disk_mb_s(folder);
     if (take.disk_mb_s < disk_margin * needed_mb_s)
         fail(
@@ -296,6 +324,7 @@ void TakeRecorder::open(Take& take) {
     facts.show = settings_.show;
     facts.show["calibrations"] = take.calibrations;
     facts.attachments = settings_.attachments;
+    facts.has_sound = settings_.has_sound;
     // A rig that comes later is taken to send what the first one does.
     const auto present = std::find_if(take.rigs.begin(), take.rigs.end(),
                                       [](const auto& rig) { return rig.has_value(); });
@@ -308,6 +337,7 @@ void TakeRecorder::open(Take& take) {
         take.storers[i] = std::make_unique<FrameStorer>(facts.rigs[i]);
     log_info("recording {}: {:.1f} MB a second, of {:.0f} that its disk takes", take.path.string(),
              needed_mb_s, take.disk_mb_s);
+    for (const SoundBlock& sound : std::exchange(take.held_sound, {})) hear(take, sound);
     const std::vector<Item> held = std::exchange(take.held, {});
     for (std::size_t i = 0; i < held.size(); i += most_frames_a_rig)
         store(take, std::span(held).subspan(i, std::min(most_frames_a_rig, held.size() - i)));
@@ -337,8 +367,9 @@ void TakeRecorder::store(Take& take, std::span<const Item> items) {
         }));
     }
     for (std::size_t i = 0; i < items.size(); ++i) {
+        if (items[i].sound) hear(take, *items[i].sound);
         if (!items[i].frame) {
-            take.writer->add(items[i].camera);
+            if (!items[i].sound) take.writer->add(items[i].camera);
             continue;
         }
         if (coming[i].wait_for(std::chrono::seconds(0)) != std::future_status::ready)
@@ -351,6 +382,19 @@ void TakeRecorder::store(Take& take, std::span<const Item> items) {
         }
         if (stored) write(take, *items[i].frame, std::move(*stored));
     }
+}
+
+void TakeRecorder::hear(Take& take, const SoundBlock& sound) {
+    SoundBlock& waiting = take.sound;
+    if (!waiting.samples.empty() && sound.first != waiting.end()) write_sound(take);
+    if (waiting.samples.empty()) waiting.first = sound.first;
+    waiting.samples.insert(waiting.samples.end(), sound.samples.begin(), sound.samples.end());
+    if (waiting.count() >= sound_block) write_sound(take);
+}
+
+void TakeRecorder::write_sound(Take& take) {
+    if (!take.sound.samples.empty()) take.writer->add(take.sound);
+    take.sound.samples.clear();
 }
 
 void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stored) {
@@ -391,7 +435,10 @@ void TakeRecorder::close(Take& take) {
             fail("{} is not written: no frame came", take.path.string());
         if (!take.held.empty()) open(take);
     }
-    if (take.writer) take.writer->finish();
+    if (take.writer) {
+        write_sound(take);
+        take.writer->finish();
+    }
     take.is_dead = true;
     const std::lock_guard lock(mutex_);
     state_.phase = TakePhase::none;
@@ -415,6 +462,7 @@ void TakeRecorder::note(const Take& take) {
     state_.gaps = take.writer->gaps();
     state_.bytes = take.writer->bytes();
     state_.duration_s = take.writer->duration_s();
+    state_.sound_s = take.writer->sound_s();
     state_.mb_s =
         state_.duration_s > 0 ? static_cast<double>(state_.bytes) / 1e6 / state_.duration_s : 0;
 }

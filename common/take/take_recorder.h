@@ -44,7 +44,10 @@ struct TakeState {
         std::uint64_t refused = 0;  ///< fit no track, or came out of order, or were damaged
     };
     std::vector<Rig> rigs;
-    std::uint64_t takes = 0;  ///< that were begun
+    bool has_sound = false;
+    double sound_s = 0;               ///< that is in it
+    std::uint64_t sound_dropped = 0;  ///< samples that came while the disk could not follow
+    std::uint64_t takes = 0;          ///< that were begun
 };
 
 /// Records what the rigs send, whatever the programme does, on a thread of its own. What comes
@@ -58,6 +61,7 @@ class TakeRecorder {
         std::string program;
         nlohmann::ordered_json show;  ///< TakeFacts::show
         std::vector<TakeAttachment> attachments = {};
+        bool has_sound = false;
         std::chrono::nanoseconds pre_roll{0};   ///< that a take begins before it is asked for
         std::size_t queue_bytes = 256'000'000;  ///< that may wait to be written
         /// For rigs that have not sent yet. Until then nothing is written.
@@ -74,6 +78,8 @@ class TakeRecorder {
     /// Never wait.
     void offer(const ArrivedFrame& frame);
     void offer(const CameraRecord& camera);
+    /// What was heard, in its order. Precondition: Settings::has_sound.
+    void offer(const SoundBlock& sound);
 
     /// Begins a take, `pre_roll` ago; one that runs goes on. Throws Error if there is such a file,
     /// or no folder for it. Whether the disk is fast enough shows in the state.
@@ -96,6 +102,8 @@ class TakeRecorder {
     struct Item {
         std::optional<ArrivedFrame> frame;
         CameraRecord camera;
+        std::shared_ptr<const SoundBlock> sound;  ///< null: it is another item
+        MonotonicTime arrival{};
         std::size_t bytes() const;
     };
     /// A take on its way; of the thread.
@@ -103,6 +111,7 @@ class TakeRecorder {
 
     void run();
     void push(Item item);
+    void offer_with_pre_roll(Item item);
     std::vector<Item> pop_some();
     void work(Take& take, std::vector<Item> items);
     void look_at_first(Take& take, const Item& item);
@@ -110,6 +119,8 @@ class TakeRecorder {
     void open(Take& take);
     void store(Take& take, std::span<const Item> items);
     void write(Take& take, const ArrivedFrame& frame, StoredFrame stored);
+    void hear(Take& take, const SoundBlock& sound);
+    static void write_sound(Take& take);
     void refuse(Take& take, const ArrivedFrame& frame, const std::string& why);
     void close(Take& take);
     void note(const Take& take);

@@ -74,6 +74,11 @@ void TakeWriter::open() {
     for (std::size_t i = 0; i < facts_.rigs.size(); ++i)
         tracks_[i].record = add_text(facts_.rigs[i].name + " frames");
     camera_track_ = add_text("camera");
+    if (facts_.has_sound) {
+        sound_track_ = add_sound_track();
+        sound_record_track_ = add_text("sound times");
+        next_sound_ = sound_sample_at(facts_.origin);
+    }
     const std::string told = to_json(facts_).dump(2);
     const auto bytes = std::as_bytes(std::span(told));
     attach({"take.json", "application/json", {bytes.begin(), bytes.end()}});
@@ -111,6 +116,21 @@ int TakeWriter::add_text(const std::string& title) {
     stream->codecpar->codec_id = AV_CODEC_ID_SUBRIP;
     stream->time_base = {1, 1000};
     av_dict_set(&stream->metadata, "title", title.c_str(), 0);
+    return stream->index;
+}
+
+int TakeWriter::add_sound_track() {
+    AVStream* stream = avformat_new_stream(output_.get(), nullptr);
+    if (!stream) fail("{} cannot be written: memory is short", path_.string());
+    AVCodecParameters& parameters = *stream->codecpar;
+    parameters.codec_type = AVMEDIA_TYPE_AUDIO;
+    parameters.codec_id = AV_CODEC_ID_PCM_S24LE;
+    parameters.sample_rate = sound_rate_hz;
+    av_channel_layout_default(&parameters.ch_layout, static_cast<int>(sound_channels));
+    parameters.bits_per_coded_sample = 24;
+    parameters.block_align = static_cast<int>(stored_sound_bytes);
+    stream->time_base = {1, 1000};
+    av_dict_set(&stream->metadata, "title", "sound", 0);
     return stream->index;
 }
 
@@ -160,6 +180,27 @@ bool TakeWriter::add(const CameraRecord& camera) {
     return true;
 }
 
+bool TakeWriter::add(const SoundBlock& sound) {
+    return add_sound(sound.first, stored_sound(sound.samples));
+}
+
+bool TakeWriter::add_sound(std::int64_t first, std::span<const std::byte> stored) {
+    const auto count = static_cast<std::int64_t>(stored.size() / stored_sound_bytes);
+    const std::int64_t known = std::max<std::int64_t>(0, next_sound_ - first);
+    if (known >= count) return false;
+    stored = stored.subspan(static_cast<std::size_t>(known) * stored_sound_bytes);
+    const SoundRecord record{first + known, static_cast<std::uint32_t>(count - known),
+                             crc32(stored)};
+    const std::int64_t at_ms = facts_.time_ms_of(time_of_sound(record.first));
+    const std::string text = to_text(record);
+    flush_if_due();
+    write(sound_record_track_, at_ms, std::as_bytes(std::span(text)));
+    write(sound_track_, at_ms, stored);
+    next_sound_ = first + count;
+    sound_samples_ += record.count;
+    return true;
+}
+
 void TakeWriter::write(int track, std::int64_t at_ms, std::span<const std::byte> bytes) {
     if (!unwritten_ms_) {
         unwritten_ms_ = at_ms;
@@ -170,7 +211,10 @@ void TakeWriter::write(int track, std::int64_t at_ms, std::span<const std::byte>
     std::memcpy(packet_->data, bytes.data(), bytes.size());
     packet_->stream_index = track;
     packet_->pts = packet_->dts = at_ms;
-    packet_->duration = duration_ms_;
+    packet_->duration =
+        track == sound_track_
+            ? static_cast<std::int64_t>(bytes.size() / stored_sound_bytes) * 1000 / sound_rate_hz
+            : duration_ms_;
     packet_->flags |= AV_PKT_FLAG_KEY;
     const int code = av_write_frame(output_.get(), packet_.get());
     av_packet_unref(packet_.get());

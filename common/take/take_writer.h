@@ -39,6 +39,12 @@ class TakeWriter {
     /// False: the tick is before the take.
     bool add(const CameraRecord& camera);
 
+    /// Samples before the take, and those that are there already, are left out. False: all are.
+    /// Precondition: facts().has_sound.
+    bool add(const SoundBlock& sound);
+    /// The same, as another take holds it.
+    bool add_sound(std::int64_t first, std::span<const std::byte> stored);
+
     /// Gives the system all that was added: a program that is killed loses nothing of it.
     void hand_over();
     /// Does so with what was kept back for half a second, and has the disk follow. To be called
@@ -52,6 +58,7 @@ class TakeWriter {
     std::uint64_t bytes() const;
     std::uint64_t frames() const { return frames_; }
     std::uint64_t gaps() const { return gaps_; }
+    double sound_s() const { return static_cast<double>(sound_samples_) / sound_rate_hz; }
     /// From the first to the last frame.
     double duration_s() const;
 
@@ -64,6 +71,7 @@ class TakeWriter {
     void open();
     int add_pictures(const TakePictures& pictures, const std::string& title);
     int add_text(const std::string& title);
+    int add_sound_track();
     void attach(const TakeAttachment& attachment);
     void write(int track, std::int64_t time_ms, std::span<const std::byte> bytes);
     void flush();
@@ -79,6 +87,9 @@ class TakeWriter {
     std::vector<Tracks> tracks_;
     int camera_track_ = -1;
     std::optional<std::int64_t> last_camera_ms_;
+    int sound_track_ = -1, sound_record_track_ = -1;
+    std::int64_t next_sound_ = 0;  ///< sample; those before are there, or before the take
+    std::uint64_t sound_samples_ = 0;
     std::uint64_t frames_ = 0, gaps_ = 0;
     std::int64_t first_ms_ = 0, last_ms_ = 0;
     std::optional<std::int64_t> unwritten_ms_;  ///< time of the first that may not be on the disk

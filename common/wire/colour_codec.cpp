@@ -11,6 +11,18 @@ namespace {
 
 constexpr int channels = 4;
 
+int sampling_of(Chroma chroma) {
+    switch (chroma) {
+        case Chroma::full:
+            return TJSAMP_444;
+        case Chroma::half:
+            return TJSAMP_422;
+        case Chroma::quarter:
+            break;
+    }
+    return TJSAMP_420;
+}
+
 }  // namespace
 
 JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {
@@ -19,13 +31,13 @@ JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {
 
 JpegEncoder::~JpegEncoder() { tjDestroy(compressor_); }
 
-std::vector<std::byte> JpegEncoder::encode(const ColourImage& colour, int quality) {
-    std::vector<std::byte> payload(tjBufSize(colour.cols, colour.rows, TJSAMP_444));
+std::vector<std::byte> JpegEncoder::encode(const ColourImage& colour, int quality, Chroma chroma) {
+    const int sampling = sampling_of(chroma);
+    std::vector<std::byte> payload(tjBufSize(colour.cols, colour.rows, sampling));
     auto* data = reinterpret_cast<unsigned char*>(payload.data());
     unsigned long size = payload.size();
     if (tjCompress2(compressor_, colour.data, colour.cols, static_cast<int>(colour.step),
-                    colour.rows, TJPF_RGBA, &data, &size, TJSAMP_444, quality,
-                    TJFLAG_NOREALLOC) != 0)
+                    colour.rows, TJPF_RGBA, &data, &size, sampling, quality, TJFLAG_NOREALLOC) != 0)
         fail("a colour picture of {}x{} cannot be packed as JPEG: {}", colour.cols, colour.rows,
              tjGetErrorStr2(compressor_));
     payload.resize(size);
@@ -60,6 +72,16 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
         fail("the colour payload of {} bytes is damaged: {}", payload.size(),
              tjGetErrorStr2(decompressor_));
     return colour;
+}
+
+Chroma JpegDecoder::chroma_of(std::span<const std::byte> payload) {
+    int width = 0, height = 0, subsampling = 0, colour_space = 0;
+    if (tjDecompressHeader3(decompressor_, reinterpret_cast<const unsigned char*>(payload.data()),
+                            payload.size(), &width, &height, &subsampling, &colour_space) != 0)
+        fail("the colour payload is not a JPEG picture: {}", tjGetErrorStr2(decompressor_));
+    for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
+        if (subsampling == sampling_of(chroma)) return chroma;
+    fail("the colour payload is a JPEG whose chroma is none of 4:4:4, 4:2:2 and 4:2:0");
 }
 
 std::vector<std::byte> LosslessColourEncoder::encode(const ColourImage& colour) {

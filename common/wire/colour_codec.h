@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/wire/chroma.h"
 #include "common/wire/payload_compression.h"
 
 namespace vantage {
 
-/// Lossy colour: JPEG of R, G and B without chroma subsampling; A comes back as 255. At the same
-/// bytes 4:4:4 shows more than 4:2:0 at a higher quality (Middlebury's Teddy: 34.8 dB in 57 KB
-/// against 81 KB), and keeps colour edges where the depth edges are. Not thread-safe.
+/// Lossy colour: JPEG of R, G and B; A comes back as 255. At the same bytes 4:4:4 is nearer to what
+/// was packed, pixel by pixel, than 4:2:0 at a higher quality, and 4:2:0 nearer to what a programme
+/// hands out, whose chroma is halved again (docs/results/takes.md). Not thread-safe.
 class JpegEncoder {
   public:
     JpegEncoder();
@@ -20,7 +21,7 @@ class JpegEncoder {
     JpegEncoder& operator=(const JpegEncoder&) = delete;
 
     /// quality 1..100.
-    std::vector<std::byte> encode(const ColourImage& colour, int quality);
+    std::vector<std::byte> encode(const ColourImage& colour, int quality, Chroma chroma);
 
   private:
     void* compressor_;
@@ -36,6 +37,9 @@ class JpegDecoder {
     /// Throws Error unless the payload is one whole colour JPEG of exactly this size; its header is
     /// checked before memory is taken.
     ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
+
+    /// Of a payload that was decoded. Throws Error where it is none of those that rigs send.
+    Chroma chroma_of(std::span<const std::byte> payload);
 
   private:
     void* decompressor_;

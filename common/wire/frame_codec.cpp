@@ -138,33 +138,38 @@ float milliseconds_since(MonotonicTime start) {
 
 struct ColourPacker::Impl {
     int jpeg_quality;
+    Chroma chroma;
     JpegEncoder jpeg;
     LosslessColourEncoder lossless;
 };
 
-ColourPacker::ColourPacker(int jpeg_quality) : impl_(std::make_unique<Impl>()) {
+ColourPacker::ColourPacker(int jpeg_quality, Chroma chroma) : impl_(std::make_unique<Impl>()) {
     impl_->jpeg_quality = checked_quality(jpeg_quality);
+    impl_->chroma = chroma;
 }
 
 ColourPacker::~ColourPacker() = default;
 
 void ColourPacker::pack(RigFrame& frame) {
     const MonotonicTime start = MonotonicClock::now();
-    frame.packed_colour = impl_->jpeg_quality == 0
-                              ? impl_->lossless.encode(frame.colour)
-                              : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+    frame.packed_colour =
+        impl_->jpeg_quality == 0
+            ? impl_->lossless.encode(frame.colour)
+            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
     frame.times.pack_ms = milliseconds_since(start);
 }
 
 struct FrameEncoder::Impl {
     int jpeg_quality;
+    Chroma chroma;
     JpegEncoder jpeg;
     LosslessColourEncoder lossless_colour;
     DisparityEncoder disparity;
 };
 
-FrameEncoder::FrameEncoder(int jpeg_quality) : impl_(std::make_unique<Impl>()) {
+FrameEncoder::FrameEncoder(int jpeg_quality, Chroma chroma) : impl_(std::make_unique<Impl>()) {
     impl_->jpeg_quality = checked_quality(jpeg_quality);
+    impl_->chroma = chroma;
 }
 
 FrameEncoder::~FrameEncoder() = default;
@@ -228,8 +233,9 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     if (is_packed_ahead)
         packed.colour = std::move(frame.packed_colour);
     else if (!frame.colour.empty())
-        packed.colour = lossless ? impl_->lossless_colour.encode(frame.colour)
-                                 : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality);
+        packed.colour = lossless
+                            ? impl_->lossless_colour.encode(frame.colour)
+                            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
     if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.raw_right);
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 

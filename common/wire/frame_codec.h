@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/wire/chroma.h"
 #include "common/wire/frame_message.h"
 
 namespace vantage {
@@ -27,7 +28,7 @@ struct PackedFrame {
 class ColourPacker {
   public:
     /// As the FrameEncoder's that packs the rest.
-    explicit ColourPacker(int jpeg_quality);
+    explicit ColourPacker(int jpeg_quality, Chroma chroma = Chroma::quarter);
     ~ColourPacker();
 
     /// Sets frame.packed_colour and frame.times.pack_ms. Precondition: the frame has colour.
@@ -42,7 +43,7 @@ class ColourPacker {
 class FrameEncoder {
   public:
     /// jpeg_quality 1..100, or 0 for lossless colour. Raw pairs are always lossless.
-    explicit FrameEncoder(int jpeg_quality);
+    explicit FrameEncoder(int jpeg_quality, Chroma chroma = Chroma::quarter);
     ~FrameEncoder();
 
     /// Takes over packed_colour, where there is one. Fills in frame.times.pack_ms and

@@ -40,9 +40,10 @@ struct RigSync {
     std::uint64_t skipped = 0;         ///< lead: would have been too late; follow: no edge came
     std::uint64_t unsynchronized = 0;  ///< frames without a pulse of their own
     float lateness_p50_us = 0, lateness_p99_us = 0, lateness_max_us = 0;
-    double clock_ppm = 0;  ///< of the sensors' clock over the stage's
-    std::uint64_t clock_steps = 0;
-    bool disciplined = false;  ///< by PTP; false: the next two say nothing
+    double clock_ppm = 0;           ///< of the sensors' clock over the stage's
+    std::uint64_t clock_steps = 0;  ///< times that its clock was set since it started
+    double clock_step_ms = 0;       ///< by so much the last time; above 0: forward
+    bool disciplined = false;       ///< by PTP; false: the next two say nothing
     double ptp_offset_ns = 0, ptp_path_delay_ns = 0;
     std::string ptp_state;  ///< of ptp4l's port, such as "SLAVE"; empty: no ptp4l
     int tai_offset_s = 0;   ///< of its CLOCK_TAI from UTC
@@ -96,6 +97,9 @@ struct RigFrame {
     RigStageTimes times;
     RigCounters counters;
     RigSync sync;
+
+    /// False at a host for what nobody looks at: `packed` has them.
+    bool has_pictures() const { return !colour.empty() || !disparity.empty(); }
 };
 
 }  // namespace vantage

@@ -75,6 +75,7 @@ void to_wire(const RigSync& sync, wire::Sync& out) {
     out.set_lateness_max_us(sync.lateness_max_us);
     out.set_clock_ppm(sync.clock_ppm);
     out.set_clock_steps(sync.clock_steps);
+    out.set_clock_step_ms(sync.clock_step_ms);
     out.set_disciplined(sync.disciplined);
     out.set_ptp_offset_ns(sync.ptp_offset_ns);
     out.set_ptp_path_delay_ns(sync.ptp_path_delay_ns);
@@ -86,8 +87,8 @@ void to_wire(const RigSync& sync, wire::Sync& out) {
 RigSync from_wire(const wire::Sync& sync) {
     for (const double value :
          {static_cast<double>(sync.lateness_p50_us()), static_cast<double>(sync.lateness_p99_us()),
-          static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.ptp_offset_ns(),
-          sync.ptp_path_delay_ns(), sync.rate_hz()})
+          static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.clock_step_ms(),
+          sync.ptp_offset_ns(), sync.ptp_path_delay_ns(), sync.rate_hz()})
         if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is no number", value);
     // Within what a PulseGrid takes.
     if (sync.rate_hz() != 0 && (sync.rate_hz() < 0.001 || sync.rate_hz() > 1e6))
@@ -110,6 +111,7 @@ RigSync from_wire(const wire::Sync& sync) {
     result.lateness_max_us = sync.lateness_max_us();
     result.clock_ppm = sync.clock_ppm();
     result.clock_steps = sync.clock_steps();
+    result.clock_step_ms = sync.clock_step_ms();
     result.disciplined = sync.disciplined();
     result.ptp_offset_ns = sync.ptp_offset_ns();
     result.ptp_path_delay_ns = sync.ptp_path_delay_ns();

@@ -44,6 +44,7 @@ nlohmann::ordered_json to_json(const RigSync& sync) {
               {"max", sync.lateness_max_us}}},
             {"clock_ppm", sync.clock_ppm},
             {"clock_steps", sync.clock_steps},
+            {"clock_step_ms", sync.clock_step_ms},
             {"disciplined", sync.disciplined},
             {"ptp_state", sync.ptp_state},
             {"ptp_offset_ns", sync.ptp_offset_ns},

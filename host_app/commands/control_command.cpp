@@ -16,7 +16,7 @@ CommandEntry control_command_entry() {
             "control", "List the commands that a show takes, whatever the hand, and its lamps");
         command->add_flag("--json", *json, "Write them as one JSON object");
         command->footer(
-            "Keys, jog maps and OSC are views of this one list; see vantage live "
+            "Keys, jog maps, OSC, RossTalk and MIDI are views of this one list; see vantage live "
             "--control.");
         command->callback([json] {
             if (*json)

@@ -65,7 +65,10 @@ void DemoStage::add_rig(const std::string& name, toml::table parts) {
     const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", free_port());
     parts.insert("version", 1);
     parts.insert("name", name);
+    // Its pictures may be small, and go no further than this computer.
     parts.insert("stream", toml::table{{"bind", endpoint},
+                                       {"jpeg_quality", 85},
+                                       {"chroma", "4:4:4"},
                                        {"key_file", name + ".key"},
                                        {"authorized_hosts", "authorized_hosts"}});
     if (!kept_.empty()) parts.insert("keep", toml::table{{"folder", kept_.string()}});

@@ -35,15 +35,26 @@ void run_live_session(const LiveOptions& options) {
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     const std::unique_ptr<JogDeck> deck = options.show.make_deck();
-    TakeDesk takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s));
+    TakeDesk takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s),
+                   !options.show.audio.empty());
     if (!options.take.empty()) takes.begin(options.take);
+    // Ends before the takes that its sound goes to.
+    LiveSettings heard = settings;
+    heard.sound = options.show.sound(settings.rate_hz, takes.sound_tap());
     StageReceiver receiver(stage, StageReceiver::Purpose::film, takes.tap());
-    LiveShow show(settings, plan, takes.feed(feed_of(receiver)), deck.get());
+    LiveShow show(heard, plan, takes.feed(feed_of(receiver)), deck.get());
     show.add(takes.camera_sink());
     ShowSession session{
-        options.show, show, plan, deck.get(), flights, clips, &takes, "", [&](StopSignal& signal) {
-            return show.wait_for_rigs(from_s(options.wait_s), signal);
-        }};
+        options.show,
+        show,
+        plan,
+        deck.get(),
+        flights,
+        clips,
+        options.show.desk_store(options.stage),
+        &takes,
+        "",
+        [&](StopSignal& signal) { return show.wait_for_rigs(from_s(options.wait_s), signal); }};
     session.run(stop);
 }
 

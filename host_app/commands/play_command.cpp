@@ -6,9 +6,11 @@
 
 #include "common/base/command.h"
 #include "common/base/error.h"
+#include "common/base/pulse_grid.h"
 #include "common/base/time_zone.h"
 #include "host_app/commands/show_session.h"
 #include "host_app/commands/take_time.h"
+#include "host_app/sound/take_sound.h"
 #include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_sets.h"
 #include "host_app/takes/take_show.h"
@@ -65,6 +67,13 @@ void play(const PlayOptions& options) {
     settings.ends_with_take = options.show.headless && !has_hands && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
         fail("what loops or stands has no end: say --frames or --seconds with --headless");
+    // It begins with what is heard where the take is begun.
+    const PulseGrid pulses(take->facts().pulse_rate_hz);
+    const auto begin = static_cast<std::uint64_t>(*settings.replay.transport().pulse());
+    settings.sound = options.show.sound(settings.rate_hz, {},
+                                        take->facts().has_sound && options.show.audio.empty()
+                                            ? open_take_sound(take, pulses.time_of(begin))
+                                            : nullptr);
     const std::unique_ptr<JogDeck> deck = options.show.make_deck();
     LiveShow show(settings, plan, feed_of(*take), deck.get());
     ShowSession session{options.show,
@@ -73,10 +82,10 @@ void play(const PlayOptions& options) {
                         deck.get(),
                         flights,
                         clips,
+                        options.show.desk_store(options.take),
                         nullptr,
                         options.take,
-                        [&](StopSignal& signal) {
-            return show.wait_for_first_set(signal); }};
+                        [&](StopSignal& signal) { return show.wait_for_first_set(signal); }};
     session.run(stop);
 }
 

@@ -24,6 +24,7 @@
 #include "host_app/commands/rigs_update.h"
 #include "host_app/commands/take_time.h"
 #include "host_app/live/live_report.h"
+#include "host_app/live/rig_silence.h"
 #include "host_app/live/sync_proof.h"
 #include "host_app/takes/clock_time.h"
 #include "host_app/takes/kept_fetch.h"
@@ -41,7 +42,7 @@ struct FetchOptions {
 
 struct Options {
     std::string stage;
-    double wait_s = 3;
+    double wait_s = 10;
     bool json = false;
 };
 
@@ -55,6 +56,8 @@ void print(const ReceiverStatus& status, const std::string& synchronisation) {
     for (const RigStatus& rig : status.rigs) {
         std::cout << fmt::format("{}: {}\n", rig.rig, full_state_of(rig));
         if (!rig.connected) continue;
+        if (const std::string silence = silence_of(rig); !silence.empty())
+            std::cout << "    " << silence << '\n';
         const RigCounters& counters = rig.since_start;
         std::cout << fmt::format(
             "    {}\n    {}\n    since it started: captured {}, missed {}, late {}, published {}\n",
@@ -71,7 +74,7 @@ void run(const Options& options) {
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     StopSignal stop;
-    const ReceiverStatus status = look_at(stage, options.wait_s, LookUntil::all_answered, stop);
+    const ReceiverStatus status = look_at(stage, options.wait_s, LookUntil::all_send, stop);
     const SyncProof proof = sync_proof_of(options.stage);
     const auto now = std::chrono::system_clock::now();
     if (options.json) {
@@ -87,11 +90,14 @@ void run(const Options& options) {
     }
     std::string troubles;
     std::size_t troubled = 0;
-    for (const RigStatus& rig : status.rigs)
-        if (const std::string trouble = trouble_of(rig); !trouble.empty()) {
-            troubles += fmt::format("; {}: {}", rig.rig, trouble);
-            ++troubled;
-        }
+    for (const RigStatus& rig : status.rigs) {
+        // A rig that waits for a host's start is in order.
+        const std::string trouble =
+            waits_for_a_host(rig) ? trouble_of(rig) : trouble_of(rig) + silence_of(rig);
+        if (trouble.empty()) continue;
+        troubles += fmt::format("; {}: {}", rig.rig, trouble);
+        ++troubled;
+    }
     if (troubled > 0) fail("{} of {} rigs cannot serve{}", troubled, status.rigs.size(), troubles);
 }
 
@@ -192,10 +198,14 @@ CommandEntry rigs_command_entry() {
         CLI::App* status = rigs->add_subcommand("status",
                                                 "Every rig: clock, pulses, rates, temperature, "
                                                 "calibration, what became of its frames; ends "
-                                                "with 1 if a rig cannot serve, and says why");
+                                                "with 1 if a rig cannot serve, and "
+                                                "says why");
         status->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
             ->required();
-        status->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")
+        status
+            ->add_option("--wait", options->wait_s,
+                         "Seconds to wait for rigs that do not answer or send")
+            ->capture_default_str()
             ->check(CLI::Range(0.1, 3600.0));
         status->add_flag("--json", options->json, "Print it as JSON");
         status->callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 #include "common/base/time.h"
 #include "common/wire/status_report.h"
 #include "host_app/live/live_report.h"
+#include "host_app/live/rig_silence.h"
 
 namespace vantage {
 
@@ -13,7 +14,9 @@ ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until,
     StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
     constexpr std::chrono::milliseconds look_every(50);
     const auto has_answered = [&](const RigStatus& rig) {
-        return rig.connected || (until == LookUntil::all_answered && !rig.refused.empty());
+        if (until == LookUntil::all_send && rig.connected)
+            return delivers(rig) || waits_for_a_host(rig) || !trouble_of(rig).empty();
+        return rig.connected || (until != LookUntil::all_connected && !rig.refused.empty());
     };
     const MonotonicTime end = MonotonicClock::now() + from_s(wait_s);
     while (MonotonicClock::now() < end && !stop.wait_for(look_every)) {
@@ -23,13 +26,13 @@ ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until,
     return receiver.status();
 }
 
-bool delivers(const RigStatus& rig) {
-    return trouble_of(rig).empty() && rig.health.published_hz > 0;
-}
-
 nlohmann::ordered_json to_json(const RigStatus& rig) {
-    nlohmann::ordered_json json{{"name", rig.rig}, {"state", state_of(rig)}};
+    nlohmann::ordered_json json{{"name", rig.rig},
+                                {"endpoint", rig.endpoint},
+                                {"connected", rig.connected},
+                                {"state", state_of(rig)}};
     if (const std::string trouble = trouble_of(rig); !trouble.empty()) json["trouble"] = trouble;
+    if (const std::string silence = silence_of(rig); !silence.empty()) json["silence"] = silence;
     json["delivers"] = delivers(rig);
     json["clock"] = clock_text(rig);
     json["same_clock"] = rig.same_clock;

@@ -9,16 +9,14 @@
 namespace vantage {
 
 enum class LookUntil {
-    all_answered,  ///< a refusal is an answer
-    all_connected  ///< a rig that refuses may be started anew meanwhile
+    all_answered,   ///< a refusal is an answer
+    all_connected,  ///< a rig that refuses may be started anew meanwhile
+    all_send        ///< or say why they do not: a rig that has just started sends in a moment
 };
 
 /// What the rigs of a stage say of themselves: looks until they do, or the time is up. Frames are
 /// not asked for.
 ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop);
-
-/// Whether it gives pictures, as far as its own numbers say.
-bool delivers(const RigStatus& rig);
 
 /// For machines.
 nlohmann::ordered_json to_json(const RigStatus& rig);

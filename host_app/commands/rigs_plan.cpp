@@ -59,17 +59,20 @@ class Scales {
     std::vector<RigWeight> weights_;
 };
 
-/// A rig's latest picture, packed anew at every quality.
-void weigh(const ColourImage& colour, RigWeight& weight) {
+/// A rig's latest picture, packed anew at every quality with the chroma that it sends; what is sent
+/// without loss has that of a rig that is not told any.
+void weigh(const RigFrame& frame, RigWeight& weight) {
+    const bool is_jpeg = decode_frame_head(frame.packed->header).colour == FrameHead::Colour::jpeg;
+    const Chroma chroma = is_jpeg ? JpegDecoder().chroma_of(frame.packed->colour) : Chroma::quarter;
     JpegEncoder encoder;
     for (const int quality : ladder)
         weight.ladder.push_back(
-            {quality, static_cast<double>(encoder.encode(colour, quality).size())});
+            {quality, static_cast<double>(encoder.encode(frame.colour, quality, chroma).size())});
 }
 
 struct Measured {
     std::vector<RigWeight> weights;
-    std::vector<ColourImage> latest;  ///< of each; empty: it has no colour
+    std::vector<std::shared_ptr<const RigFrame>> latest;  ///< of each; null: it has no colour
 };
 
 Measured measure(const PlanOptions& options, const StageConfig& stage) {
@@ -79,7 +82,7 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         stage, options.start ? StageReceiver::Purpose::film : StageReceiver::Purpose::look_on,
         [&](const ArrivedFrame& frame) { scales.see(frame); });
     for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, true, 1);
-    std::vector<ColourImage> latest(stage.rigs.size());
+    std::vector<std::shared_ptr<const RigFrame>> latest(stage.rigs.size());
     const MonotonicTime give_up = MonotonicClock::now() + from_s(options.wait_s);
     std::optional<MonotonicTime> end;
     while (!stop.requested()) {
@@ -90,7 +93,7 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         if (!end) end = MonotonicClock::now() + from_s(options.seconds);
         for (std::size_t i = 0; i < set->slots.size(); ++i)
             if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
-                latest[i] = set->slots[i].frame->colour;
+                latest[i] = set->slots[i].frame;
     }
     std::vector<RigWeight> weights = scales.means();
     std::string silent;
@@ -165,7 +168,7 @@ void plan(const PlanOptions& options) {
     LinkBudget budget = plan_links(weights, rate_hz, options.limits);
     if (!budget.fits()) {
         for (std::size_t i = 0; i < weights.size(); ++i)
-            if (!latest[i].empty()) weigh(latest[i], weights[i]);
+            if (latest[i]) weigh(*latest[i], weights[i]);
         budget = plan_links(weights, rate_hz, options.limits);
     }
     if (options.json)

@@ -202,12 +202,6 @@ void pair(Session& session, const Endpoint& endpoint) {
                                              session.stage.path().string()));
 }
 
-nlohmann::ordered_json json_of(const RigStatus& rig) {
-    return {
-        {"name", rig.rig},          {"endpoint", rig.endpoint},  {"connected", rig.connected},
-        {"clock", clock_text(rig)}, {"sync", to_json(rig.sync)}, {"health", to_json(rig.health)}};
-}
-
 void check(const Session& session) {
     const std::string file = session.stage.path().string();
     const ReceiverStatus status = look_at(session.stage.config(), session.options.wait_s,
@@ -216,7 +210,7 @@ void check(const Session& session) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), lacks = rigs;
     std::string words = fmt::format("\nThe rigs of {}:\n", file);
     for (const RigStatus& rig : status.rigs) {
-        rigs.push_back(json_of(rig));
+        rigs.push_back(to_json(rig));
         words += rig.connected
                      ? fmt::format("{}: connected, {:g} Hz; {}; {}\n", rig.rig, rig.sync.rate_hz,
                                    clock_text(rig), health_text(rig.health))

@@ -74,12 +74,31 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
     return settings;
 }
 
+std::shared_ptr<PictureSound> ShowOptions::sound(double rate_hz, const SoundTap& tap,
+                                                 std::shared_ptr<SoundSource> source) const {
+    if (!audio.empty()) source = open_sound(audio, tap);
+    if (!source) {
+        if (audio_delay_ms)
+            fail(
+                "--audio-delay says nothing without a sound: say --audio, or play a take with one");
+        return nullptr;
+    }
+    PictureSound::Settings settings{.rate_hz = rate_hz, .tap = tap};
+    if (audio_delay_ms) settings.delay = from_s(*audio_delay_ms / 1000);
+    return std::make_shared<PictureSound>(settings, std::move(source));
+}
+
 FlightStore ShowOptions::flight_store(const std::string& beside) const {
     return FlightStore(flight.empty() ? flight_file_of(beside) : std::filesystem::path(flight));
 }
 
 ClipStore ShowOptions::clip_store(const std::string& beside, double pulse_rate_hz) const {
     return {clips.empty() ? clip_file_of(beside) : std::filesystem::path(clips), pulse_rate_hz};
+}
+
+std::optional<DeskStore> ShowOptions::desk_store(const std::string& beside) const {
+    if (headless) return std::nullopt;
+    return DeskStore(desk.empty() ? desk_file_of(beside) : std::filesystem::path(desk));
 }
 
 FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights) const {
@@ -122,6 +141,9 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--clips", clips,
                        "Keep clips and play list in this file, and have them from there (default: "
                        "NAME.clips.toml beside the stage or the take)");
+    command.add_option("--desk", desk,
+                       "Keep how the desk is arranged in this file, and have it from there "
+                       "(default: NAME.desk.toml beside the stage or the take)");
     command.add_option("--snapshot", snapshot,
                        "Write the last picture (.png, .jpg); of a window, the whole desk");
     std::string kinds;
@@ -148,6 +170,16 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
             "Tell Prometheus how the show stands, at http://HOST:PORT/metrics (:9464 listens "
             "at 127.0.0.1; ?open=yes)")
         ->type_name("URL");
+    command
+        .add_option("--audio", audio,
+                    "Sound that goes with the programme (docs/sound.md): alsa:DEVICE "
+                    "(?channels=3,4) or a file (?loop=yes)")
+        ->type_name("SOURCE");
+    command
+        .add_option("--audio-delay", audio_delay_ms,
+                    "Milliseconds from when it is heard to when it leaves (default: as long as "
+                    "pictures take from exposure, measured; of a file none)")
+        ->check(CLI::Range(0.0, 10'000.0));
     command.add_option("--record", film,
                        "Write the programme as a film (.mkv, .mp4), with the house's time code: "
                        "--output of a file");
@@ -293,25 +325,29 @@ void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
 /// pivot goes with.
 void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
     FlightControls& controls = show.controls();
-    const bool is_following = controls.lines().is_following;
-    if (!wishes.pick && !is_following) return;
+    const std::vector<FlightControls::Following> following = controls.lines().following;
+    if (!wishes.pick && following.empty()) return;
     const ProgrammeState programme = show.state();
     if (!programme.picture) return;
-    const PictureJob& job = programme.picture->job;
-    const FrameSet& set = *job.instant->set;
+    // Hands pick in the picture of the camera that they fly.
+    const MadePicture& seen =
+        programme.preview.picture ? *programme.preview.picture : *programme.picture;
     if (wishes.pick) {
         const PictureFormat& format = show.settings().format;
         FlightInput input;
-        input.pivot_m = surface_at(
-            set, job.camera, static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
+        input.pivot_m =
+            surface_at(*seen.job.instant->set, seen.job.camera,
+                       static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
         if (input.pivot_m)
             controls.hands().put(input, now);
         else
             log_info("no rig has a depth there: the pivot stays");
     }
-    if (!is_following || set.complete == followed) return;
+    const FrameSet& set = *programme.picture->job.instant->set;
+    if (following.empty() || set.complete == followed) return;
     followed = set.complete;
-    if (const auto pivot_m = performer_near(set, programme.view.pivot_m)) controls.follow(*pivot_m);
+    for (const auto& [camera, pivot_m] : following)
+        if (const auto there_m = performer_near(set, pivot_m)) controls.follow({camera, *there_m});
 }
 
 /// What hands asked for beyond the programme itself.
@@ -364,9 +400,10 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
     const PictureFormat& format = show.settings().format;
     OperatorWindow window("Vantage", std::max(least_width_px, format.width_px),
                           std::max(least_height_px, format.height_px));
+    if (desk) window.arrange(desk->desk());
     show.controls().wheels().serve_desk();
     show.start();
-    DeskFeed desk;
+    DeskFeed feed;
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
     OutputSwitch outputs(show.outputs());
@@ -375,7 +412,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
     // the desk is drawn now and then: where the processor draws, it has better things to do.
     constexpr std::chrono::milliseconds period{16};
     MonotonicTime last = MonotonicClock::now();
-    std::shared_ptr<const MadePicture> shown;
+    std::shared_ptr<const MadePicture> shown, shown_preview;
     while (!show.is_over() && !window.closed() &&
            !stop.wait_for(
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
@@ -391,19 +428,30 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
         const bool is_new = programme.picture != shown;
         if (window.is_desk_due(now) || (is_new && !shown)) {
             DeskState state =
-                desk.state(show, programme, takes ? std::optional(takes->state()) : std::nullopt,
-                           outputs.question(now));
+                feed.state(show, programme, takes ? std::optional(takes->state()) : std::nullopt,
+                           outputs.question(now), window.shows_outside());
             state.programme_tally = room.tally().programme;
             state.preview_tally = room.tally().preview;
+            const LtcBoard::State ltc = room.ltc();
+            state.is_ltc_off = ltc.frames_ahead != 0;
+            state.ltc =
+                ltc.code.empty()
+                    ? ""
+                    : fmt::format(
+                          "LTC {}{}", ltc.code,
+                          state.is_ltc_off ? fmt::format(" ({:+} frames)", ltc.frames_ahead) : "");
             window.show(std::move(state));
-        } else if (is_new) {
-            window.show_picture(*desk.picture(programme));
+        } else if (is_new || (shown && programme.preview.picture != shown_preview)) {
+            window.show_pictures(*feed.picture(programme), feed.preview(programme));
         }
-        if (is_new) desk.note_shown(programme);
+        if (is_new) feed.note_shown(programme);
         shown = programme.picture;
+        shown_preview = programme.preview.picture;
+        if (desk) desk->follow(window.arrangement(), now);
         progress.tell(show);
         corridor.tell(show);
     }
+    if (desk) desk->finish();
     finish(room, sets, corridor, [&] { return window.screenshot(); });
 }
 

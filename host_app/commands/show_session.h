@@ -11,6 +11,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
 #include "host_app/commands/stereoscopic_options.h"
+#include "host_app/desk/desk_store.h"
 #include "host_app/flight/flight_store.h"
 #include "host_app/live/control_room.h"
 #include "host_app/live/live_show.h"
@@ -23,10 +24,12 @@ namespace vantage {
 
 /// The options that every show has, be it live or of a take.
 struct ShowOptions {
-    std::string path, flight, clips, snapshot, film, contact_sheet, size, synthesiser, wheels,
+    std::string path, flight, clips, desk, snapshot, film, contact_sheet, size, synthesiser, wheels,
         encoder, rate;
     std::string set, saved_set;
     std::string metrics;  ///< where they are told; empty: nowhere
+    std::string audio;    ///< where sound comes from; empty: nowhere
+    std::optional<double> audio_delay_ms;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
     std::uint64_t frames = 0;
@@ -46,7 +49,13 @@ struct ShowOptions {
     FlightStore flight_store(const std::string& beside) const;
     /// Likewise, as load_clips().
     ClipStore clip_store(const std::string& beside, double pulse_rate_hz) const;
+    /// Likewise, as load_desk(). Nothing: there is no window.
+    std::optional<DeskStore> desk_store(const std::string& beside) const;
     std::unique_ptr<JogDeck> make_deck() const;
+    /// What `--audio` asks for, else what `source` is; null: no sound. `tap`: for a take. Throws
+    /// Error as open_sound().
+    std::shared_ptr<PictureSound> sound(double rate_hz, const SoundTap& tap,
+                                        std::shared_ptr<SoundSource> source = nullptr) const;
 };
 
 /// A show from its first picture to its summary.
@@ -57,6 +66,7 @@ struct ShowSession {
     const JogDeck* deck;
     FlightStore& flights;
     ClipStore& clips;
+    std::optional<DeskStore> desk;
     TakeDesk* takes;     ///< null: nothing can be recorded
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.

@@ -51,6 +51,12 @@ std::uint64_t missing_of(const std::vector<TakeReader::Frame>& frames) {
     return frames.empty() ? 0 : frames.back().pulse - frames.front().pulse + 1 - frames.size();
 }
 
+double sound_s(const TakeReader& take) {
+    std::int64_t samples = 0;
+    for (const TakeReader::Sound& sound : take.sounds()) samples += sound.count;
+    return static_cast<double>(samples) / sound_rate_hz;
+}
+
 nlohmann::ordered_json info_json(const TakeReader& take) {
     const TakeFacts& facts = take.facts();
     nlohmann::ordered_json json{{"path", take.path().string()},
@@ -62,6 +68,7 @@ nlohmann::ordered_json info_json(const TakeReader& take) {
                                 {"ended", take.is_ended()},
                                 {"damaged_places", take.damage().size()},
                                 {"camera_ticks", take.cameras().size()}};
+    if (facts.has_sound) json["sound_s"] = sound_s(take);
     json["rigs"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < facts.rigs.size(); ++i) {
         const std::vector<TakeReader::Frame>& frames = take.frames(i);
@@ -99,6 +106,8 @@ void info(const TakeOptions& options) {
             rig["frames"].get<std::uint64_t>(), rig["missing"].get<std::uint64_t>(),
             rig["colour"].get<std::string>(), rig["disparity"].get<std::string>());
     std::cout << fmt::format("camera: {} ticks\n", take.cameras().size());
+    if (take.facts().has_sound)
+        std::cout << fmt::format("sound: {:.1f} s, PCM of 24 bits\n", sound_s(take));
     for (const TakeAttachment& attachment : take.facts().attachments)
         std::cout << fmt::format("attached: {}, {} bytes\n", attachment.name,
                                  attachment.bytes.size());
@@ -124,9 +133,8 @@ void check(const TakeOptions& options) {
     use_zone_of(take);
     const TakeVerdict verdict = check_take(take, progress_of(options.take));
     const TimecodeClock clock(take.facts().pulse_rate_hz);
-    const auto code = [&](std::uint64_t pulse) {
-        return clock.of_pulse(pulse, take.facts().tai_offset_s);
-    };
+    const int tai_offset_s = take.facts().tai_offset_s;
+    const auto code = [&](std::uint64_t pulse) { return clock.of_pulse(pulse, tai_offset_s); };
     std::uint64_t missing = 0;
     for (const TakeGap& gap : verdict.gaps) missing += gap.pulses();
     if (options.json) {
@@ -142,21 +150,37 @@ void check(const TakeOptions& options) {
                                     {"to_pulse", gap.to},
                                     {"from", code(gap.from)},
                                     {"why", gap.why}});
+        if (take.facts().has_sound) {
+            json["sound_s"] = verdict.sound_s;
+            json["sound_gaps"] = nlohmann::ordered_json::array();
+            for (const SoundGap& gap : verdict.sound_gaps)
+                json["sound_gaps"].push_back({{"from_tai_ns", to_ns(gap.from)},
+                                              {"from", clock.at(gap.from, tai_offset_s)},
+                                              {"seconds", gap.seconds}});
+        }
         for (const TakeDamage& damage : verdict.damage)
             json["damage"].push_back({{"at_byte", damage.at}, {"what", damage.words}});
         std::cout << json.dump() << '\n';
     } else {
         for (const TakeGap& gap : verdict.gaps)
-            std::cout << fmt::format("{}: {} pulses missing from {} (pulse {}) on{}{}\n", gap.rig,
-                                     gap.pulses(), code(gap.from), gap.from,
-                                     gap.why.empty() ? "" : ": ", gap.why);
+            std::cout << fmt::format("{}: {} pulse{} missing from {} (pulse {}) on{}{}\n", gap.rig,
+                                     gap.pulses(), gap.pulses() == 1 ? "" : "s", code(gap.from),
+                                     gap.from, gap.why.empty() ? "" : ": ", gap.why);
+        for (const SoundGap& gap : verdict.sound_gaps)
+            std::cout << fmt::format("sound: {:.3f} s missing from {} on\n", gap.seconds,
+                                     clock.at(gap.from, tai_offset_s));
         for (const TakeDamage& damage : verdict.damage)
             std::cout << fmt::format("byte {}: {}\n", damage.at, damage.words);
         std::cout << fmt::format("{} frames are as they came\n", verdict.frames);
+        if (take.facts().has_sound)
+            std::cout << fmt::format("{:.1f} s of sound are as they were heard\n", verdict.sound_s);
     }
     if (!verdict.is_whole())
-        fail("{} is not whole: {} frames are missing in {} gaps, and {} places are damaged",
-             options.take, missing, verdict.gaps.size(), verdict.damage.size());
+        fail("{} is not whole: {} frames are missing in {} gaps, {} places are damaged{}",
+             options.take, missing, verdict.gaps.size(), verdict.damage.size(),
+             verdict.sound_gaps.empty()
+                 ? ""
+                 : fmt::format(", and its sound has {} gaps", verdict.sound_gaps.size()));
 }
 
 void tell(const TakeCopy& copy, const TakeOptions& options) {
@@ -165,7 +189,8 @@ void tell(const TakeCopy& copy, const TakeOptions& options) {
                                             {"frames", copy.frames},
                                             {"camera_ticks", copy.cameras},
                                             {"damaged", copy.damaged},
-                                            {"twice", copy.twice}}
+                                            {"twice", copy.twice},
+                                            {"sound_s", copy.sound_s}}
                          .dump()
                   << '\n';
     else

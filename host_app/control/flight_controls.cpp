@@ -1,6 +1,7 @@
 #include "host_app/control/flight_controls.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,13 +40,14 @@ HandsBox::Taken HandsBox::take() {
 FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing,
                                CorridorNow corridor)
     : settings_(std::move(settings)),
-      helm_(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move, settings_.has_past,
-            settings_.plan.habits),
+      cameras_(Helm(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move,
+                    settings_.has_past, settings_.plan.habits)),
+      fly_to_preview_s_(settings_.plan.habits.shot_s),
       deck_(deck),
       rig_view_(std::move(rig_view)),
       framing_(std::move(framing)),
       corridor_now_(std::move(corridor)) {
-    helm_.keep(settings_.plan.book);
+    cameras_.programme().helm.keep(settings_.plan.book);
     shots_ = settings_.plan.book.shots;
     if (settings_.plan.move) move_ = std::make_shared<const Move>(*settings_.plan.move);
 }
@@ -55,9 +57,9 @@ void FlightControls::keep_flight(Move move) {
     kept_flight_ = std::move(move);
 }
 
-void FlightControls::follow(const Eigen::Vector3d& pivot_m) {
+void FlightControls::follow(const Following& found) {
     const std::lock_guard lock(mutex_);
-    followed_ = pivot_m;
+    followed_.push_back(found);
 }
 
 PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) {
@@ -65,14 +67,17 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     last_s_ = time_s;
     if (framing_) {
         if (const std::optional<StageFraming> framing = framing_()) {
-            helm_.settle(framing->limits,
-                         settings_.plan.start ? std::nullopt : std::optional(framing->start));
+            cameras_.for_each_helm([&](Helm& helm) {
+                helm.settle(framing->limits,
+                            settings_.plan.start ? std::nullopt : std::optional(framing->start));
+            });
             framing_ = {};
         }
     }
     take_from_session();
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
-    if (!settings_.free_flight) helm_.keep_within(corridor);
+    if (!settings_.free_flight)
+        cameras_.for_each_helm([&](Helm& helm) { helm.keep_within(corridor); });
     auto [hands, since] = hands_.take();
     if (deck_) hands.add(take_wheels(dt_s, since));
     if (hands.toggle_jog_map) {
@@ -94,7 +99,7 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
                  .toggle_loop = hands.toggle_loop,
                  .cue = hands.cue,
                  .calls = hands.replay};
-    if (helm_.wheel_mode() == WheelMode::past) {
+    if (cameras_.in_hand().helm.wheel_mode() == WheelMode::past) {
         step.time.pulses += hands.wheel_steps;
         step.time.shuttle_pulses = hands.shuttle_s * settings_.pulse_rate_hz;
     }
@@ -107,12 +112,13 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
         const std::lock_guard lock(mutex_);
         step.time.to_pulse = std::exchange(seek_, std::nullopt);
     }
+    take_preview(hands);
     fly(hands, dt_s, take_s, step);
     record(hands, step, time_s, take_s);
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
     wishes_.toggle_take ^= hands.toggle_take;
-    if (auto change = helm_.take_change()) {
+    if (auto change = cameras_.take_change()) {
         shots_ = change->book.shots;
         const std::optional<Move>& move = change->book.move;
         move_ = move ? std::make_shared<const Move>(*move) : nullptr;
@@ -126,53 +132,105 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     wishes_.learn_set |= hands.learn_set;
     if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
         wishes_.outputs.push_back(hands.toggle_output);
-    lines_ = {is_tracked_ ? std::nullopt : helm_.move_progress(),
-              name_of(helm_.wheel_mode()),
-              is_tracked_,
-              wheel_line(),
-              corridor_books_,
-              is_recording_,
-              helm_.holds_horizon(),
-              is_following_,
-              helm_.keyframes()};
+    note_lines(corridor.get());
     return step;
+}
+
+void FlightControls::note_lines(const Corridor* corridor) {
+    const CameraPair::Camera& in_hand = cameras_.in_hand();
+    const CameraPair::Camera* preview = cameras_.preview();
+    const std::optional<double> on_air_move =
+        is_tracked_ ? std::nullopt : cameras_.programme().helm.move_progress();
+    lines_ = {};
+    lines_.move_progress = preview ? in_hand.helm.move_progress() : on_air_move;
+    lines_.wheel_mode = name_of(in_hand.helm.wheel_mode());
+    lines_.is_tracked = is_tracked_;
+    lines_.wheel = wheel_line();
+    lines_.corridor = corridor_books_;
+    lines_.is_recording = is_recording_;
+    lines_.holds_horizon = in_hand.helm.holds_horizon();
+    lines_.is_following = in_hand.follows_performer;
+    lines_.keyframes = in_hand.helm.keyframes();
+    for (const CameraPair::Camera* camera :
+         {&std::as_const(cameras_).programme(), cameras_.preview()})
+        if (camera && camera->follows_performer)
+            lines_.following.push_back({camera->id, camera->helm.view().pivot_m});
+    lines_.fly_to_preview_s = fly_to_preview_s_;
+    if (!preview) return;
+    const OrbitView view = preview->helm.view();
+    lines_.preview = {view, corridor ? std::optional(corridor->of(view.camera())) : std::nullopt,
+                      cameras_.fly_progress(), on_air_move};
+}
+
+void FlightControls::take_preview(const FlightInput& hands) {
+    if (hands.fly_to_preview_tenths != 0) fly_to_preview_s_ = 0.1 * hands.fly_to_preview_tenths;
+    if (hands.toggle_preview) cameras_.toggle_preview();
+    if (!hands.cut && !hands.fly_to_preview) return;
+    if (!cameras_.preview())
+        return log_info(
+            "there is no camera on preview to cut or fly to: the command preview, key "
+            "/, begins one");
+    if (hands.cut) {
+        cameras_.cut();
+        // A tracked camera is not glided away from.
+        is_tracked_ = false;
+        glide_ = {};
+    } else {
+        cameras_.fly_to_preview(fly_to_preview_s_);
+    }
+    may_track_ = false;
 }
 
 void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<double> take_s,
                          PilotStep& step) {
+    Helm& programme = cameras_.programme().helm;
+    Helm& in_hand = cameras_.in_hand().helm;
+    const bool has_preview = cameras_.preview() != nullptr;
     if (hands.toggle_tracking) may_track_ = !may_track_;
-    const bool wheel_steers = hands.turns_wheel() && helm_.wheel_mode() != WheelMode::past;
-    if (hands.steers() || hands.toggle_move || wheel_steers) may_track_ = false;
+    const bool wheel_steers = hands.turns_wheel() && in_hand.wheel_mode() != WheelMode::past;
+    if (!has_preview && (hands.steers() || hands.toggle_move || wheel_steers)) may_track_ = false;
     const std::optional<CameraState> tracked =
         may_track_ ? tracked_.newest(MonotonicClock::now()) : std::nullopt;
     // Before the hands, so that they steer on from there.
-    if (tracked) helm_.stand_at(*tracked);
+    if (tracked) programme.stand_at(*tracked);
     if (tracked.has_value() != is_tracked_) {
         is_tracked_ = tracked.has_value();
         glide_.begin();
     }
-    if (settings_.take_begin && helm_.move_take_s()) {
+    if (settings_.take_begin && programme.move_take_s()) {
         // The move says what time it is; who holds time holds the move.
-        if (std::exchange(step.time.toggle_hold, false)) helm_.toggle_pause();
-        if (step.time.is_any()) helm_.leave_move();
+        if (std::exchange(step.time.toggle_hold, false)) programme.toggle_pause();
+        if (step.time.is_any()) programme.leave_move();
     }
-    if (hands.toggle_follow) is_following_ = !is_following_;
+    bool& follows = cameras_.in_hand().follows_performer;
+    if (hands.toggle_follow) follows = !follows;
     // A hand that takes the pivot elsewhere, or a flight that does, ends that.
-    if (hands.moves_pivot() || helm_.move_progress()) is_following_ = false;
-    helm_.take(hands, rig_view_, take_s);
-    helm_.advance(dt_s);
-    if (const std::optional<double> led = helm_.move_take_s(); led && settings_.take_begin)
+    if (hands.moves_pivot() || in_hand.move_progress()) follows = false;
+    in_hand.take(hands, rig_view_, take_s);
+    cameras_.advance(dt_s);
+    show(dt_s, tracked, step);
+}
+
+void FlightControls::show(double dt_s, const std::optional<CameraState>& tracked, PilotStep& step) {
+    const Helm& programme = cameras_.programme().helm;
+    if (const std::optional<double> led = programme.move_take_s(); led && settings_.take_begin)
         step.time.at_pulse = *settings_.take_begin + *led * settings_.pulse_rate_hz;
-    step.view = helm_.view();
+    step.view = programme.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
+    if (const CameraPair::Camera* preview = cameras_.preview()) step.preview = preview->helm.view();
 }
 
 PilotStep FlightControls::fly_to_shot(int number) {
     FlightInput hands;
     hands.recall_shot = number;
+    may_track_ = false;
+    if (std::exchange(is_tracked_, false)) glide_.begin();
+    CameraPair::Camera& programme = cameras_.programme();
+    programme.follows_performer = false;
+    programme.helm.take(hands, rig_view_);
     PilotStep step;
-    fly(hands, 0, std::nullopt, step);
+    show(0, std::nullopt, step);
     return step;
 }
 
@@ -188,18 +246,21 @@ FlightControls::Shots FlightControls::shots() const {
 
 void FlightControls::take_from_session() {
     std::optional<Move> flight;
-    std::optional<Eigen::Vector3d> followed;
+    std::vector<Following> followed;
     {
         const std::lock_guard lock(mutex_);
         flight = std::exchange(kept_flight_, std::nullopt);
-        followed = std::exchange(followed_, std::nullopt);
+        followed = std::exchange(followed_, {});
     }
     if (flight) {
-        helm_.keep_flight(*flight);
+        cameras_.in_hand().helm.keep_flight(*flight);
         const std::lock_guard lock(mutex_);
         move_ = std::make_shared<const Move>(*std::move(flight));
     }
-    if (followed && is_following_) helm_.carry_pivot_to(*followed);
+    for (const Following& found : followed)
+        if (CameraPair::Camera* camera = cameras_.find(found.camera);
+            camera && camera->follows_performer)
+            camera->helm.carry_pivot_to(found.pivot_m);
 }
 
 void FlightControls::record(const FlightInput& hands, const PilotStep& step, double time_s,
@@ -207,9 +268,11 @@ void FlightControls::record(const FlightInput& hands, const PilotStep& step, dou
     if (hands.toggle_recording) is_recording_ = !is_recording_;
     if (!is_recording_) return;
     const OrbitView view =
-        step.camera ? orbit_view_of(*step.camera, flight_.empty() ? step.view.azimuth_rad
-                                                                  : flight_.back().view.azimuth_rad)
-                    : step.view;
+        step.preview ? *step.preview
+        : step.camera
+            ? orbit_view_of(*step.camera, flight_.empty() ? step.view.azimuth_rad
+                                                          : flight_.back().view.azimuth_rad)
+            : step.view;
     if (flight_.empty() || time_s > flight_.back().time_s)
         flight_.push_back({time_s, view, take_s});
     if (time_s - flight_.front().time_s > longest_flight_s) {
@@ -237,7 +300,7 @@ void FlightControls::end_recording() {
 void FlightControls::pass_flight_on() {
     if (flight_.empty()) return;
     wishes_.flight = std::exchange(flight_, {});
-    wishes_.limits = helm_.limits();
+    wishes_.limits = cameras_.in_hand().helm.limits();
 }
 
 void FlightControls::note_coverage(const Corridor* corridor, const CameraState& camera,
@@ -285,12 +348,13 @@ std::string FlightControls::wheel_line() const {
             fault = device.fault;
     }
     if (names.empty()) return fault;
-    return fmt::format("{} {}{}{}", names,
-                       wheels_.is_open()
-                           ? "moves nothing while its map is open"
-                           : fmt::format("drives the {}", name_of(helm_.wheel_mode())),
-                       mapper_.is_storing() ? "; the next shot button stores" : "",
-                       wheels_.unsaved().empty() ? "" : "; its map is changed and not saved");
+    return fmt::format(
+        "{} {}{}{}", names,
+        wheels_.is_open()
+            ? "moves nothing while its map is open"
+            : fmt::format("drives the {}", name_of(cameras_.in_hand().helm.wheel_mode())),
+        mapper_.is_storing() ? "; the next shot button stores" : "",
+        wheels_.unsaved().empty() ? "" : "; its map is changed and not saved");
 }
 
 }  // namespace vantage

@@ -12,10 +12,10 @@
 #include "host_app/control/hid/jog_mapper.h"
 #include "host_app/control/hid/wheel_desk.h"
 #include "host_app/control/tracked_camera.h"
+#include "host_app/flight/camera_pair.h"
 #include "host_app/flight/corridor_books.h"
 #include "host_app/flight/flight_plan.h"
 #include "host_app/flight/flight_recording.h"
-#include "host_app/flight/helm.h"
 #include "host_app/flight/pilot.h"
 #include "host_app/flight/stage_framing.h"
 
@@ -85,8 +85,13 @@ class FlightControls final : public Pilot {
 
     /// A flight that was recorded: the move from the next step on. From any thread.
     void keep_flight(Move move);
-    /// Where the performer is whom the pivot goes with. From any thread.
-    void follow(const Eigen::Vector3d& pivot_m);
+    /// A camera whose pivot goes with a performer.
+    struct Following {
+        std::uint64_t camera;  ///< see CameraPair
+        Eigen::Vector3d pivot_m;
+    };
+    /// Where the performer is now. From any thread.
+    void follow(const Following& found);
 
     /// To this pulse of the past, and stand there; from any thread. Of several the last counts.
     void seek(double pulse);
@@ -105,15 +110,25 @@ class FlightControls final : public Pilot {
 
     /// For the desk, from any thread.
     struct Lines {
-        std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+        std::optional<double> move_progress;  ///< 0..1 while the camera in hand is on the move
         std::string wheel_mode;               ///< orbit, move or past
         bool is_tracked = false;              ///< a tracked camera flies
         std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
         CorridorBooks corridor;
         bool is_recording = false;  ///< a flight
         bool holds_horizon = true;
-        bool is_following = false;  ///< the pivot goes with a performer
+        bool is_following = false;  ///< the pivot of the camera in hand goes with a performer
         std::size_t keyframes = 0;  ///< of the move
+        std::vector<Following> following;  ///< on programme and preview
+        double fly_to_preview_s = 0;       ///< that a flight to the preview's view takes
+        /// While there is a camera on preview, which hands fly.
+        struct Preview {
+            OrbitView view;
+            std::optional<Coverage> coverage;     ///< of its picture; nothing: not known
+            std::optional<double> fly_progress;   ///< 0..1 while the programme's flies to its view
+            std::optional<double> move_progress;  ///< 0..1 while the programme's is on the move
+        };
+        std::optional<Preview> preview;
     };
     Lines lines() const;
 
@@ -121,8 +136,12 @@ class FlightControls final : public Pilot {
     /// What the wheels ask for; `since`: when the first of it was moved.
     FlightInput take_wheels(double dt_s, std::optional<MonotonicTime>& since);
     std::string wheel_line() const;
+    /// What hands ask of the camera on preview, and of the programme's to come to its view.
+    void take_preview(const FlightInput& hands);
     /// Whoever flies, tracked camera or helm.
     void fly(const FlightInput& hands, double dt_s, std::optional<double> take_s, PilotStep& step);
+    /// The programme's camera, and what it says of time, after dt_s; and the one on preview.
+    void show(double dt_s, const std::optional<CameraState>& tracked, PilotStep& step);
     /// What the session's thread has made meanwhile.
     void take_from_session();
     /// Keeps the step's camera while a flight is recorded.
@@ -130,10 +149,12 @@ class FlightControls final : public Pilot {
                 std::optional<double> take_s);
     /// What was recorded, to the session. Precondition: mutex_ is held.
     void pass_flight_on();
+    void note_lines(const Corridor* corridor);
     void note_coverage(const Corridor* corridor, const CameraState& camera, double dt_s);
 
     Settings settings_;
-    Helm helm_;
+    CameraPair cameras_;
+    double fly_to_preview_s_;
     JogDeck* deck_;
     RigView rig_view_;
     Framing framing_;  ///< empty once it has told
@@ -147,7 +168,7 @@ class FlightControls final : public Pilot {
     bool may_track_ = true;  ///< no hand has taken over
     bool is_tracked_ = false;
     double last_s_ = 0;
-    bool is_recording_ = false, is_following_ = false;
+    bool is_recording_ = false;
     FlightRecording flight_;
     mutable std::mutex mutex_;
     Lines lines_;
@@ -155,8 +176,8 @@ class FlightControls final : public Pilot {
     std::optional<double> seek_;
     Shots shots_;
     std::shared_ptr<const Move> move_;
-    std::optional<Move> kept_flight_;          ///< on its way to the helm
-    std::optional<Eigen::Vector3d> followed_;  ///< likewise
+    std::optional<Move> kept_flight_;  ///< on its way to the helm
+    std::vector<Following> followed_;  ///< likewise
 };
 
 }  // namespace vantage

@@ -23,6 +23,18 @@ float rig_picture_height(float width, float height, float rigs, float rows) {
     return std::min((width / columns - gap) / cell_aspect, most_of_height * height / rows);
 }
 
+/// Of the width of pictures and side, that the programme has beside the preview; of the height,
+/// that the preview has over the rest of the side.
+constexpr float programme_share = 0.6f, preview_share = 0.64f, name_height = 1.5f;
+
+/// Preview to the left, as everywhere.
+void halve(DeskLayout& layout, float between) {
+    DeskRect& programme = layout.programme;
+    layout.preview = programme;
+    layout.preview.width = programme.width = 0.5f * (programme.width - between);
+    programme.left += programme.width + between;
+}
+
 }  // namespace
 
 DeskRect DeskRect::fitted(float aspect) const {
@@ -39,7 +51,7 @@ float letter_height_px(float width_px, float height_px, float content_scale) {
 }
 
 DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
-                       bool has_clips) {
+                       bool has_clips, bool has_preview) {
     const float width = width_px / em_px, height = height_px / em_px;
     DeskLayout layout;
     layout.status = {0, 0, width, status_height};
@@ -65,18 +77,35 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
         const float shot_width = std::min(shot_height / aspect, 0.11f * width);
         const float bins = has_clips ? 2 : 1;
         // The side takes what the picture leaves.
+        const float both_width = right - bins * (shot_width + gap) - 2 * gap;
         const float picture_width =
-            std::min(middle / aspect, right - side_width - bins * (shot_width + gap) - 2 * gap);
+            has_preview ? std::min((middle - name_height) / aspect, programme_share * both_width)
+                        : std::min(middle / aspect, both_width - side_width);
         const float side_left = 2 * gap + picture_width + bins * (shot_width + gap);
         layout.shots = {2 * gap + picture_width, top, shot_width, middle};
         if (has_clips) layout.clips = {layout.shots.right() + gap, top, shot_width, middle};
         layout.side = {side_left, top, right - side_left, middle};
+        if (has_preview) {
+            layout.preview = layout.side;
+            layout.preview.height =
+                std::min(name_height + layout.side.width * aspect, preview_share * middle);
+            layout.side.top = layout.preview.bottom() + gap;
+            layout.side.height -= layout.preview.height + gap;
+        }
         right = gap + picture_width;
     }
     layout.programme = {gap, top, right - gap, middle};
-    for (DeskRect* part : {&layout.status, &layout.programme, &layout.shots, &layout.clips,
-                           &layout.side, &layout.time_line, &layout.rigs})
+    if (has_preview && layout.side.is_empty()) halve(layout, gap);
+    for (DeskRect* part : {&layout.status, &layout.programme, &layout.preview, &layout.shots,
+                           &layout.clips, &layout.side, &layout.time_line, &layout.rigs})
         *part = {part->left * em_px, part->top * em_px, part->width * em_px, part->height * em_px};
+    return layout;
+}
+
+DeskLayout pictures_alone(float width_px, float height_px, bool has_preview) {
+    DeskLayout layout;
+    layout.programme = {0, 0, width_px, height_px};
+    if (has_preview) halve(layout, 0);
     return layout;
 }
 

@@ -25,13 +25,16 @@ float letter_height_px(float width_px, float height_px, float content_scale);
 
 /// Where the parts of the desk stand. What a small window has no room for is empty.
 struct DeskLayout {
-    DeskRect status, programme, shots, clips, side, time_line, rigs;
+    DeskRect status, programme, preview, shots, clips, side, time_line, rigs;
     int rig_rows = 1;
 };
 
 /// `em_px`: height of letters; `rigs`: how many are to be shown; `aspect`: height by width of the
-/// programme's picture; `has_clips`: there are clips to be shown.
+/// programme's picture; `has_clips`: there are clips to be shown; `has_preview`: there is a camera
+/// on preview, whose picture stands beside the programme's, each with room for its name over it.
 DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
-                       bool has_clips = false);
+                       bool has_clips = false, bool has_preview = false);
+/// Nothing but the pictures.
+DeskLayout pictures_alone(float width_px, float height_px, bool has_preview);
 
 }  // namespace vantage

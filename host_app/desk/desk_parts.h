@@ -6,6 +6,7 @@
 
 #include "host_app/desk/desk_layout.h"
 #include "host_app/desk/desk_state.h"
+#include "host_app/desk/outside_view.h"
 #include "host_app/desk/pen.h"
 
 namespace vantage {
@@ -24,14 +25,38 @@ struct DeskSpots {
     /// Of a wheel's map, which lies over all else: by the control's place in it.
     std::vector<Numbered> wheel_controls;
     std::optional<Time> time;
-    DeskRect live;  ///< empty: there is no live to go back to
+    DeskRect live;     ///< empty: there is no live to go back to
+    DeskRect outside;  ///< the stage from outside; empty: it is not shown
 };
 
-// The parts of the desk, each within its rectangle.
+/// Where the desk was drawn.
+struct DrawnDesk {
+    DeskRect picture;  ///< of the programme, with nothing over it unless there is an overlay
+    std::optional<DeskRect> preview = {};  ///< its picture; nothing: there is none
+    bool has_overlay = false;
+    DeskSpots spots = {};
+
+    /// The picture of the camera that hands fly.
+    const DeskRect& in_hand() const { return preview ? *preview : picture; }
+};
+
+/// Height by width.
+float aspect_of(const Texture* picture);
+
+/// The pictures of programme and preview.
+void draw_monitors(const Pen& pen, const DeskLayout& layout, const DeskState& state,
+                   DrawnDesk& drawn);
+// The other parts of the desk, each within its rectangle.
 void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state);
 void draw_multiview(const Pen& pen, const DeskRect& rect, int rows, const DeskState& state);
 void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state);
-void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
+void draw_stage_outside(const Pen& pen, const DeskRect& rect, const DeskState& state,
+                        const OutsideEye& eye);
+/// In place of either.
+void draw_unknown_stage(const Pen& pen, const DeskRect& rect);
+/// `outside`: the stage is seen from there; null: from above.
+void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
+               const OutsideEye* outside, DeskSpots& spots);
 void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_clips(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);

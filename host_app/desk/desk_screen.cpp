@@ -1,37 +1,24 @@
 #include "host_app/desk/desk_screen.h"
 
 namespace vantage {
-namespace {
-
-constexpr float usual_aspect = 9.0f / 16;
-
-float aspect_of(const Texture* picture) {
-    return picture
-               ? static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())
-               : usual_aspect;
-}
-
-}  // namespace
-
 DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const UiFonts& fonts) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Pen pen(fonts);
     pen.fill({0, 0, size.x, size.y}, palette::ground);
-    const float aspect = aspect_of(state.picture);
-    DeskLayout layout;
-    layout.programme = {0, 0, size.x, size.y};
-    if (switches.panels)
-        layout = desk_layout(size.x, size.y, pen.em(), static_cast<int>(state.rigs.size()), aspect,
-                             !state.replay.clips.empty());
+    const bool has_preview = state.preview.has_value();
+    const DeskLayout layout =
+        switches.panels
+            ? desk_layout(size.x, size.y, pen.em(),
+                          switches.rigs ? static_cast<int>(state.rigs.size()) : 0,
+                          aspect_of(state.picture), !state.replay.clips.empty(), has_preview)
+            : pictures_alone(size.x, size.y, has_preview);
     DrawnDesk drawn;
-    drawn.picture = layout.programme.fitted(aspect);
-    pen.fill(layout.programme, palette::black);
-    if (state.picture) pen.image(drawn.picture, *state.picture);
+    draw_monitors(pen, layout, state, drawn);
     if (switches.panels) {
         draw_status(pen, layout.status, state);
         draw_shots(pen, layout.shots, state, drawn.spots);
         draw_clips(pen, layout.clips, state, drawn.spots);
-        draw_side(pen, layout.side, state, drawn.spots);
+        draw_side(pen, layout.side, state, switches.outside ? &switches.eye : nullptr, drawn.spots);
         draw_time_line(pen, layout.time_line, state, drawn.spots);
         draw_multiview(pen, layout.rigs, layout.rig_rows, state);
     }

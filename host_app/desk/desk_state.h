@@ -75,6 +75,15 @@ struct DeskOutput {
     std::string failure;
 };
 
+/// The programme's sound.
+struct DeskSound {
+    std::string name, state;
+    bool is_on = false;
+    double peak_dbfs = -120;
+    std::uint64_t missing_ms = 0;
+    std::string failure;
+};
+
 /// What there is of time: pulses of the replay buffer, or of a take, and where the programme is.
 struct DeskTime {
     double oldest = 0, newest = 0;  ///< pulses
@@ -84,7 +93,8 @@ struct DeskTime {
     double speed = 0;          ///< unless live
     std::optional<double> in, out;
     bool loops = false;
-    double recorded_s = 0;  ///< of the newest, that a running take has
+    double recorded_s = 0;               ///< of the newest, that a running take has
+    std::vector<double> keyframes = {};  ///< pulses where a move that leads time has them
 
     /// 0..1 along the line.
     double share_of(double pulse) const;
@@ -97,10 +107,17 @@ struct DeskPlan {
         std::string name;
         Eigen::Vector3d eye_m{0, 0, 0}, forward{0, 0, -1};
         double half_width = 0.46;  ///< of its picture, at a depth of 1
+        double half_height = 0.35;
         bool is_away = false;
     };
     std::vector<Rig> rigs;
     StageExtent extent;
+    /// Of the surfaces that the rigs see; none unless they are asked for.
+    struct Point {
+        Eigen::Vector3f at_m;
+        std::array<unsigned char, 3> rgb;
+    };
+    std::vector<Point> points;
     /// How much of the camera's picture would be covered if it stood elsewhere, at its elevation
     /// and with its pivot.
     struct Field {
@@ -109,6 +126,7 @@ struct DeskPlan {
     };
     std::vector<Field> corridor;
     Eigen::Vector3d corridor_pivot_m{0, 0, 0};
+    double corridor_elevation_rad = 0;
     std::vector<Eigen::Vector3d> path_m;       ///< of the camera in the last seconds, oldest first
     std::vector<Eigen::Vector3d> move_m;       ///< of the planned move
     std::vector<Eigen::Vector3d> keyframes_m;  ///< of it
@@ -186,15 +204,30 @@ struct DeskWheel {
     std::size_t feel_in_hand = 0;  ///< of steps, dead zone, curve, inverted
 };
 
+/// The camera on preview, which hands fly.
+struct DeskPreview {
+    const Texture* picture = nullptr;  ///< null: not seen yet
+    OrbitView view;
+    double picture_rate_hz = 0;
+    bool is_near_only = false;  ///< what it shows is prepared for where the programme's camera is
+    std::optional<Coverage> coverage;
+    std::optional<double> fly_progress;    ///< 0..1 while the programme's camera flies to its view
+    std::optional<double> programme_move;  ///< 0..1 while that is on the planned move
+    double fly_s = 1.5;                    ///< that such a flight takes
+};
+
 struct DeskState {
     const Texture* picture = nullptr;  ///< the virtual view
     std::string timecode;
+    std::string ltc;  ///< that comes in, and by how much it differs; empty: none
+    bool is_ltc_off = false;
     std::uint64_t pulse = 0;
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
     bool recording = false;  ///< a film
     bool recording_flight = false;
-    std::optional<DeskTake> take;  ///< nothing: no take is recorded
+    std::optional<DeskTake> take;    ///< nothing: no take is recorded
+    std::optional<DeskSound> sound;  ///< nothing: there is none
     std::vector<DeskOutput> outputs;
     bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says
     std::string question;            ///< that a second press of a key answers; empty: none
@@ -212,16 +245,17 @@ struct DeskState {
     std::vector<DeskRig> rigs;
     std::string synchronisation;  ///< what light last said of it; empty: of no stage
     bool is_sync_doubtful = false;
-    OrbitView view;
+    OrbitView view;  ///< of the programme's camera
     bool follows_performer = false, holds_horizon = true;
     std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
     std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
-    std::optional<double> move_progress;  ///< 0..1 while the camera is on a planned move
+    std::optional<double> move_progress;  ///< 0..1 while the camera in hand is on the move
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
     std::optional<DeskWheel> wheel_map;   ///< nothing: it is not open
     bool has_unsaved_wheel = false;       ///< a map was changed and not saved
     std::optional<DeskSources> sources;   ///< while the source map is asked for
     std::vector<DeskShot> shots;          ///< 1 and on
+    std::optional<DeskPreview> preview;   ///< nothing: hands fly the programme's camera
 
     bool is_of_take() const { return time && time->is_of_take; }
 };

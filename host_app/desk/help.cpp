@@ -19,6 +19,9 @@ std::vector<std::pair<std::string, std::string>> help_rows() {
         if (std::string words = key_words(command); !words.empty())
             rows.emplace_back(std::move(words), command.does);
     rows.insert(rows.end(), {{"Tab", "the picture alone, or the desk"},
+                             {"Shift + Tab", "the rigs' pictures and state, or none"},
+                             {"Ctrl + Tab", "the stage from outside, or the plan of it"},
+                             {"Ctrl + arrow keys, + -", "around it from outside, nearer, farther"},
                              {"Enter", "type a command with its argument, or a time"},
                              {"F1", "show or hide this help"},
                              {"Esc", "end; asks first"}});

@@ -33,6 +33,24 @@ constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000
 /// Between the presses of a double click.
 constexpr double double_press_s = 0.35;
 
+/// Enough of it to be taken hold of.
+bool is_on_a_monitor(const WindowPlace& place) {
+    constexpr int least_px = 64;
+    const auto shared = [](int from, int length, int other_from, int other_length) {
+        return std::min(from + length, other_from + other_length) - std::max(from, other_from);
+    };
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0, width = 0, height = 0;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
+        if (shared(place.x, place.width, x, width) >= least_px &&
+            shared(place.y, place.height, y, height) >= least_px)
+            return true;
+    }
+    return false;
+}
+
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
     if (name == "Space") return GLFW_KEY_SPACE;
@@ -108,6 +126,11 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     glfwSetCursorPosCallback(window_.get(), on_cursor);
     glfwSetScrollCallback(window_.get(), on_scroll);
     glfwSetWindowRefreshCallback(window_.get(), on_change);
+    glfwGetWindowPos(window_.get(), &place_.x, &place_.y);
+    glfwGetWindowSize(window_.get(), &place_.width, &place_.height);
+    glfwSetWindowPosCallback(window_.get(), on_moved);
+    glfwSetWindowSizeCallback(window_.get(), on_sized);
+    glfwSetWindowMaximizeCallback(window_.get(), on_maximised);
     ui_.emplace(letter_height_px(static_cast<float>(width_px), static_cast<float>(height_px), 1));
     renderer_.emplace(shaders_);
 }
@@ -124,6 +147,37 @@ bool OperatorWindow::held(int key) const { return glfwGetKey(window_.get(), key)
 
 void OperatorWindow::on_change(GLFWwindow* window) { of(window).is_changed_ = true; }
 
+void OperatorWindow::on_moved(GLFWwindow* window, int x, int y) {
+    WindowPlace& place = of(window).place_;
+    if (place.is_maximised) return;
+    place.x = x;
+    place.y = y;
+}
+
+void OperatorWindow::on_sized(GLFWwindow* window, int width, int height) {
+    WindowPlace& place = of(window).place_;
+    // One that is put away has no size.
+    if (place.is_maximised || width < 1 || height < 1) return;
+    place.width = width;
+    place.height = height;
+}
+
+void OperatorWindow::on_maximised(GLFWwindow* window, int is_maximised) {
+    of(window).place_.is_maximised = is_maximised != 0;
+}
+
+void OperatorWindow::arrange(const DeskArrangement& desk) {
+    const bool help = switches_.help;
+    switches_ = desk.switches;
+    switches_.help = help;
+    is_changed_ = true;
+    if (!desk.window) return;
+    const WindowPlace& place = *desk.window;
+    glfwSetWindowSize(window_.get(), place.width, place.height);
+    if (is_on_a_monitor(place)) glfwSetWindowPos(window_.get(), place.x, place.y);
+    if (place.is_maximised) glfwMaximizeWindow(window_.get());
+}
+
 void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
     OperatorWindow& self = of(window);
     if (action == GLFW_RELEASE) return;
@@ -138,7 +192,7 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
         if (question.empty() || self.guard_.confirms(question, glfwGetTime()))
             apply({&command, static_cast<double>(number)}, self.input_);
     }
-    if (action == GLFW_PRESS) self.take_key(key);
+    if (action == GLFW_PRESS) self.take_key(key, modifiers);
 }
 
 void OperatorWindow::on_letter(GLFWwindow* window, unsigned codepoint) {
@@ -202,7 +256,7 @@ std::string OperatorWindow::question_of(const ControlCommand& command, int numbe
 }
 
 /// Keys that are the window's own.
-void OperatorWindow::take_key(int key) {
+void OperatorWindow::take_key(int key, int modifiers) {
     switch (key) {
         case GLFW_KEY_F1:
             switches_.help = !switches_.help;
@@ -212,7 +266,9 @@ void OperatorWindow::take_key(int key) {
             prompt_.open();
             break;
         case GLFW_KEY_TAB:
-            switches_.panels = !switches_.panels;
+            ((modifiers & GLFW_MOD_CONTROL) != 0 ? switches_.outside
+             : (modifiers & GLFW_MOD_SHIFT) != 0 ? switches_.rigs
+                                                 : switches_.panels) ^= true;
             break;
         case GLFW_KEY_ESCAPE:
             if (guard_.confirms(has_unsaved_wheel_
@@ -233,10 +289,10 @@ void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) 
     // What begins beside the picture is none of the camera's until the button is up.
     self.drags_[static_cast<std::size_t>(button)] =
         action == GLFW_PRESS && !self.panel_.is_open() &&
-        self.drawn_.picture.contains(static_cast<float>(self.cursor_x_),
-                                     static_cast<float>(self.cursor_y_));
+        self.drawn_.in_hand().contains(static_cast<float>(self.cursor_x_),
+                                       static_cast<float>(self.cursor_y_));
     if (button != GLFW_MOUSE_BUTTON_LEFT) return;
-    self.drags_time_ = false;
+    self.drags_time_ = self.drags_outside_ = false;
     if (action == GLFW_PRESS) self.press_at_cursor();
 }
 
@@ -259,7 +315,8 @@ void OperatorWindow::press_at_cursor() {
     for (const DeskSpots::Numbered& entry : drawn_.spots.entries)
         if (is_on(entry.rect)) input_.replay.push_back({ReplayAction::select_entry, entry.number});
     if (is_on(drawn_.spots.live)) input_.to_live = true;
-    if (is_on(drawn_.picture)) press_on_picture();
+    if (is_on(drawn_.in_hand())) press_on_picture();
+    drags_outside_ = is_on(drawn_.spots.outside);
     if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
     drags_time_ = true;
     seek_at_cursor();
@@ -278,7 +335,7 @@ void OperatorWindow::press_on_picture() {
     const bool is_second = pressed_s_ >= 0 && now_s - pressed_s_ < double_press_s;
     pressed_s_ = is_second ? -1 : now_s;
     if (!is_second) return;
-    const DeskRect& picture = drawn_.picture;
+    const DeskRect& picture = drawn_.in_hand();
     input_.pick = Eigen::Vector2d((cursor_x_ - picture.left) / picture.width,
                                   (cursor_y_ - picture.top) / picture.height);
 }
@@ -292,11 +349,16 @@ void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
 }
 
 void OperatorWindow::take_cursor(double x, double y) {
-    const double width = std::max(drawn_.picture.width, 1.0f);
+    const double width = std::max(drawn_.in_hand().width, 1.0f);
     const double right = (x - cursor_x_) / width, down = (y - cursor_y_) / width;
     cursor_x_ = x;
     cursor_y_ = y;
     if (drags_time_) seek_at_cursor();
+    if (drags_outside_) {
+        const double across = std::max(drawn_.spots.outside.width, 1.0f) / width;
+        switches_.eye.turn(-right / across * std::numbers::pi, down / across * std::numbers::pi);
+        is_changed_ = true;
+    }
     if (drags_[GLFW_MOUSE_BUTTON_LEFT]) {
         // Across the whole picture: half a turn. The stage follows the hand.
         input_.orbit_azimuth_rad -= right * std::numbers::pi;
@@ -317,8 +379,10 @@ void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
     };
     constexpr double per_notch = 0.12;
     const bool with_control = self.held(GLFW_KEY_LEFT_CONTROL) || self.held(GLFW_KEY_RIGHT_CONTROL);
-    if (is_on(self.drawn_.picture))
+    if (is_on(self.drawn_.in_hand()))
         (with_control ? self.input_.zoom : self.input_.dolly) += per_notch * up;
+    else if (is_on(self.drawn_.spots.outside))
+        self.switches_.eye.go_nearer(per_notch * up), self.is_changed_ = true;
     else if (self.drawn_.spots.time && is_on(self.drawn_.spots.time->rect))
         self.input_.past_steps += up;
 }
@@ -326,14 +390,22 @@ void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
 void OperatorWindow::take_held_keys(double dt_s) {
     constexpr double turn_rad_s = 0.9, pan_widths_s = 0.35, dolly_s = 0.8, zoom_s = 0.6;
     const auto axis = [&](int less, int more) { return held(more) - held(less); };
+    const int nearer =
+        axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD);
+    if (shows_outside() && (held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL))) {
+        const int right = axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT);
+        const int up = axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
+        switches_.eye.turn(dt_s * turn_rad_s * right, dt_s * turn_rad_s * up);
+        switches_.eye.go_nearer(dt_s * zoom_s * nearer);
+        is_changed_ |= right != 0 || up != 0 || nearer != 0;
+        return;
+    }
     input_.orbit_azimuth_rad += dt_s * turn_rad_s * axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT);
     input_.orbit_elevation_rad += dt_s * turn_rad_s * axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
     input_.pan_right_widths += dt_s * pan_widths_s * axis(GLFW_KEY_A, GLFW_KEY_D);
     input_.pan_up_widths += dt_s * pan_widths_s * axis(GLFW_KEY_Q, GLFW_KEY_E);
     input_.dolly += dt_s * dolly_s * axis(GLFW_KEY_S, GLFW_KEY_W);
-    input_.zoom +=
-        dt_s * zoom_s *
-        (axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD));
+    input_.zoom += dt_s * zoom_s * nearer;
 }
 
 FlightInput OperatorWindow::poll(double dt_s) {
@@ -396,9 +468,11 @@ void OperatorWindow::show(DeskState state) {
     if (panel_.is_open()) next_desk_ = next_desk_in_hand_;
 }
 
-void OperatorWindow::show_picture(const Texture& picture) {
+void OperatorWindow::show_pictures(const Texture& programme, const Texture* preview) {
     if (!screen_ || drawn_.picture.is_empty() || drawn_.has_overlay) return;
-    renderer_->draw_picture(picture, drawn_.picture, screen_->target);
+    renderer_->draw_picture(programme, drawn_.picture, screen_->target);
+    if (preview && drawn_.preview)
+        renderer_->draw_picture(*preview, *drawn_.preview, screen_->target);
     present();
 }
 

@@ -11,6 +11,7 @@
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
 #include "host_app/desk/command_prompt.h"
+#include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/desk_screen.h"
 #include "host_app/desk/key_guard.h"
 #include "host_app/desk/shot_places.h"
@@ -58,10 +59,16 @@ class OperatorWindow {
     bool is_desk_due(MonotonicTime now) const;
     /// Draws the whole desk and shows it. Whether parts and help show is the window's.
     void show(DeskState state);
-    /// Of the desk that was shown last only the programme's picture is a new one, of the same size.
-    /// Under the help it waits for the next show().
-    void show_picture(const Texture& picture);
+    /// Of the desk that was shown last only the pictures of programme and preview (null: none) are
+    /// new ones, of the same sizes. Under the help they wait for the next show().
+    void show_pictures(const Texture& programme, const Texture* preview);
 
+    /// What hands have switched on, and where they have put the window.
+    DeskArrangement arrangement() const { return {switches_, place_}; }
+    /// Of a place without a monitor only the size counts.
+    void arrange(const DeskArrangement& desk);
+    /// Whether points of the stage are shown.
+    bool shows_outside() const { return switches_.panels && switches_.outside; }
     /// Where the parts of what was shown last are.
     const DrawnDesk& drawn() const { return drawn_; }
     /// What was shown last, the whole desk.
@@ -82,7 +89,7 @@ class OperatorWindow {
     static void on_letter(GLFWwindow* window, unsigned codepoint);
     /// While a command is typed all keys are its.
     void type(int key);
-    void take_key(int key);
+    void take_key(int key, int modifiers);
     /// While a wheel's map is open all keys are its.
     void press_in_panel(int key, bool with_control);
     /// What a command's key has to be asked before it is obeyed; empty: nothing.
@@ -94,6 +101,9 @@ class OperatorWindow {
     void take_cursor(double x, double y);
     static void on_scroll(GLFWwindow* window, double right, double up);
     static void on_change(GLFWwindow* window);
+    static void on_moved(GLFWwindow* window, int x, int y);
+    static void on_sized(GLFWwindow* window, int width, int height);
+    static void on_maximised(GLFWwindow* window, int is_maximised);
     void take_held_keys(double dt_s);
     bool held(int key) const;
     void seek_at_cursor();
@@ -109,7 +119,8 @@ class OperatorWindow {
     std::unique_ptr<Screen> screen_;
     DrawnDesk drawn_;
     DeskSwitches switches_;
-    bool take_runs_ = false, drags_time_ = false;
+    WindowPlace place_;
+    bool take_runs_ = false, drags_time_ = false, drags_outside_ = false;
     bool is_changed_ = true;  ///< by hands, since the desk was drawn
     KeyGuard guard_;
     CommandPrompt prompt_;

@@ -50,8 +50,10 @@ void draw_coverage(Column& column, const Coverage& coverage) {
 
 void draw_camera(Column& column, const DeskState& state) {
     constexpr double deg = 180 / std::numbers::pi;
-    const OrbitView& view = state.view;
-    column.heading("CAMERA");
+    const OrbitView& view = state.preview ? state.preview->view : state.view;
+    const std::optional<Coverage>& coverage =
+        state.preview ? state.preview->coverage : state.coverage;
+    column.heading(state.preview ? "CAMERA ON PREVIEW" : "CAMERA");
     column.row(palette::text,
                fmt::format("{:.1f}\u00b0 around, {:.1f}\u00b0 up, {:.2f} m, {:.1f}\u00b0 wide",
                            view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m,
@@ -60,7 +62,7 @@ void draw_camera(Column& column, const DeskState& state) {
                                          view.pivot_m.y(), view.pivot_m.z(),
                                          state.follows_performer ? ", goes with a performer" : "",
                                          state.holds_horizon ? "" : ", horizon free"));
-    if (state.coverage) draw_coverage(column, *state.coverage);
+    if (coverage) draw_coverage(column, *coverage);
     if (state.move_progress) {
         const float height = 0.4f * column.pen.em();
         column.row_of_two("on the planned move; steer to take over", palette::dim,
@@ -121,8 +123,16 @@ void draw_play_list(Column& column, const DeskReplay& replay, DeskSpots* spots) 
 }
 
 void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
-    if (state.outputs.empty() && !state.take) return;
+    if (state.outputs.empty() && !state.take && !state.sound) return;
     column.heading("OUTPUTS");
+    if (state.sound) {
+        const DeskSound& sound = *state.sound;
+        column.row_of_two("Sound  " + sound.name, sound.is_on ? palette::good : palette::bad,
+                          sound.is_on ? fmt::format("{:.0f} dB", sound.peak_dbfs) : sound.state);
+        if (sound.missing_ms > 0)
+            column.row(palette::warn, fmt::format("{} ms of it were not there", sound.missing_ms));
+        if (!sound.failure.empty()) column.wrapped(palette::bad, sound.failure);
+    }
     constexpr int first_key = 5, last_key = 12;
     int number = 1;
     for (const DeskOutput& output : state.outputs) {
@@ -227,16 +237,33 @@ float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, D
 
 }  // namespace
 
-void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots) {
+void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
+               const OutsideEye* outside, DeskSpots& spots) {
     if (rect.is_empty()) return;
     const float gap = 0.4f * pen.em();
-    const float words_height = draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, nullptr);
-    const float least_plan = std::min(11 * pen.em(), 0.45f * rect.height);
-    const DeskRect plan{rect.left, rect.top, rect.width,
-                        std::max(least_plan, rect.height - words_height - gap)};
-    draw_stage_plan(pen, plan, state);
-    const DeskRect words{rect.left, plan.bottom() + gap, rect.width,
-                         rect.bottom() - plan.bottom() - gap};
+    DeskRect plan = rect, words = rect;
+    // Beside one another where there is no height for both.
+    constexpr float width_of_words = 20, share_of_words = 0.6f, flat = 1.4f;
+    if (rect.width > flat * rect.height) {
+        words.width = std::min(width_of_words * pen.em(), share_of_words * rect.width);
+        words.left = rect.right() - words.width;
+        plan.width = words.left - gap - plan.left;
+    } else {
+        const float words_height =
+            draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, nullptr);
+        // Who looks from outside wants to see something.
+        const float least_plan =
+            outside ? 0.5f * rect.height : std::min(11 * pen.em(), 0.45f * rect.height);
+        plan.height = std::max(least_plan, rect.height - words_height - gap);
+        words.top = plan.bottom() + gap;
+        words.height = rect.bottom() - words.top;
+    }
+    if (outside) {
+        draw_stage_outside(pen, plan, state, *outside);
+        spots.outside = plan;
+    } else {
+        draw_stage_plan(pen, plan, state);
+    }
     const Clipping clipping(pen, words);
     pen.fill(words, palette::panel);
     draw_words(pen, words, state, &spots);

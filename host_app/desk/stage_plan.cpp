@@ -9,7 +9,8 @@ namespace {
 /// From metres on the floor to the window: x to the right, z towards the lower edge.
 class PlanMap {
   public:
-    PlanMap(const DeskRect& rect, const Eigen::Vector2d& least_m, const Eigen::Vector2d& most_m) {
+    PlanMap(const DeskRect& rect, const Eigen::Vector2d& least_m, const Eigen::Vector2d& most_m)
+        : right_(rect.right()) {
         const Eigen::Vector2d span = (most_m - least_m).cwiseMax(1.0);
         // In steps, so that the plan stands still while the camera flies.
         constexpr double step = 1.12;
@@ -25,9 +26,10 @@ class PlanMap {
     }
     ImVec2 at(const Eigen::Vector3d& point_m) const { return at(point_m.x(), point_m.z()); }
     float px_per_m() const { return px_per_m_; }
+    float right() const { return right_; }  ///< where names end
 
   private:
-    float px_per_m_ = 1, left_ = 0, top_ = 0;
+    float px_per_m_ = 1, left_ = 0, top_ = 0, right_;
 };
 
 /// A camera from above: where it is, where it looks, how wide.
@@ -46,7 +48,7 @@ struct SeenCamera {
     }
 };
 
-PlanMap map_of(const DeskRect& rect, const DeskPlan& plan, const OrbitView& view) {
+PlanMap map_of(const DeskRect& rect, const DeskPlan& plan, const DeskState& state) {
     Eigen::Vector2d least(1e9, 1e9), most(-1e9, -1e9);
     const auto take_in = [&](const Eigen::Vector3d& point_m, double margin_m) {
         const Eigen::Vector2d at(point_m.x(), point_m.z());
@@ -55,8 +57,12 @@ PlanMap map_of(const DeskRect& rect, const DeskPlan& plan, const OrbitView& view
     };
     take_in(plan.extent.centre_m, plan.extent.radius_m);
     for (const DeskPlan::Rig& rig : plan.rigs) take_in(rig.eye_m, 0.6);
-    take_in(view.eye_m(), 0.6);
-    take_in(view.pivot_m, 0.3);
+    const auto take_in_view = [&](const OrbitView& view) {
+        take_in(view.eye_m(), 0.6);
+        take_in(view.pivot_m, 0.3);
+    };
+    take_in_view(state.view);
+    if (state.preview) take_in_view(state.preview->view);
     return {rect, least, most};
 }
 
@@ -136,16 +142,20 @@ void draw_path(const Pen& pen, const PlanMap& map, const DeskPlan& plan) {
     }
 }
 
-void draw_camera(const Pen& pen, const PlanMap& map, const DeskPlan& plan, const OrbitView& view) {
+void draw_camera(const Pen& pen, const PlanMap& map, const DeskPlan& plan, const OrbitView& view,
+                 const ImVec4& field, std::string_view name) {
     const Pose pose = view.world_from_camera();
     const SeenCamera camera{pose.translation(), pose.linear().col(2),
                             std::tan(0.5 * view.field_of_view_rad)};
-    draw_field(pen, map, camera, view.distance_m + plan.extent.radius_m, palette::accent, 0.16f);
+    draw_field(pen, map, camera, view.distance_m + plan.extent.radius_m, field, 0.16f);
     const ImVec2 pivot = map.at(view.pivot_m);
     const float arm = 0.45f * pen.em(), thick = std::max(1.0f, 0.1f * pen.em());
     pen.fill({pivot.x - arm, pivot.y - 0.5f * thick, 2 * arm, thick}, palette::text);
     pen.fill({pivot.x - 0.5f * thick, pivot.y - arm, thick, 2 * arm}, palette::text);
     draw_body(pen, map, camera, palette::text);
+    const ImVec2 eye = map.at(camera.eye_m);
+    const float x = std::min(eye.x + 0.7f * pen.em(), map.right() - pen.width_of(name, true));
+    pen.text(x, eye.y - 1.6f * pen.em(), field, name, true);
 }
 
 void draw_scale(const Pen& pen, const DeskRect& rect, const PlanMap& map) {
@@ -156,23 +166,27 @@ void draw_scale(const Pen& pen, const DeskRect& rect, const PlanMap& map) {
 
 }  // namespace
 
+void draw_unknown_stage(const Pen& pen, const DeskRect& rect) {
+    pen.text(rect.left + 0.6f * pen.em(), rect.top + 0.5f * pen.em(), palette::dim,
+             "the stage is not known yet");
+}
+
 void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state) {
     if (rect.is_empty()) return;
     const Clipping clipping(pen, rect);
     pen.fill(rect, palette::panel);
-    if (!state.plan) {
-        pen.text(rect.left + 0.6f * pen.em(), rect.top + 0.5f * pen.em(), palette::dim,
-                 "the stage is not known yet");
-        return;
-    }
-    const PlanMap map = map_of(rect.shrunk(1.3f * pen.em()), *state.plan, state.view);
+    if (!state.plan) return draw_unknown_stage(pen, rect);
+    const PlanMap map = map_of(rect.shrunk(1.3f * pen.em()), *state.plan, state);
     draw_corridor(pen, map, *state.plan);
     pen.list().AddCircle(map.at(state.plan->extent.centre_m),
                          map.px_per_m() * static_cast<float>(state.plan->extent.radius_m),
                          ImGui::GetColorU32(palette::line));
     draw_rigs(pen, map, *state.plan);
     draw_path(pen, map, *state.plan);
-    draw_camera(pen, map, *state.plan, state.view);
+    draw_camera(pen, map, *state.plan, state.view, palette::accent,
+                state.preview ? "programme" : "");
+    if (state.preview)
+        draw_camera(pen, map, *state.plan, state.preview->view, palette::good, "preview");
     draw_scale(pen, rect, map);
 }
 

@@ -123,6 +123,10 @@ void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state) {
     x = draw_recordings(pen, x, top, height, state);
     if (!state.waiting) {
         x = pen.text_until(right, x, y, palette::text, state.timecode, true) + pad;
+        if (!state.ltc.empty())
+            x = pen.text_until(right, x, y, state.is_ltc_off ? palette::warn : palette::dim,
+                               state.ltc, true) +
+                pad;
         const std::string pulse = fmt::format("pulse {}", state.pulse);
         if (rect.width > 80 * pen.em()) x = pen.text(x, y, palette::dim, pulse) + pad;
     }

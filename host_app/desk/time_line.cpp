@@ -81,6 +81,17 @@ void draw_clips_of(const Pen& pen, const DeskRect& bar, const DeskTime& time,
     }
 }
 
+/// Of the flight, along the lower edge: diamonds.
+void draw_keyframes(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
+    const float half = 0.3f * pen.em(), y = bar.bottom() - half;
+    for (const double pulse : time.keyframes) {
+        if (pulse < time.oldest || pulse > time.newest) continue;
+        const float x = bar.left + static_cast<float>(time.share_of(pulse)) * bar.width;
+        pen.list().AddQuadFilled({x - half, y}, {x, y - half}, {x + half, y}, {x, y + half},
+                                 ImGui::GetColorU32(palette::text));
+    }
+}
+
 void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time, const DeskReplay& replay) {
     const auto x_of = [&](double pulse) {
         return bar.left + static_cast<float>(time.share_of(pulse)) * bar.width;
@@ -98,6 +109,7 @@ void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time, const D
     }
     draw_ticks(pen, bar, time);
     draw_clips_of(pen, bar, time, replay);
+    draw_keyframes(pen, bar, time);
     if (time.in) draw_mark(pen, bar, x_of(*time.in), true);
     if (time.out) draw_mark(pen, bar, x_of(*time.out), false);
     const float x = x_of(time.at.value_or(time.newest)), half = 0.35f * pen.em();

@@ -1,5 +1,6 @@
 #include "host_app/exports/export_claim.h"
 
+#include <algorithm>
 #include <string>
 
 #include "common/base/atomic_file.h"
@@ -7,6 +8,18 @@
 #include "common/base/folder.h"
 
 namespace vantage {
+namespace {
+
+constexpr const char* name = "export.json";
+
+bool holds_others(const std::filesystem::path& folder) {
+    const std::filesystem::directory_iterator files(folder);
+    return std::any_of(begin(files), end(files), [](const auto& entry) {
+        return !entry.path().filename().string().starts_with(name);
+    });
+}
+
+}  // namespace
 
 void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
                   const nlohmann::ordered_json& what) {
@@ -18,19 +31,18 @@ void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
         {"bytes", take.bytes()},
         {"as", what}};
     const std::string text = claim.dump(1) + '\n';
-    const std::filesystem::path file = folder / "export.json";
-    if (std::filesystem::exists(file)) {
-        constexpr std::size_t most_bytes = 1 << 16;
-        if (read_text_file(file, most_bytes) != text)
-            fail(
-                "{} holds another export already, of another take or as something else: give a "
-                "new name, or take it away",
-                folder.string());
-        return;
-    }
-    if (!std::filesystem::is_empty(folder))
+    const std::filesystem::path file = folder / name;
+    // Parts of one export may be begun by several processes at a time: what one has written since
+    // this one looked is no other file.
+    if (!std::filesystem::exists(file) && holds_others(folder) && !std::filesystem::exists(file))
         fail("{} holds other files: give a new name", folder.string());
-    write_text_atomically(file, text);
+    if (!std::filesystem::exists(file)) write_text_atomically(file, text);
+    constexpr std::size_t most_bytes = 1 << 16;
+    if (read_text_file(file, most_bytes) != text)
+        fail(
+            "{} holds another export already, of another take or as something else: give a new "
+            "name, or take it away",
+            folder.string());
 }
 
 }  // namespace vantage

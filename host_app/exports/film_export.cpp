@@ -14,6 +14,7 @@
 #include "host_app/exports/camera_files.h"
 #include "host_app/exports/export_claim.h"
 #include "host_app/exports/film_parts.h"
+#include "host_app/exports/film_sound.h"
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/instants/depth_views.h"
 #include "host_app/motion/between_sets.h"
@@ -65,7 +66,7 @@ class FilmInstants {
         moment_ = moment;
         const FrameSet set =
             share > 0 ? *between_.at(sets_, there, share) : *sets_.at(static_cast<double>(there));
-        if (dt_s > longest_gap_s) preparer_->forget();
+        if (dt_s > longest_gap_s) preparer_->cut();
         std::vector<DepthView> views = depth_views_of(set, show_.colours);
         if (share == 0) harmoniser_.see(views, std::min(dt_s, longest_gap_s));
         for (DepthView& view : views) harmoniser_.apply(view);
@@ -262,10 +263,10 @@ ExportBooks export_film(std::shared_ptr<const TakeReader> take,
     const SetTimecode timecodes(take->facts().pulse_rate_hz, settings.rate_hz);
     const std::string timecode = timecodes.of(*sets.at(pictures.front().pulse));
     if (parts.pictures() < pictures.size())
-        FilmWork(std::move(take), pictures, settings).render(parts, is_wanted, progress);
+        FilmWork(take, pictures, settings).render(parts, is_wanted, progress);
     books.written = parts.pictures() - books.there;
     if (parts.pictures() < pictures.size()) return books;
-    parts.join(file, timecode);
+    parts.join(file, timecode, sound_of_film(take, pictures, settings.rate_hz));
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     return books;

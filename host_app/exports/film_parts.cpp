@@ -100,6 +100,7 @@ std::filesystem::path FilmParts::folder_of(const std::filesystem::path& film) {
 
 FilmParts::FilmParts(std::filesystem::path folder, double rate_hz)
     : folder_(std::move(folder)),
+      rate_hz_(rate_hz),
       tick_(tick_of(rate_hz)),
       lock_(::open((folder_ / "export.json").c_str(), O_RDONLY | O_CLOEXEC)) {
     if (!lock_) fail("cannot read {}: {}", folder_.string(), std::strerror(errno));
@@ -131,13 +132,24 @@ void FilmParts::add(std::uint64_t pictures) {
              parts_.back().pictures, pictures);
 }
 
-void FilmParts::join(const std::filesystem::path& film, const std::string& timecode) const {
+void FilmParts::join(const std::filesystem::path& film, const std::string& timecode,
+                     const std::vector<std::shared_ptr<const SoundBlock>>& sound) const {
     std::int64_t delay = 0;
     for (const Part& part : parts_) delay = std::max(delay, part.delay);
     FilmFile file(film);
     const PartReader head(parts_.front().file);
-    file.open(head.pictures(), tick_, av_inv_q(tick_));
+    std::optional<SoundTrack> track;
+    AvCodecParametersPtr track_head;
+    if (!sound.empty()) {
+        track.emplace(rate_hz_, file.sound_codec(), file.has_head());
+        track_head.reset(avcodec_parameters_alloc());
+        avcodec_parameters_from_context(track_head.get(), &track->encoder().context());
+    }
+    file.open(head.pictures(), tick_, av_inv_q(tick_), track_head.get());
     file.begin(timecode);
+    const auto write_sound = [&] {
+        while (AVPacket* packet = track->encoder().next()) file.write_sound(*packet);
+    };
     for (const Part& part : parts_) {
         PartReader reader(part.file);
         if (!std::ranges::equal(head_of(head.pictures()), head_of(reader.pictures())))
@@ -146,10 +158,18 @@ void FilmParts::join(const std::filesystem::path& film, const std::string& timec
         auto number = static_cast<std::int64_t>(part.first);
         for (const AvPacketPtr& packet : reader.packets(tick_)) {
             packet->pts += static_cast<std::int64_t>(part.first);
+            const auto tick = static_cast<std::size_t>(number);
             packet->dts = number++ - delay;
             packet->duration = 1;
             file.write(*packet);
+            if (!track || tick >= sound.size()) continue;
+            track->add(*sound[tick], static_cast<std::int64_t>(tick));
+            write_sound();
         }
+    }
+    if (track) {
+        track->encoder().end();
+        write_sound();
     }
     file.finish();
 }

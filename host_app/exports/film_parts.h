@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/av/av_handles.h"
+#include "common/av/sound.h"
 #include "common/base/unique_fd.h"
 
 namespace vantage {
@@ -30,8 +32,10 @@ class FilmParts {
     void add(std::uint64_t pictures);
 
     /// Joins them into the film, which begins at this time code. Precondition: there is one. Throws
-    /// Error if the disk fails, or parts do not fit each other.
-    void join(const std::filesystem::path& film, const std::string& timecode) const;
+    /// Error if the disk fails, or parts do not fit each other. `sound`: of every picture; empty:
+    /// none.
+    void join(const std::filesystem::path& film, const std::string& timecode,
+              const std::vector<std::shared_ptr<const SoundBlock>>& sound = {}) const;
 
   private:
     struct Part {
@@ -42,6 +46,7 @@ class FilmParts {
     void take_in(std::filesystem::path file);
 
     std::filesystem::path folder_;
+    double rate_hz_;
     AVRational tick_;  ///< s a picture
     UniqueFd lock_;
     std::vector<Part> parts_;

@@ -27,6 +27,10 @@ void FlightInput::add(const FlightInput& other) {
     toggle_tracking ^= other.toggle_tracking;
     toggle_jog_map ^= other.toggle_jog_map;
     toggle_recording ^= other.toggle_recording;
+    toggle_preview ^= other.toggle_preview;
+    cut |= other.cut;
+    fly_to_preview |= other.fly_to_preview;
+    if (other.fly_to_preview_tenths != 0) fly_to_preview_tenths = other.fly_to_preview_tenths;
     add_keyframe |= other.add_keyframe;
     set_keyframe |= other.set_keyframe;
     remove_keyframe |= other.remove_keyframe;
@@ -67,6 +71,7 @@ bool FlightInput::commands_twice(const FlightInput& other) const {
            both(&FlightInput::toggle_recording) || both(&FlightInput::add_keyframe) ||
            both(&FlightInput::set_keyframe) || both(&FlightInput::remove_keyframe) ||
            both(&FlightInput::toggle_horizon) || both(&FlightInput::toggle_follow) ||
+           (commands_preview() && other.commands_preview()) ||
            ((!replay.empty() || !cue_time.empty()) && other.commands_time());
 }
 

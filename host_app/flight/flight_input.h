@@ -28,6 +28,9 @@ struct FlightInput {
     bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
     bool toggle_recording = false;  ///< of a flight
     bool toggle_horizon = false, toggle_follow = false;
+    bool toggle_preview = false;               ///< a second camera, which hands fly then
+    bool cut = false, fly_to_preview = false;  ///< to its view: at once, or in the time for that
+    int fly_to_preview_tenths = 0;             ///< that time from now on; 0: as it was
     /// A place in the picture, 0..1 to the right and down: the pivot goes to what is seen there.
     std::optional<Eigen::Vector2d> pick = {};
     std::optional<Eigen::Vector3d> pivot_m = {};  ///< where that was found
@@ -66,6 +69,10 @@ struct FlightInput {
     bool edits_move() const {
         return add_keyframe || set_keyframe || remove_keyframe || retime_s != 0;
     }
+    /// True if it is about the camera on preview.
+    bool commands_preview() const {
+        return toggle_preview || cut || fly_to_preview || fly_to_preview_tenths != 0;
+    }
     /// True if there is anything in it.
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
@@ -73,7 +80,8 @@ struct FlightInput {
                toggle_tracking || toggle_jog_map || toggle_take || save_set || learn_set ||
                toggle_output != 0 || mark_in || mark_out || clear_marks || toggle_loop || cue ||
                speed_steps != 0 || !replay.empty() || !cue_time.empty() || edits_move() ||
-               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow;
+               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow ||
+               commands_preview();
     }
     /// True if it says where in time to be, or marks it.
     bool commands_time() const {

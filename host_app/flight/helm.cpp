@@ -124,6 +124,33 @@ void Helm::stand_at(const CameraState& camera) {
     camera_.jump_to(taken_over(camera, limits_, camera_.view().azimuth_rad));
 }
 
+void Helm::fly_over_to(const Helm& other, double duration_s) {
+    leave_move();
+    shot_flight_.reset();
+    holds_horizon_ = other.holds_horizon_;
+    fly_to(other.view(), duration_s, Easing::ease);
+}
+
+void Helm::halt() {
+    leave_move();
+    shot_flight_.reset();
+    camera_.jump_to(camera_.view());
+}
+
+void Helm::share(const Change& change) {
+    shots_ = change.book.shots;
+    if (!change.is_of_move) return;
+    const bool was_changed = is_changed_, was_move_changed = is_move_changed_;
+    set_move(change.book.move);
+    is_changed_ = was_changed;
+    is_move_changed_ = was_move_changed;
+}
+
+std::optional<double> Helm::flight_progress() const {
+    if (!shot_flight_) return std::nullopt;
+    return shot_flight_->gone_s / shot_flight_->duration_s;
+}
+
 OrbitView Helm::view() const {
     if (!on_move_) return camera_.view();
     OrbitView on_move = move_->at(move_s_);

@@ -48,6 +48,14 @@ class Helm {
     /// From now on it stands there, until somebody flies on.
     void stand_at(const CameraState& camera);
 
+    /// Flies from rest to rest to where the other stands, whose horizon it takes over too.
+    void fly_over_to(const Helm& other, double duration_s);
+    /// Stays where it is, whatever it was on.
+    void halt();
+    /// Has shots and, if that was changed, the move of another helm from now on.
+    void share(const Change& change);
+    void set_wheel_mode(WheelMode mode) { mode_ = mode; }
+
     /// Carries the pivot, and the camera with it, to a point, unless it is on a move.
     void carry_pivot_to(const Eigen::Vector3d& pivot_m);
 
@@ -73,6 +81,8 @@ class Helm {
     OrbitView view() const;
     /// 0..1 along the move, while the camera is on it.
     std::optional<double> move_progress() const;
+    /// 0..1 while it flies to a shot or over to another helm's view.
+    std::optional<double> flight_progress() const;
     /// Where in its take the move is, while the camera is on it; nothing: it says nothing of a
     /// take.
     std::optional<double> move_take_s() const;

@@ -13,6 +13,7 @@ struct PilotStep {
     OrbitView view;
     /// Where what flies is no hand on an orbit: the camera, of which `view` is the nearest orbit.
     std::optional<CameraState> camera{};
+    std::optional<OrbitView> preview{};  ///< of the camera on preview; nothing: there is none
     bool next_synthesiser = false, toggle_source_map = false;
     TransportInput time{};
     std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in this step

@@ -20,7 +20,7 @@ std::vector<DepthView> depth_views_of(const FrameSet& set,
                                       const std::map<std::string, ColourCorrection>& colours) {
     std::vector<DepthView> views;
     for (const FrameSet::Slot& slot : set.slots) {
-        if (!slot.frame) continue;
+        if (!slot.frame || !slot.frame->has_pictures()) continue;
         views.push_back(depth_view_of(*slot.frame));
         const auto colour = colours.find(slot.rig);
         if (colour != colours.end()) views.back().colour_correction = colour->second;

@@ -13,7 +13,9 @@ inline constexpr std::size_t most_drawn_rigs = 4;
 /// One rig's part in an instant.
 struct InstantRig {
     std::shared_ptr<const RigSurface> surface;
-    /// A second layer of the same camera before it; null where the preparer makes none.
+    /// A second layer of the same camera before it; null where the preparer makes none. Of
+    /// performers, colours are times alpha, which is their share of the pixel, and depth goes on
+    /// beyond them, negative.
     std::shared_ptr<const RigSurface> boundary = nullptr;
     /// How far the rig takes part, 0..1: it fades in when it comes and out when it is gone.
     float presence = 1;

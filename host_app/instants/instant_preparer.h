@@ -42,9 +42,14 @@ class InstantPreparer {
     /// they are wished for.
     virtual void improve(const VirtualView& /*target*/) {}
 
-    /// The next instant does not follow the last one (a cut, or time that is gone through): what
-    /// was learnt along time is not to be used for it.
-    virtual void forget() {}
+    /// Goes through all that these views may ever need, and learns nothing of them: a driver
+    /// compiles a shader when it is first drawn with, which takes seconds for all of them.
+    /// Precondition: nothing was taken yet, or it may be forgotten.
+    virtual void rehearse(std::span<const DepthView> /*views*/, const VirtualView& /*target*/) {}
+
+    /// The next instant does not follow the last one (a cut): nothing that moves goes on. What
+    /// stands still is still known.
+    virtual void cut() {}
 
     /// What it learns of the set; null: nothing.
     virtual SetMemory* set_memory() { return nullptr; }

@@ -25,6 +25,9 @@ constexpr std::chrono::seconds longest_preparation{10};
 constexpr std::chrono::milliseconds recovery{200};
 /// Between two looks at whether what is held could be better.
 constexpr std::chrono::milliseconds betterings{100};
+/// A set is bettered when no instant waits; but a computer that is never done with them does it
+/// too.
+constexpr std::chrono::seconds longest_unimproved{2};
 /// Instants further apart have nothing to say to each other.
 constexpr double longest_gap_s = 1;
 
@@ -43,8 +46,24 @@ std::optional<TaiTime> exposure_of(const FrameSet& set) {
 
 /// Whether what was prepared for `before` would be another instant, or a better one, for `wish`.
 bool is_better(const InstantWish& wish, const InstantWish& before) {
-    return wish.level.rank < before.level.rank ||
-           !wish.target.world_from_camera.isApprox(before.target.world_from_camera, 1e-6);
+    const auto is_elsewhere = [](const VirtualView& view, const VirtualView& other) {
+        return !view.world_from_camera.isApprox(other.world_from_camera, 1e-6);
+    };
+    return wish.level.rank < before.level.rank || is_elsewhere(wish.target, before.target) ||
+           (wish.preview && (!before.preview || is_elsewhere(*wish.preview, *before.preview)));
+}
+
+/// The first, and what rigs the second has besides.
+std::shared_ptr<const Instant> joined(std::shared_ptr<const Instant> first, const Instant& second) {
+    std::vector<InstantRig> more;
+    for (const InstantRig& rig : second.rigs)
+        if (std::none_of(first->rigs.begin(), first->rigs.end(),
+                         [&](const InstantRig& other) { return other.surface == rig.surface; }))
+            more.push_back(rig);
+    if (more.empty()) return first;
+    auto both = std::make_shared<Instant>(*first);
+    both->rigs.insert(both->rigs.end(), more.begin(), more.end());
+    return both;
 }
 
 StageFeed kept(StageFeed feed, ReplayBuffer& replay, std::size_t bytes) {
@@ -193,10 +212,12 @@ std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_coun
     return views;
 }
 
-void InstantThread::ask_for_rigs(std::span<const DepthView> views, const VirtualView& target) {
+void InstantThread::ask_for_rigs(std::span<const DepthView> views, const InstantWish& wish) {
     demand_.see(views);
-    if (target.width_px == 0) return;
-    for (const RigDemand::Change& change : demand_.update(target, MonotonicClock::now())) {
+    if (wish.target.width_px == 0) return;
+    std::vector<VirtualView> targets{wish.target};
+    if (wish.preview) targets.push_back(*wish.preview);
+    for (const RigDemand::Change& change : demand_.update(targets, MonotonicClock::now())) {
         log_info("asking rig {} to {} sending", change.rig, change.streaming ? "start" : "stop");
         sets_.ask(change.rig, change.streaming);
     }
@@ -205,6 +226,8 @@ void InstantThread::ask_for_rigs(std::span<const DepthView> views, const Virtual
 void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
                             const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start) {
     ready.instant = preparer->prepare(wish.target, wish.level);
+    if (wish.preview && wish.level.rank == 0)
+        ready.instant = joined(ready.instant, *preparer->prepare(*wish.preview, wish.level));
     ready.preparer = preparer;
     ready.generation = generations_.back().member.generation;
     glFinish();
@@ -226,9 +249,10 @@ void InstantThread::tend_set(InstantPreparer* preparer) {
     }
     SetMemory* memory = preparer ? preparer->set_memory() : nullptr;
     if (learns_anew) {
-        // Also not after a reset of the GPU, nor for the next synthesiser.
+        // Also not after a reset of the GPU, nor for another synthesiser.
         settings_.set = nullptr;
-        if (memory) memory->learn_anew();
+        for (const auto& [synthesiser, each] : generations_.back().preparers)
+            if (SetMemory* one = each->set_memory()) one->learn_anew();
     }
     for (std::promise<LearntSet>& one : asked) {
         try {
@@ -250,15 +274,28 @@ void InstantThread::tend_set(InstantPreparer* preparer) {
 
 void InstantThread::let_go_of_preparers() {
     const auto let_go = [](Generation& one) {
-        std::erase_if(one.preparers, [](const auto& each) { return each.use_count() == 1; });
+        std::erase_if(one.retired, [](const auto& each) { return each.use_count() == 1; });
     };
     let_go(generations_.back());
     if (generations_.size() == 1) return;
     const CurrentContext none{CurrentContext::None{}};
-    std::for_each(generations_.begin(), generations_.end() - 1, let_go);
+    for (auto one = generations_.begin(); one != generations_.end() - 1; ++one) {
+        for (auto& [synthesiser, preparer] : std::exchange(one->preparers, {}))
+            one->retired.push_back(std::move(preparer));
+        let_go(*one);
+    }
     std::erase_if(generations_, [&](const Generation& one) {
-        return one.preparers.empty() && &one != &generations_.back();
+        return one.retired.empty() && &one != &generations_.back();
     });
+}
+
+std::shared_ptr<InstantPreparer> InstantThread::preparer_of(const Maker& maker,
+                                                            const ShaderLibrary& shaders) {
+    auto& known = generations_.back().preparers;
+    if (const auto at = known.find(maker.synthesiser); at != known.end()) return at->second;
+    std::shared_ptr<InstantPreparer> preparer = maker.make(shaders);
+    if (SetMemory* memory = preparer->set_memory()) memory->begin_with(settings_.set);
+    return known[maker.synthesiser] = std::move(preparer);
 }
 
 void InstantThread::give_way_to_jump() const {
@@ -286,9 +323,30 @@ void InstantThread::count_unprepared() {
     unprepared_.reset();
 }
 
+void InstantThread::note_prepared(bool is_counted, const SetMemory* memory) {
+    const std::lock_guard lock(mutex_);
+    if (last_.share > 0) ++books_.between;
+    if (is_counted) {
+        ++books_.prepared;
+        count_frames(*last_.set, books_.frames);
+        for (const FrameSet::Slot& slot : last_.set->slots) {
+            if (!slot.frame) continue;
+            capture_ms_.add(slot.frame->times.capture_ms);
+            rectify_ms_.add(slot.frame->times.rectify_ms);
+            match_ms_.add(slot.frame->times.match_ms);
+            pack_ms_.add(slot.frame->times.pack_ms);
+        }
+    }
+    books_.harmony = harmoniser_.rigs();
+    books_.sets = memory ? memory->states() : std::vector<RigSetState>();
+    prepare_ms_.add(last_.prepare_ms);
+}
+
 void InstantThread::prepare_instants() {
     if (generations_.empty() || generations_.back().member.generation != contexts_->generation())
-        generations_.push_back({contexts_->join(), {}});
+        generations_.push_back({contexts_->join(), {}, {}});
+    else if (auto faulty = generations_.back().preparers.extract(last_.synthesiser))
+        generations_.back().retired.push_back(std::move(faulty.mapped()));
     const ContextGroup::Member member = generations_.back().member;
     const CurrentContext current(*member.context);
     require_context("instants were prepared");
@@ -296,7 +354,11 @@ void InstantThread::prepare_instants() {
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
-    MonotonicTime bettered{};
+    MonotonicTime bettered{}, improved = MonotonicClock::now();
+    const auto improve = [&](const InstantWish& wish) {
+        improved = MonotonicClock::now();
+        (void)unless_time_jumps(wish, [&] { preparer->improve(wish.target); });
+    };
     for (;;) {
         InstantWish wish;
         Maker maker;
@@ -310,18 +372,17 @@ void InstantThread::prepare_instants() {
         }
         if (contexts_->generation() != member.generation)
             throw ContextLost("another thread found the GPU reset");
-        if (generations_.size() > 1) let_go_of_preparers();
+        let_go_of_preparers();
         tend_set(preparer.get());
         if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
-            let_go_of_preparers();
-            preparer = generations_.back().preparers.emplace_back(maker.make(shaders));
-            if (SetMemory* memory = preparer->set_memory()) memory->begin_with(settings_.set);
+            preparer = preparer_of(maker, shaders);
             last_.synthesiser = maker.synthesiser;
             last_pulse_.reset();
             prepared.reset();
             // Once: where that fails the next set has to do.
             if (last_.set && !std::exchange(is_retaking_, true)) {
                 const MonotonicTime start = MonotonicClock::now();
+                preparer->cut();
                 preparer->take(views_of(*last_.set, false), 0);
                 publish(last_, wish, preparer, start);
                 prepared = wish;
@@ -345,14 +406,19 @@ void InstantThread::prepare_instants() {
             const bool is_counted = share == 0 && (is_live || settings_.take);
             if (is_counted) unprepared_ = *set;
             const double pulse = static_cast<double>(set->trigger_index) + share;
-            const double dt_s = last_pulse_ && pulse > *last_pulse_
-                                    ? (pulse - *last_pulse_) / settings_.pulse_rate_hz
+            // Time that runs backwards is no cut.
+            const double dt_s = last_pulse_
+                                    ? std::abs(pulse - *last_pulse_) / settings_.pulse_rate_hz
                                     : 2 * longest_gap_s;
-            if (dt_s > longest_gap_s) preparer->forget();
+            if (dt_s > longest_gap_s) preparer->cut();
             last_pulse_ = pulse;
             const std::vector<DepthView> views = views_of(*set, is_counted);
             // In the past the camera says nothing of what is needed live.
-            if (is_live) ask_for_rigs(views, wish.target);
+            if (is_live) ask_for_rigs(views, wish);
+            if (!is_rehearsed_ && set->present() == static_cast<int>(set->slots.size())) {
+                preparer->rehearse(views, wish.target);
+                is_rehearsed_ = true;
+            }
             // What was jumped to is made ready in any case, so that a jog shows what it passes.
             const bool is_sought = std::exchange(fetched_jumps_, wish.jumps) != wish.jumps;
             const auto get_ready = [&] {
@@ -376,30 +442,15 @@ void InstantThread::prepare_instants() {
             }
             prepared = wish;
             unprepared_.reset();
-            const std::lock_guard lock(mutex_);
-            if (share > 0) ++books_.between;
-            if (is_counted) {
-                ++books_.prepared;
-                count_frames(*last_.set, books_.frames);
-                for (const FrameSet::Slot& slot : last_.set->slots) {
-                    if (!slot.frame) continue;
-                    capture_ms_.add(slot.frame->times.capture_ms);
-                    rectify_ms_.add(slot.frame->times.rectify_ms);
-                    match_ms_.add(slot.frame->times.match_ms);
-                    pack_ms_.add(slot.frame->times.pack_ms);
-                }
-            }
-            books_.harmony = harmoniser_.rigs();
-            books_.sets = preparer->set_memory() ? preparer->set_memory()->states()
-                                                 : std::vector<RigSetState>();
-            prepare_ms_.add(last_.prepare_ms);
+            note_prepared(is_counted, preparer->set_memory());
+            if (is_live && start - improved > longest_unimproved) improve(wish);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
             if (unless_time_jumps(wish, [&] { publish(last_, wish, preparer, start); }))
                 prepared = wish;
             bettered = start;
         } else if (prepared && !wish.pulse && !wish.is_held) {
-            (void)unless_time_jumps(wish, [&] { preparer->improve(wish.target); });
+            improve(wish);
         }
     }
     // What is left of them goes with its preparer, on this context, or on none if that was lost.
@@ -410,6 +461,7 @@ void InstantThread::prepare_instants() {
     last_ = {};
     preparer.reset();
     generations_.back().preparers.clear();
+    generations_.back().retired.clear();
     const CurrentContext none{CurrentContext::None{}};
     generations_.clear();
 }

@@ -54,6 +54,9 @@ struct InstantWish {
     VirtualView target;    ///< rigs that it needs are prepared
     PrepareLevel level;
     std::uint64_t jumps = 0;  ///< in time, until now: an instant of before the last gives way
+    /// Of a second camera: rigs that it needs are not asked to stop, and at the best level they are
+    /// prepared too.
+    std::optional<VirtualView> preview = {};
 };
 
 /// What the steps of a frame's way took at the rigs.
@@ -131,10 +134,15 @@ class InstantThread {
     /// Preparers with the context that their objects live on.
     struct Generation {
         ContextGroup::Member member;
-        std::vector<std::shared_ptr<InstantPreparer>> preparers;  ///< the last is in use
+        /// By synthesiser. Kept when another takes over: drivers give back little of what one has
+        /// taken, and what was learnt of the set stays known.
+        std::map<std::string, std::shared_ptr<InstantPreparer>> preparers;
+        std::vector<std::shared_ptr<InstantPreparer>> retired;  ///< after a fault
     };
     void run();
     void prepare_instants();
+    /// Counts what was prepared last.
+    void note_prepared(bool is_counted, const SetMemory* memory);
     /// As superseded. Precondition: mutex_ is held.
     void count_unprepared();
     /// Answers what was asked of the set.
@@ -143,8 +151,11 @@ class InstantThread {
     bool unless_time_jumps(const InstantWish& wish, const std::function<void()>& work);
     /// Throws GaveWay where time has jumped.
     void give_way_to_jump() const;
-    /// Destroys what nobody holds instants of any more.
+    /// Destroys those of lost generations, and retired ones, that nobody holds instants of any
+    /// more.
     void let_go_of_preparers();
+    /// Makes the synthesiser's preparer where there is none yet.
+    std::shared_ptr<InstantPreparer> preparer_of(const Maker& maker, const ShaderLibrary& shaders);
     /// `share`: that of ReadyInstant.
     std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse,
                                      double& share);
@@ -152,8 +163,8 @@ class InstantThread {
     std::optional<FrameSet> past_set(const InstantWish& wish, std::uint64_t shown_pulse,
                                      double& share);
     std::vector<DepthView> views_of(const FrameSet& set, bool is_counted);
-    /// Asks the rigs that the view needs to send, and the others to stop.
-    void ask_for_rigs(std::span<const DepthView> views, const VirtualView& target);
+    /// Asks the rigs that the views need to send, and the others to stop.
+    void ask_for_rigs(std::span<const DepthView> views, const InstantWish& wish);
     /// `ready` but for its instant, which is prepared.
     void publish(ReadyInstant ready, const InstantWish& wish,
                  const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start);
@@ -171,6 +182,7 @@ class InstantThread {
     std::optional<double> fetched_;        ///< the pulse that was looked up in the past last
     std::vector<Generation> generations_;  ///< of the thread; all but the last are lost
     bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown
+    bool is_rehearsed_ = false;            ///< of the thread: with the first set of all rigs
     ReadyInstant last_;                    ///< of the thread: what was prepared last
     std::optional<FrameSet> unprepared_;   ///< of the thread: the live set that is being prepared
     std::optional<std::uint64_t> jumps_;   ///< of the thread: what it does gives way to the next

@@ -7,6 +7,12 @@
 #include "host_app/instants/view_ranking.h"
 
 namespace vantage {
+namespace {
+
+/// Of one instant nothing is told: a matte is empty, whatever stands there.
+constexpr int told_from_instants = 2;
+
+}  // namespace
 
 const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* const> all) {
     const cv::Size size = rig.depth().size();
@@ -14,10 +20,11 @@ const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* cons
                              rig.camera().world_from_camera};
     std::vector<RigHistory*> others;
     for (RigHistory* other : most_useful(all, camera, max_others + 1))
-        if (other != &rig && others.size() < max_others) others.push_back(other);
-    if (others.empty()) return rig.depth();
+        if (other != &rig && other->learnt_instants() >= told_from_instants &&
+            others.size() < max_others)
+            others.push_back(other);
     carved_.resize(size);
-    TilePass& carving = carve_[others.size() - 1];
+    TilePass& carving = carve_[others.size()];
     Program& carve = carving.use();
     carve.set("depth_map", 0);
     carve.set("seen", 1);
@@ -50,28 +57,29 @@ void PerformerDepth::close(const Texture& depth_m, const RigHistory& rig,
     depth.set("depth_map", 0);
     depth.set("picture", 1);
     depth.set("matte", 2);
+    depth.set("set_depth", 3);
     depth.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
     rig.fresh_colour().bind(1);
     rig.matte().bind(2);
-    close_.draw(closed, rig.matte_tiles(), 3, rig.fresh_colour().size());
+    rig.steady_depth().bind(3);
+    close_.draw(closed, rig.matte_tiles(), 4, rig.fresh_colour().size());
 }
 
-void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all) {
-    rig.performer_depth().resize(rig.depth().size());
-    close(carve(rig, all), rig, rig.performer_depth().target());
+void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all,
+                          const Framebuffer& found) {
+    close(carve(rig, all), rig, found);
 }
 
-const Texture& PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all) {
+void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
+                            const Framebuffer& found) {
     const auto performers = [](const RigHistory& one) {
         return ComparedView{&one.camera(), &one.fresh_colour(), &one.performer_depth(),
                             &one.samples()};
     };
     std::vector<ComparedView> views;
     for (const RigHistory* one : all) views.push_back(performers(*one));
-    bettered_.resize(rig.depth().size());
-    close(consensus_.better(performers(rig), views), rig, bettered_.target());
-    return bettered_.texture();
+    close(consensus_.better_performers(performers(rig), views, rig.matte_tiles()), rig, found);
 }
 
 }  // namespace vantage

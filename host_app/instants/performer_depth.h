@@ -11,18 +11,19 @@ class PerformerDepth {
   public:
     explicit PerformerDepth(const ShaderLibrary& library)
         : close_(library, "performer_depth.frag"), consensus_(library) {
-        for (std::size_t others = 1; others <= max_others; ++others)
+        for (std::size_t others = 0; others <= max_others; ++others)
             carve_.emplace_back(library, "performer_carve.frag",
                                 ShaderDefines{{"OTHERS", std::to_string(others)}});
     }
 
-    /// Fills the rig's performer_depth(). `all`, of this instant, may hold the rig
-    /// itself. Precondition: a SetLearner has learnt of all of them.
-    void find(RigHistory& rig, std::span<RigHistory* const> all);
+    /// Draws the rig's, r32f of its depth map's size: metres, 0 = none, negative beyond its matte.
+    /// `all`, of this instant, may hold the rig itself. Precondition: a SetLearner has learnt of
+    /// all of them.
+    void find(RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
-    /// That depth, bettered by the other rigs; valid until the next call. Precondition:
-    /// find() of all rigs.
-    const Texture& better(const RigHistory& rig, std::span<RigHistory* const> all);
+    /// The same, bettered by the other rigs. Precondition: their performer_depth() was found, and
+    /// the rig's.
+    void better(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
   private:
     static constexpr std::size_t max_others = 3;
@@ -34,7 +35,7 @@ class PerformerDepth {
     std::vector<TilePass> carve_;  ///< one for every number of other rigs
     TilePass close_;
     RigConsensus consensus_;
-    DrawnTexture carved_{TextureFormat::r32f}, bettered_{TextureFormat::r32f};
+    DrawnTexture carved_{TextureFormat::r32f};
 };
 
 }  // namespace vantage

@@ -23,6 +23,9 @@ constexpr double coarse_step_px = 2, fine_step_px = 1;
 constexpr double exact_px = 0.7, least_change_px = 0.5;
 /// Of all points, those that lie on a floor that can be seen.
 constexpr double floor_share = 0.05;
+/// What thin things are looked for by, and where: of the inverse of the view's median depth.
+constexpr std::size_t searched_others = 2;
+constexpr float farthest_searched = 0.4f, nearest_searched = 2.2f;
 /// Relative uncertainty of depth that does not come of stereo.
 constexpr double least_sigma = 0.002;
 
@@ -52,9 +55,9 @@ ComparedView compared(const RigHistory& rig) {
     return {&rig.camera(), &rig.colour(), &rig.steady_depth(), &rig.samples()};
 }
 
-std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> rigs) {
+std::vector<ComparedView> compared(std::span<RigHistory* const> rigs) {
     std::vector<ComparedView> all;
-    for (const auto& rig : rigs) all.push_back(compared(*rig));
+    for (const RigHistory* rig : rigs) all.push_back(compared(*rig));
     return all;
 }
 
@@ -84,7 +87,9 @@ RigConsensus::Sweep::Sweep(cv::Size size)
 RigConsensus::RigConsensus(const ShaderLibrary& library)
     : halve_(library, "rig_smooth.frag", {{"SCALE", "2"}}),
       smooth_(library, "rig_smooth.frag"),
-      refine_(library, "rig_refine.frag") {
+      refine_(library, "rig_refine.frag"),
+      search_(library, "rig_search.frag", {{"OTHERS", std::to_string(searched_others)}}),
+      found_(library, "rig_found.frag") {
     for (std::size_t others = 1; others <= max_others; ++others) {
         const std::pair<std::string, std::string> count{"OTHERS", std::to_string(others)};
         sweep_.emplace_back(library, "rig_sweep.frag", ShaderDefines{count});
@@ -95,6 +100,11 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
         adopt_.emplace_back(library, "rig_adopt.frag", ShaderDefines{count});
         floor_.emplace_back(library, "rig_floor.frag", ShaderDefines{count});
     }
+    whole_.upload(cv::Mat1b(1, 1, uchar{255}));
+}
+
+void RigConsensus::draw(TilePass& pass, const Framebuffer& target, int unit) const {
+    pass.draw(target, *tiles_, static_cast<GLuint>(unit), picture_);
 }
 
 void RigConsensus::bind_view(Program& program, const Texture& depth_m,
@@ -149,23 +159,28 @@ double RigConsensus::parallax_px(const ComparedView& view) const {
     return largest;
 }
 
-void RigConsensus::smooth(FullscreenPass& pass, const Texture& depth_m, const ComparedView& view,
+bool RigConsensus::tell_news(const ComparedView& view, double parallax_px) const {
+    const double own_px = own_parallax_px(view);
+    return own_px > 0 && parallax_px > least_news * own_px;
+}
+
+void RigConsensus::smooth(TilePass& pass, const Texture& depth_m, const ComparedView& view,
                           const Framebuffer& target) const {
     bind_view(pass.use(), depth_m, view);
-    pass.draw(target);
+    draw(pass, target, 2);
 }
 
 void RigConsensus::sweep(const ComparedView& view, double relative_step) {
     const cv::Size size = half_.texture().size();
     // Asked for before anything is bound: making a texture binds it.
     const Framebuffer& refined = half_.next_target(size);
-    FullscreenPass& comparing = sweep_[others_.size() - 1];
+    TilePass& comparing = sweep_[others_.size() - 1];
     Program& compare = comparing.use();
-    bind_others(compare, half_.texture(), view);
+    const int unit = bind_others(compare, half_.texture(), view);
     compare.set("relative_step", static_cast<float>(relative_step));
     compare.set("lod", std::log2(static_cast<float>(view.colour->width_px()) /
                                  static_cast<float>(size.width)));
-    comparing.draw(costs_->target);
+    draw(comparing, costs_->target, unit);
 
     Program& refine = refine_.use();
     bind_view(refine, half_.texture(), view);
@@ -174,7 +189,7 @@ void RigConsensus::sweep(const ComparedView& view, double relative_step) {
         refine.set(fmt::format("unlike[{}]", i), 2 + i);
         costs_->unlike[static_cast<std::size_t>(i)].bind(2 + i);
     }
-    refine_.draw(refined);
+    draw(refine_, refined, 6);
     half_.finish();
 }
 
@@ -196,55 +211,74 @@ void RigConsensus::refine(const ComparedView& view, double parallax_px) {
 void RigConsensus::compare(const ComparedView& view, double parallax_px) {
     const Texture& depth_m = *view.depth_m;
     agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
-    FullscreenPass& comparing = agreement_pass_[others_.size() - 1];
+    TilePass& comparing = agreement_pass_[others_.size() - 1];
     Program& agreement = comparing.use();
-    bind_others(agreement, depth_m, view);
+    const int unit = bind_others(agreement, depth_m, view);
     agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
-    comparing.draw(agreement_.target());
+    draw(comparing, agreement_.target(), unit);
     agreement_.generate_mipmaps();
 }
 
-const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all) {
-    const Texture& depth_m = *view.depth_m;
+void RigConsensus::choose_others(const ComparedView& view, std::span<const ComparedView> all) {
     std::vector<const ComparedView*> looked_at;
     for (const ComparedView& one : all)
         if (one.seen_by != view.seen_by) looked_at.push_back(&one);
-    others_ = most_useful(looked_at, depth_camera(view, depth_m.size()), max_others);
+    others_ = most_useful(looked_at, depth_camera(view, view.depth_m->size()), max_others);
+}
+
+const Texture& RigConsensus::move_and_carve(const ComparedView& view,
+                                            std::span<const ComparedView> all) {
+    const Texture& depth_m = *view.depth_m;
+    choose_others(view, all);
     if (others_.empty()) return depth_m;
     // Before anything is bound: making a texture binds it.
     result_.resize(depth_m.size());
     judged_.resize(depth_m.size());
 
-    const double own_px = own_parallax_px(view), parallax = parallax_px(view);
-    const bool moves = own_px > 0 && parallax > least_news * own_px;
+    const double parallax = parallax_px(view);
+    const bool moves = tell_news(view, parallax);
     compare(view, parallax);
     if (moves) refine(view, parallax);
-    FullscreenPass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];
+    TilePass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];
     Program& carve = carving.use();
-    const int unit = bind_others(carve, depth_m, view);
+    int unit = bind_others(carve, depth_m, view);
     carve.set("softness", softness);
     carve.set("agreement", unit);
-    agreement_.texture().bind(unit);
-    if (moves) {
-        carve.set("half_before", unit + 1);
-        carve.set("half_after", unit + 2);
-        carve.set("least_change", static_cast<float>(least_change_px / parallax));
-        half_before_.texture().bind(unit + 1);
-        half_.texture().bind(unit + 2);
-    }
+    agreement_.texture().bind(unit++);
     if (!moves) {
-        carving.draw(result_.target());
+        draw(carving, result_.target(), unit);
         return result_.texture();
     }
-    carving.draw(judged_.target());
-    FullscreenPass& adopting = adopt_[others_.size() - 1];
+    carve.set("half_before", unit);
+    half_before_.texture().bind(unit++);
+    carve.set("half_after", unit);
+    half_.texture().bind(unit++);
+    carve.set("least_change", static_cast<float>(least_change_px / parallax));
+    draw(carving, judged_.target(), unit);
+    return judged_.texture();
+}
+
+const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all) {
+    tiles_ = &whole_;
+    picture_ = {TilePass::side_px, TilePass::side_px};
+    const Texture& judged = move_and_carve(view, all);
+    if (others_.empty() || &judged == &result_.texture()) return judged;
+    TilePass& adopting = adopt_[others_.size() - 1];
     Program& adopt = adopting.use();
-    const int free_unit = bind_others(adopt, depth_m, view);
+    const int free_unit = bind_others(adopt, *view.depth_m, view);
     adopt.set("softness", softness);
     adopt.set("judged", free_unit);
-    judged_.texture().bind(free_unit);
-    adopting.draw(result_.target());
+    judged.bind(free_unit);
+    draw(adopting, result_.target(), free_unit + 1);
     return result_.texture();
+}
+
+const Texture& RigConsensus::better_performers(const ComparedView& view,
+                                               std::span<const ComparedView> all,
+                                               const Texture& tiles) {
+    tiles_ = &tiles;
+    picture_ = view.colour->size();
+    return move_and_carve(view, all);
 }
 
 const Texture& RigConsensus::better_set(const ComparedView& view,
@@ -252,7 +286,7 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
     const Texture& bettered = better(view, all);
     if (others_.empty() || !shows_floor(all)) return bettered;
     with_floor_.resize(bettered.size());
-    FullscreenPass& standing = floor_[others_.size() - 1];
+    TilePass& standing = floor_[others_.size() - 1];
     Program& program = standing.use();
     const int unit = bind_others(program, *view.depth_m, view);
     // Of the points where z times the ray from the camera is at y = 0.
@@ -263,8 +297,42 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
     program.set("softness", softness);
     program.set("before", unit);
     bettered.bind(unit);
-    standing.draw(with_floor_.target());
+    draw(standing, with_floor_.target(), unit + 1);
     return with_floor_.texture();
+}
+
+bool RigConsensus::search(const ComparedView& view, std::span<const ComparedView> all,
+                          const Texture& bettered, const Framebuffer& found) {
+    choose_others(view, all);
+    if (others_.size() < searched_others || !tell_news(view, parallax_px(view))) return false;
+    others_.resize(searched_others);
+    tiles_ = &whole_;
+    picture_ = {TilePass::side_px, TilePass::side_px};
+    Program& program = search_.use();
+    const int unit = bind_others(program, *view.depth_m, view);
+    const auto nearness = static_cast<float>(1 / view.median_depth_m());
+    program.set("range",
+                Eigen::Vector2f(farthest_searched * nearness, nearest_searched * nearness));
+    program.set("before", unit);
+    bettered.bind(unit);
+    draw(search_, found, unit + 1);
+    return true;
+}
+
+const Texture& RigConsensus::with_found(const ComparedView& view, const Texture& bettered,
+                                        const Texture& found) {
+    with_found_.resize(bettered.size());
+    tiles_ = &whole_;
+    picture_ = {TilePass::side_px, TilePass::side_px};
+    Program& program = found_.use();
+    program.set("before", 0);
+    program.set("found", 1);
+    program.set("picture", 2);
+    bettered.bind(0);
+    found.bind(1);
+    view.colour->bind(2);
+    draw(found_, with_found_.target(), 3);
+    return with_found_.texture();
 }
 
 }  // namespace vantage

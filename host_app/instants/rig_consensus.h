@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "common/gl/fullscreen_pass.h"
+#include "common/gl/tile_pass.h"
 #include "host_app/instants/drawn_texture.h"
 #include "host_app/instants/instant_preparer.h"
 #include "host_app/instants/rig_history.h"
@@ -27,7 +27,7 @@ struct ComparedView {
 
 /// A rig with its steady colour and depth.
 ComparedView compared(const RigHistory& rig);
-std::vector<ComparedView> compared(std::span<const std::unique_ptr<RigHistory>> rigs);
+std::vector<ComparedView> compared(std::span<RigHistory* const> rigs);
 
 /// Whether as many points lie at y = 0, as exactly as stereo knows, as of a stage that shows its
 /// floor.
@@ -52,8 +52,22 @@ class RigConsensus {
     /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
     /// view itself; their depths are those of the same instant.
     const Texture& better(const ComparedView& view, std::span<const ComparedView> all);
+    /// The same of performers, whose depth is 0 outside some tiles of the view's picture (see
+    /// TilePass): moved and carved, but nothing takes over the depth of its neighbours.
+    const Texture& better_performers(const ComparedView& view, std::span<const ComparedView> all,
+                                     const Texture& tiles);
     /// The same of the set, which may have a floor.
     const Texture& better_set(const ComparedView& view, std::span<const ComparedView> all);
+
+    /// Looks for thin things of the set where its `bettered` depth is but a guess, by trying all
+    /// depths: inverse depths, 1/m, 0 = nothing found, into an r32f target of the depth's size.
+    /// False, and nothing is drawn: there are too few other views to tell by, or they stand too
+    /// close.
+    bool search(const ComparedView& view, std::span<const ComparedView> all,
+                const Texture& bettered, const Framebuffer& found);
+    /// `bettered` with those of the depths found that the pixels around confirm, valid as it is.
+    const Texture& with_found(const ComparedView& view, const Texture& bettered,
+                              const Texture& found);
 
   private:
     /// How unlike the pictures are at sixteen depths, four a texture.
@@ -64,26 +78,39 @@ class RigConsensus {
     };
     static constexpr std::size_t max_others = 3;
 
+    /// Those that `view` is compared with.
+    void choose_others(const ComparedView& view, std::span<const ComparedView> all);
+    /// The first channel is the depth as it was moved and carved, the second what is known of it
+    /// (see rig_carve.frag); without that where nothing was moved; the view's own where no other
+    /// looks.
+    const Texture& move_and_carve(const ComparedView& view, std::span<const ComparedView> all);
+    /// Draws the tiles that are looked at. `unit`: a free one.
+    void draw(TilePass& pass, const Framebuffer& target, int unit) const;
     void bind_view(Program& program, const Texture& depth_m, const ComparedView& view) const;
     /// Also the other views, up to the texture unit that is returned.
     int bind_others(Program& program, const Texture& depth_m, const ComparedView& view) const;
     /// How far the view's middle moves in the others' pictures, at most, if its inverse depth
     /// changes by all of itself; px of its depth map.
     double parallax_px(const ComparedView& view) const;
+    /// Whether the others stand far enough apart to tell something new.
+    bool tell_news(const ComparedView& view, double parallax_px) const;
     void compare(const ComparedView& view, double parallax_px);
     /// Fills half_before_ and half_.
     void refine(const ComparedView& view, double parallax_px);
     void sweep(const ComparedView& view, double relative_step);
-    void smooth(FullscreenPass& pass, const Texture& depth_m, const ComparedView& view,
+    void smooth(TilePass& pass, const Texture& depth_m, const ComparedView& view,
                 const Framebuffer& target) const;
 
-    FullscreenPass halve_, smooth_, refine_;
+    TilePass halve_, smooth_, refine_, search_, found_;
     /// One for every number of other views.
-    std::vector<FullscreenPass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_, floor_;
+    std::vector<TilePass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_, floor_;
     std::vector<const ComparedView*> others_;
+    Texture whole_{TextureFormat::r8, 1, 1};  ///< one tile
+    const Texture* tiles_ = nullptr;
+    cv::Size picture_;  ///< that the tiles are of
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
-    DrawnTexture with_floor_{TextureFormat::r32f};
+    DrawnTexture with_floor_{TextureFormat::r32f}, with_found_{TextureFormat::r32f};
     DrawnTexture judged_{TextureFormat::rg32f};
     DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
     DrawnInTurn half_{TextureFormat::r32f};

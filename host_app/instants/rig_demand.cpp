@@ -14,17 +14,18 @@ void RigDemand::see(std::span<const DepthView> views) {
     }
 }
 
-std::vector<RigDemand::Change> RigDemand::update(const VirtualView& target, MonotonicTime now) {
-    std::vector<std::pair<double, Rig*>> ranked;
-    for (auto& [name, rig] : rigs_) {
-        const double use = usefulness(rig.samples.points_m, rig.centre_m, target);
-        ranked.emplace_back(use, &rig);
-    }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (std::size_t i = 0; i < ranked.size(); ++i) {
-        Rig& rig = *ranked[i].second;
-        if (i < most_rigs || rig.last_needed == MonotonicTime{}) rig.last_needed = now;
+std::vector<RigDemand::Change> RigDemand::update(std::span<const VirtualView> targets,
+                                                 MonotonicTime now) {
+    for (auto& [name, rig] : rigs_)
+        if (rig.last_needed == MonotonicTime{}) rig.last_needed = now;
+    for (const VirtualView& target : targets) {
+        std::vector<std::pair<double, Rig*>> ranked;
+        for (auto& [name, rig] : rigs_)
+            ranked.emplace_back(usefulness(rig.samples.points_m, rig.centre_m, target), &rig);
+        std::stable_sort(ranked.begin(), ranked.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        for (std::size_t i = 0; i < std::min(most_rigs, ranked.size()); ++i)
+            ranked[i].second->last_needed = now;
     }
     std::vector<Change> changes;
     for (auto& [name, rig] : rigs_) {

@@ -13,13 +13,14 @@
 
 namespace vantage {
 
-/// Which rigs the virtual view needs, so that network and GPU load stay bounded while the stage
+/// Which rigs the virtual views need, so that network and GPU load stay bounded while the stage
 /// grows: the most useful ones, by what they showed when they were last seen. One that becomes
 /// useful is asked for at once; one that is no longer is let go only after a while, for the camera
 /// may turn back.
 class RigDemand {
   public:
-    /// Rigs that send at a time: those of one picture, and one to spare for the camera's next move.
+    /// Rigs that send for a view: those of one picture, and one to spare for the camera's next
+    /// move.
     static constexpr std::size_t most_rigs = 5;
     static constexpr std::chrono::seconds hold{3};
 
@@ -32,7 +33,7 @@ class RigDemand {
     };
     /// What to ask of which rig from now on; empty as long as nothing changes. Rigs send until they
     /// are told otherwise.
-    std::vector<Change> update(const VirtualView& target, MonotonicTime now);
+    std::vector<Change> update(std::span<const VirtualView> targets, MonotonicTime now);
 
   private:
     struct Rig {

@@ -9,7 +9,14 @@ void RigHistory::forget() {
     set_.forget();
     learnt_instants_ = 0;
     model_.reset();
+    searched_s_.reset();
+    hide();
+}
+
+void RigHistory::hide() {
     surface_.reset();
+    performers_.reset();
+    prepared_rank_.reset();
 }
 
 void RigHistory::upload(const DepthView& view, double dt_s) {
@@ -19,14 +26,8 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
     dt_s_ = dt_s;
     if (!is_same_camera) forget();
-    if (!prepared_rank_) surface_.reset();
+    if (!prepared_rank_) hide();
     prepared_rank_.reset();
-    // A filter that left an upload out has no past for the next.
-    if (!is_colour_steady_) steady_colour_.forget();
-    if (!is_set_learnt_) {
-        set_.forget();
-        learnt_instants_ = 0;
-    }
     is_colour_steady_ = is_set_learnt_ = false;
     camera_ = view;
     camera_.release_pictures();

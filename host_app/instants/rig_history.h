@@ -25,6 +25,8 @@ class RigHistory {
     void upload(const DepthView& view, double dt_s = nominal_dt_s);
     /// What was learnt along time is of no use any more.
     void forget();
+    /// What was published is not shown any more.
+    void hide();
 
     /// Camera, name and sizes as in the last upload; its pictures are empty.
     const DepthView& camera() const { return camera_; }
@@ -78,13 +80,19 @@ class RigHistory {
     const std::optional<Model>& model() const { return model_; }
     void set_model(const Model& model) { model_ = model; }
 
+    /// The inverse depths that a search of the set found, 1/m, 0 = none, and when that was, on the
+    /// preparer's clock; empty before the first.
+    DrawnTexture& found() { return found_; }
+    const std::optional<double>& searched_s() const { return searched_s_; }
+    void set_searched_s(double searched_s) { searched_s_ = searched_s; }
+
     /// The performers' share of each pixel of the picture, r8, and the tiles of it in which there
     /// are any (see TilePass).
     DrawnTexture& matte() { return matte_; }
     const Texture& matte() const { return matte_.texture(); }
     DrawnTexture& matte_tiles() { return matte_tiles_; }
     const Texture& matte_tiles() const { return matte_tiles_.texture(); }
-    /// Their depth, r32f, metres, 0 = none.
+    /// Their depth, r32f, metres, 0 = none, negative beyond the matte.
     DrawnTexture& performer_depth() { return performer_depth_; }
     const Texture& performer_depth() const { return performer_depth_.texture(); }
 
@@ -94,9 +102,12 @@ class RigHistory {
     /// What was published of this rig last, and whether it was made of the last upload and how well
     /// (see PrepareLevel::rank; lower is better).
     const std::shared_ptr<const RigSurface>& surface() const { return surface_; }
+    const std::shared_ptr<const RigSurface>& performers() const { return performers_; }
     std::optional<int> prepared_rank() const { return prepared_rank_; }
-    void publish(std::shared_ptr<const RigSurface> surface, int rank) {
+    void publish(std::shared_ptr<const RigSurface> surface,
+                 std::shared_ptr<const RigSurface> performers, int rank) {
         surface_ = std::move(surface);
+        performers_ = std::move(performers);
         prepared_rank_ = rank;
     }
     /// How far this rig takes part, 0..1.
@@ -120,11 +131,13 @@ class RigHistory {
     SetState set_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
+    DrawnTexture found_{TextureFormat::r32f};
+    std::optional<double> searched_s_;
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};
     DrawnTexture matte_tiles_{TextureFormat::r8};
     DrawnTexture performer_depth_{TextureFormat::r32f};
     bool is_colour_steady_ = false, is_set_learnt_ = false;
-    std::shared_ptr<const RigSurface> surface_;
+    std::shared_ptr<const RigSurface> surface_, performers_;
     std::optional<int> prepared_rank_;
     float presence_ = 1;
     SurfaceSamples samples_;

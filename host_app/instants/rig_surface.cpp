@@ -24,7 +24,6 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     samples_ = samples;
     has_rims_ = false;
     has_fine_grid_ = true;
-    plate_.reset();
     colour_.resize(colour_size);
     drawn_.resize(depth_size);
     if (grid_size_ == depth_size) return;

@@ -9,7 +9,6 @@
 #include "host_app/instants/depth_uploader.h"
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/drawn_texture.h"
-#include "host_app/instants/rig_plate.h"
 #include "host_app/instants/surface_samples.h"
 
 namespace vantage {
@@ -18,15 +17,15 @@ namespace vantage {
 /// instant is published nothing of it changes, and any context that shares objects may read it.
 class RigSurface {
   public:
+    /// Trust in a colour that is not seen now but was before: less than in any that is.
+    static constexpr float remembered_trust = 4.0f / 255;
+
     /// Camera, name and sizes; its pictures are empty.
     const DepthView& camera() const { return camera_; }
     /// Metres in the first channel, 0 = unknown, negative = guessed.
     const Texture& depth() const { return drawn_.texture(); }
     /// rgba8, trilinear; alpha says how far the colour can be trusted.
     const Texture& colour() const { return colour_.texture(); }
-
-    /// What the rig has learnt of its background; null: too little to be shown.
-    const RigPlate* plate() const { return plate_.get(); }
 
     /// Of the depth map.
     const IndirectTriangles& triangles(QuadGrid grid = QuadGrid::fine) const {
@@ -57,7 +56,6 @@ class RigSurface {
     void finish_colour() { colour_.generate_mipmaps(); }
     const IndirectTriangles& rims_to_build();
     void set_has_fine_grid(bool has) { has_fine_grid_ = has; }
-    void set_plate(std::shared_ptr<const RigPlate> plate) { plate_ = std::move(plate); }
 
   private:
     DepthView camera_;
@@ -67,7 +65,6 @@ class RigSurface {
     bool has_rims_ = false, has_fine_grid_ = true;
     std::optional<IndirectTriangles> triangles_, coarse_triangles_, rims_;
     cv::Size grid_size_;
-    std::shared_ptr<const RigPlate> plate_;
 };
 
 /// A view's picture, with its colour correction, into a texture of its size.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include <opencv2/imgproc.hpp>
+
 #include "host_app/instants/depth_spread.h"
 
 namespace vantage {
@@ -25,13 +27,12 @@ constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
 /// Pixels that known_share() looks at.
 const cv::Size sampled_pixels{64, 48};
 
-float most_depth_instants(const RigHistory& rig) {
-    return instants_of(depth_mean_s, rig.dt_s(), 8, longest_depth_mean);
+float most_colour_instants(double dt_s) {
+    return instants_of(colour_mean_s, dt_s, 4, longest_colour_mean);
 }
 
-float most_colour_instants(const RigHistory& rig) {
-    return instants_of(colour_mean_s, rig.dt_s(), 4, longest_colour_mean);
-}
+/// Instants that a pixel has to have been still for before it is known to show the set.
+float known_after_of(double dt_s) { return instants_of(known_after_s, dt_s, 3, 30); }
 
 }  // namespace
 
@@ -86,10 +87,14 @@ void SetLearner::learn(RigHistory& rig) {
     set.seen().bind(1);
     matte_.draw(hard_.target(), rig.matte_tiles().texture(), 2, picture);
 
-    Program& soften = soften_.use();
-    soften.set("hard", 0);
+    Program& edges = edges_.use();
+    edges.set("hard", 0);
+    edges.set("picture", 1);
+    edges.set("set_colour", 2);
     hard_.texture().bind(0);
-    soften_.draw(rig.matte().target(), rig.matte_tiles().texture(), 1, picture);
+    rig.fresh_colour().bind(1);
+    set_colour.bind(2);
+    edges_.draw(rig.matte().target(), rig.matte_tiles().texture(), 3, picture);
 
     Program& learn = learn_.use();
     learn.set("depth_map", 0);
@@ -97,7 +102,7 @@ void SetLearner::learn(RigHistory& rig) {
     learn.set("seen", 2);
     learn.set("matte", 3);
     set_votes(learn);
-    learn.set("most_instants", most_depth_instants(rig));
+    learn.set("most_instants", most_votes(rig));
     learn.set("most_misses", instants_of(patience_s, rig.dt_s(), 3, 30));
     learn.set("absorbed_after", static_cast<float>(absorbed_after_s / std::max(rig.dt_s(), 1e-3)));
     rig.depth().bind(0);
@@ -112,7 +117,7 @@ void SetLearner::learn(RigHistory& rig) {
     show.set("seen", 2);
     show.set("matte", 3);
     show.set("has_before", has_before ? 1.0f : 0.0f);
-    show.set("most_instants", most_colour_instants(rig));
+    show.set("most_instants", most_colour_instants(rig.dt_s()));
     rig.fresh_colour().bind(0);
     set_colour.bind(1);
     set.seen().bind(2);
@@ -122,9 +127,11 @@ void SetLearner::learn(RigHistory& rig) {
     rig.finish_colour();
 }
 
-float SetLearner::known_after(const RigHistory& rig) {
-    return instants_of(known_after_s, rig.dt_s(), 3, 30);
+float SetLearner::most_votes(const RigHistory& rig) {
+    return instants_of(depth_mean_s, rig.dt_s(), 8, longest_depth_mean);
 }
+
+float SetLearner::known_after(const RigHistory& rig) { return known_after_of(rig.dt_s()); }
 
 LearntRigSet SetLearner::learnt(const RigHistory& rig) {
     LearntRigSet set;
@@ -134,11 +141,11 @@ LearntRigSet SetLearner::learnt(const RigHistory& rig) {
     cv::extractChannel(state, set.depth_m, 0);
     cv::Mat votes, mean;
     cv::extractChannel(state, votes, 1);
-    votes.convertTo(set.certainty, CV_8U, 255 / most_depth_instants(rig));
+    votes.convertTo(set.certainty, CV_8U, 255 / most_votes(rig));
     rig.colour_mean().download().convertTo(mean, CV_32F);
     std::vector<cv::Mat> channels;
     cv::split(mean, channels);
-    channels[3] /= most_colour_instants(rig);
+    channels[3] /= most_colour_instants(rig.dt_s());
     cv::merge(channels, mean);
     mean.convertTo(set.colour, CV_8U, 255);
     return set;
@@ -164,6 +171,15 @@ void SetLearner::restore(RigHistory& rig, const LearntRigSet& set) {
     cv::Mat halves;
     mean.convertTo(halves, CV_16F);
     rig.restore(state, halves, longest_depth_mean);
+}
+
+cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
+    // The first instant counts nothing in the mean's alpha.
+    const double least = 255 * (known_after_of(dt_s) - 1) / most_colour_instants(dt_s);
+    cv::Mat1b still;
+    cv::extractChannel(set.colour, still, 3);
+    cv::resize(still, still, set.depth_m.size(), 0, 0, cv::INTER_NEAREST);
+    return (still >= std::floor(least)) & (set.depth_m > 0);
 }
 
 double SetLearner::known_share(const RigHistory& rig) {

@@ -15,7 +15,7 @@ class SetLearner {
         : see_(library, "set_see.frag"),
           tiles_(library, "matte_tiles.frag"),
           matte_(library, "matte.frag"),
-          soften_(library, "matte_soften.frag"),
+          edges_(library, "matte_edges.frag"),
           learn_(library, "set_learn.frag"),
           colour_(library, "set_colour.frag"),
           known_(library, "set_known.frag") {}
@@ -29,15 +29,19 @@ class SetLearner {
     /// Goes on from that; before learn(), of an upload without a past. Precondition: it is of the
     /// rig's camera and sizes.
     static void restore(RigHistory& rig, const LearntRigSet& set);
+    /// Where a set is known that was read back from instants `dt_s` apart; of its depth's size.
+    static cv::Mat1b known(const LearntRigSet& set, double dt_s);
     /// Share of the rig's pixels at which the set is known. Precondition as learnt().
     double known_share(const RigHistory& rig);
 
+    /// Instants that a pixel's depth counts at most.
+    static float most_votes(const RigHistory& rig);
     /// Instants that a pixel has to have been still for before it is known to show the set.
     static float known_after(const RigHistory& rig);
 
   private:
     FullscreenPass see_, tiles_;
-    TilePass matte_, soften_;
+    TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
     DrawnTexture sampled_{TextureFormat::r8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};

@@ -12,6 +12,7 @@
 #include "host_app/instants/performer_depth.h"
 #include "host_app/instants/recycle_pool.h"
 #include "host_app/instants/rig_consensus.h"
+#include "host_app/instants/rig_roster.h"
 #include "host_app/instants/set_learner.h"
 #include "host_app/instants/triangle_builder.h"
 
@@ -27,7 +28,8 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
     void improve(const VirtualView& target) override;
-    void forget() override;
+    void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
+    void cut() override;
     SetMemory* set_memory() override { return this; }
 
   private:
@@ -43,15 +45,19 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void look_at_sets();
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
+    /// The depth of the rig's set as the other rigs better it, with the thin things that are looked
+    /// for now and then.
+    const Texture& bettered_set(RigHistory& rig);
     /// Gives a program of set_now.glsl the rig's set, on units 0 and 1. Precondition: it has a
     /// model.
     void bind_set(Program& program, const RigHistory& rig) const;
-    std::shared_ptr<const RigPlate> plate_of(RigHistory& rig);
-    void find_performers(RigHistory& rig, const PrepareLevel& level);
+    std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
+    std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
+                                             const PrepareLevel& level);
     void publish(RigHistory& rig, const PrepareLevel& level);
 
     RecyclePool<RigSurface> surfaces_;
-    std::vector<std::unique_ptr<RigHistory>> rigs_;
+    RigRoster rigs_;
     std::vector<RigHistory*> uploaded_;  ///< those of the newest instant
     std::vector<RigHistory*> learnt_;    ///< of them: whose sets were learnt
     std::set<RigHistory*> has_depths_;   ///< of them: whose performers were found
@@ -61,9 +67,9 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     DepthCloser closer_;
     EdgeTrust edge_trust_;
     TriangleBuilder triangles_;
-    FullscreenPass show_, over_, now_;
+    FullscreenPass show_, now_;
+    TilePass colour_performers_;
     DrawnTexture colours_{TextureFormat::rgba8, Filter::linear};
-    RecyclePool<RigPlate> plate_pool_;
     /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< instants' time since the first one

@@ -12,8 +12,8 @@ constexpr std::chrono::milliseconds timecode_period{250};
 
 ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
     if (urls.empty()) return;
-    desk_.emplace(urls,
-                  ControlBench{show.controls().hands(), show.controls().tracked(), tally_, lamps_});
+    desk_.emplace(urls, ControlBench{show.controls().hands(), show.controls().tracked(), tally_,
+                                     lamps_, ltc_});
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
@@ -37,6 +37,9 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
     lamps.preview_tally = tally.preview;
+    lamps.hands_preview = lines.preview.has_value();
+    lamps.fly_to_preview = lines.preview ? lines.preview->fly_progress.value_or(-1) : -1;
+    lamps.fly_to_preview_s = lines.fly_to_preview_s;
     lamps.tracked = lines.is_tracked;
     lamps.source_map = state.source_map;
     lamps.move = lines.move_progress.value_or(-1);

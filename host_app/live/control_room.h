@@ -21,6 +21,7 @@ class ControlRoom {
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                     const std::string& saved_set, MonotonicTime now);
     Tally::State tally() const { return tally_.state(); }
+    LtcBoard::State ltc() const { return ltc_.state(); }
     /// What the ports have counted so far.
     std::vector<PortState> ports() const;
     /// Ends the ports; what they counted.
@@ -31,6 +32,7 @@ class ControlRoom {
 
     Tally tally_;
     LampBoard lamps_;
+    LtcBoard ltc_;
     std::optional<SetTimecode> timecodes_;
     ShowLamps shown_;
     MonotonicTime timecode_shown_{};

@@ -22,6 +22,7 @@ class CorridorFields {
 
     const std::vector<DeskPlan::Field>& fields() const { return fields_; }
     const Eigen::Vector3d& pivot_m() const { return shown_.pivot_m; }
+    double elevation_rad() const { return shown_.elevation_rad; }
 
   private:
     void begin(const std::shared_ptr<const Corridor>& corridor, const OrbitView& view,

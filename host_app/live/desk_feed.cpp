@@ -11,6 +11,7 @@
 #include "host_app/live/desk_wheel.h"
 #include "host_app/live/live_report.h"
 #include "host_app/live/rig_words.h"
+#include "host_app/live/stage_points.h"
 
 namespace vantage {
 namespace {
@@ -32,7 +33,7 @@ RigState state_in(const FrameSet* set, const RigStatus& status) {
     if (!set) return RigState::late;
     for (const FrameSet::Slot& slot : set->slots) {
         if (slot.rig != status.rig) continue;
-        if (slot.frame) return RigState::present;
+        if (slot.frame && slot.frame->has_pictures()) return RigState::present;
         if (slot.absence == Absence::missed_by_rig) return RigState::missed;
         if (slot.absence == Absence::disconnected) return RigState::disconnected;
     }
@@ -57,6 +58,10 @@ std::optional<DeskTime> desk_time(const LiveShow& show, const ProgrammeState& pr
     if (programme.time.out) time.out = static_cast<double>(*programme.time.out);
     time.loops = programme.time.loops;
     if (take && take->phase == TakePhase::recording) time.recorded_s = take->duration_s;
+    const std::shared_ptr<const Move> move = time.is_of_take ? show.controls().move() : nullptr;
+    if (move && move->take_s_at(0))
+        for (const MoveKeyframe& keyframe : move->keyframes())
+            time.keyframes.push_back(time.oldest + *keyframe.take_s * time.rate_hz);
     return time;
 }
 
@@ -72,6 +77,12 @@ std::optional<DeskTake> desk_take(const TakeState& take) {
     return desk;
 }
 
+DeskSound desk_sound(const SoundState& sound) {
+    constexpr std::uint64_t samples_a_ms = sound_rate_hz / 1000;
+    return {sound.name,      key_of(sound.phase),          sound.phase == SoundPhase::on,
+            sound.peak_dbfs, sound.missing / samples_a_ms, sound.failure};
+}
+
 DeskOutput desk_output(const OutputState& output) {
     constexpr double bits_a_megabit = 1e6;
     return {output.name,
@@ -85,8 +96,12 @@ DeskOutput desk_output(const OutputState& output) {
 }
 
 DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {
-    return {rig.name, rig.rig.world_from_camera.translation(),
-            rig.rig.world_from_camera.linear().col(2), rig.rig.half_width, rig.is_away};
+    return {rig.name,
+            rig.rig.world_from_camera.translation(),
+            rig.rig.world_from_camera.linear().col(2),
+            rig.rig.half_width,
+            rig.rig.half_height,
+            rig.is_away};
 }
 
 }  // namespace
@@ -148,6 +163,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
                        MonotonicTime now) {
     const LiveReport report = show.report();
     picture_rate_.add(report.programme.pictures, now);
+    preview_rate_.add(programme.preview.pictures, now);
     for (const RigAccount& rig : report.rigs)
         rig_rates_[rig.status.rig].add(rig.status.received, now);
     if (set) rig_pictures_.take(*set);
@@ -169,6 +185,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     state_.latencies_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
     state_.signal = report.signal;
     state_.sources = sources_of(programme);
+    state_.sound = report.sound ? std::optional(desk_sound(*report.sound)) : std::nullopt;
     state_.outputs.clear();
     state_.recording = false;
     for (const OutputState& output : report.outputs) {
@@ -208,11 +225,21 @@ void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme
     corridor_.follow(show.corridor(), programme.view, corridor_reach * reach_m);
     plan.corridor = corridor_.fields();
     plan.corridor_pivot_m = corridor_.pivot_m();
+    plan.corridor_elevation_rad = corridor_.elevation_rad();
+    plan.points = points_;
     for (const Placed& placed : path_) plan.path_m.push_back(placed.eye_m);
     follow_move(show);
     plan.move_m = move_m_;
     plan.keyframes_m = keyframes_m_;
     state_.plan = std::move(plan);
+}
+
+void DeskFeed::follow_points(const ProgrammeState& programme, bool are_wanted) {
+    const std::shared_ptr<const FrameSet> set =
+        are_wanted && programme.picture ? programme.picture->job.instant->set : nullptr;
+    if (set == points_of_) return;
+    points_of_ = set;
+    points_ = set ? stage_points(*set) : std::vector<DeskPlan::Point>();
 }
 
 void DeskFeed::follow_shots(const LiveShow& show, const ProgrammeState& programme,
@@ -244,16 +271,20 @@ void DeskFeed::follow_replay(const ProgrammeState& programme, const FrameSet* se
     state_.notice = notices_ > 0 && now - noticed_ < notice_stands ? replay.notice : "";
 }
 
-const Texture* DeskFeed::picture(const ProgrammeState& programme) {
-    if (programme.picture && programme.picture != uploaded_) {
-        uploaded_ = programme.picture;
-        const ColourImage& shown =
-            uploaded_->sources ? uploaded_->sources->picture : uploaded_->picture;
-        if (!picture_ || picture_->size() != shown.size())
-            picture_.emplace(TextureFormat::rgba8, shown.cols, shown.rows, Filter::linear);
-        picture_->upload(shown);
-    }
-    return picture_ ? &*picture_ : nullptr;
+void DeskFeed::follow_preview(const FlightControls::Lines& lines, const ProgrammeState& programme) {
+    state_.preview.reset();
+    if (!lines.preview) return;
+    DeskPreview shown;
+    shown.picture = preview(programme);
+    shown.view = lines.preview->view;
+    shown.picture_rate_hz = preview_rate_.per_second();
+    shown.is_near_only =
+        programme.preview.picture && programme.preview.picture->job.instant->instant->level > 0;
+    shown.coverage = lines.preview->coverage;
+    shown.fly_progress = lines.preview->fly_progress;
+    shown.programme_move = lines.preview->move_progress;
+    shown.fly_s = lines.fly_to_preview_s;
+    state_.preview = shown;
 }
 
 void DeskFeed::note_shown(const ProgrammeState& programme) {
@@ -267,7 +298,8 @@ void DeskFeed::note_shown(const ProgrammeState& programme) {
 }
 
 DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
-                          const std::optional<TakeState>& take, const std::string& question) {
+                          const std::optional<TakeState>& take, const std::string& question,
+                          bool wants_points) {
     const MonotonicTime now = MonotonicClock::now();
     if (!timecodes_)
         timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
@@ -276,6 +308,7 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     if (!refreshed_ || now - *refreshed_ >= refresh_period) {
         refreshed_ = now;
         refresh(show, programme, set, now);
+        follow_points(programme, wants_points);
     }
     state_.picture = picture(programme);
     state_.waiting = set == nullptr;
@@ -302,6 +335,7 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.wheel_map = desk_wheel(show.controls().wheels().view(now));
     state_.has_unsaved_wheel = !show.controls().wheels().unsaved().empty();
     state_.coverage = lines.corridor.now;
+    follow_preview(lines, programme);
     follow_plan(show, programme, now);
     follow_shots(show, programme, now);
     return state_;

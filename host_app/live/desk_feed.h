@@ -14,6 +14,7 @@
 #include "host_app/live/live_show.h"
 #include "host_app/live/rig_pictures.h"
 #include "host_app/live/shot_pictures.h"
+#include "host_app/live/shown_picture.h"
 
 namespace vantage {
 
@@ -23,13 +24,20 @@ namespace vantage {
 class DeskFeed {
   public:
     /// The programme's newest picture; null before the first.
-    const Texture* picture(const ProgrammeState& programme);
+    const Texture* picture(const ProgrammeState& programme) {
+        return programme_picture_.follow(programme.picture);
+    }
+    /// That of the camera on preview; null: there is none.
+    const Texture* preview(const ProgrammeState& programme) {
+        return preview_picture_.follow(programme.preview.picture);
+    }
     /// To be called when that was shown.
     void note_shown(const ProgrammeState& programme);
     /// `take`: nothing: none is recorded here. `question`: that a second press of a key answers;
-    /// empty: none.
+    /// empty: none. `wants_points`: the stage is looked at from outside.
     DeskState state(LiveShow& show, const ProgrammeState& programme,
-                    const std::optional<TakeState>& take, const std::string& question);
+                    const std::optional<TakeState>& take, const std::string& question,
+                    bool wants_points);
 
   private:
     void refresh(LiveShow& show, const ProgrammeState& programme, const FrameSet* set,
@@ -39,6 +47,8 @@ class DeskFeed {
     void follow_move(const LiveShow& show);
     void follow_plan(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
     void follow_replay(const ProgrammeState& programme, const FrameSet* set, MonotonicTime now);
+    void follow_preview(const FlightControls::Lines& lines, const ProgrammeState& programme);
+    void follow_points(const ProgrammeState& programme, bool are_wanted);
     void follow_shots(const LiveShow& show, const ProgrammeState& programme, MonotonicTime now);
 
     struct Placed {
@@ -55,14 +65,16 @@ class DeskFeed {
     std::uint64_t notices_ = 0;  ///< of replay, that were seen
     MonotonicTime noticed_{};    ///< the last of them
     CorridorFields corridor_;
+    std::vector<DeskPlan::Point> points_;
+    std::shared_ptr<const FrameSet> points_of_;
     std::deque<Placed> path_;
     std::shared_ptr<const Move> move_;  ///< of which these are
     std::vector<Eigen::Vector3d> move_m_, keyframes_m_;
     std::deque<float> latencies_ms_;  ///< from exposure to this desk's window
     std::uint64_t latency_of_ = 0;    ///< the pulse of the last of them
     std::string renderer_;
-    std::optional<Texture> picture_;
-    std::shared_ptr<const MadePicture> uploaded_;
+    ShownPicture programme_picture_, preview_picture_;
+    RateMeter preview_rate_;
     std::optional<SetTimecode> timecodes_;  ///< of the stage's pulses
     DeskState state_;
 };

@@ -157,6 +157,10 @@ nlohmann::ordered_json take_json(const TakeState& take) {
                                 {"duration_s", take.duration_s},
                                 {"disk_mb_s", take.disk_mb_s},
                                 {"longest_unwritten_ms", take.longest_unwritten_ms}};
+    if (take.has_sound) {
+        json["sound_s"] = take.sound_s;
+        json["sound_dropped_samples"] = take.sound_dropped;
+    }
     for (const TakeState::Rig& rig : take.rigs)
         json["rigs"].push_back({{"name", rig.name},
                                 {"frames", rig.frames},
@@ -177,8 +181,47 @@ std::string take_text(const TakeState& take) {
                 "take: of rig {} are {} frames left out since they came faster than they could be "
                 "written, and {} that did not fit\n",
                 rig.name, rig.dropped, rig.refused);
+    if (take.has_sound)
+        text += fmt::format(
+            "take: {:.1f} s of sound, {} samples left out since they came faster than they could "
+            "be written\n",
+            take.sound_s, take.sound_dropped);
     if (!take.failure.empty()) text += fmt::format("take: {}\n", take.failure);
     return text;
+}
+
+nlohmann::ordered_json sound_json(const SoundState& sound) {
+    return {{"name", sound.name},
+            {"state", key_of(sound.phase)},
+            {"failure", sound.failure},
+            {"failures", sound.failures},
+            {"delay_ms", sound.delay_ms},
+            {"peak_dbfs", sound.peak_dbfs},
+            {"heard_samples", sound.heard},
+            {"lost_samples", sound.lost},
+            {"dropped_samples", sound.dropped},
+            {"inserted_samples", sound.inserted},
+            {"removed_samples", sound.removed},
+            {"drift_ppm", sound.drift_ppm},
+            {"played_samples", sound.played},
+            {"missing_samples", sound.missing},
+            {"slid_samples", sound.slid},
+            {"jumps", sound.jumps}};
+}
+
+std::string sound_text(const SoundState& sound) {
+    const auto ms = [](std::uint64_t samples) {
+        return 1000 * static_cast<double>(samples) / sound_rate_hz;
+    };
+    std::string text = fmt::format(
+        "sound: {}, {}, {:.1f} s, {:.0f} ms after it was heard; {:.0f} ms of it were not there, "
+        "{:.0f} ms came too fast, {} over what could not be slid over; its clock is {:.0f} "
+        "millionths ahead",
+        sound.name, key_of(sound.phase), ms(sound.played) / 1000, sound.delay_ms, ms(sound.missing),
+        ms(sound.dropped), counted(sound.jumps, "jump"), sound.drift_ppm);
+    if (sound.failures > 0) text += fmt::format("; failed {}", times(sound.failures));
+    if (!sound.failure.empty()) text += ": " + sound.failure;
+    return text + '\n';
 }
 
 nlohmann::ordered_json output_json(const OutputState& output) {
@@ -192,6 +235,8 @@ nlohmann::ordered_json output_json(const OutputState& output) {
             {"dropped", output.dropped},
             {"unheard", output.unheard},
             {"queued", output.queued},
+            {"sound", output.has_sound},
+            {"silenced", output.silenced},
             {"bytes", output.bytes},
             {"bit_rate_bps", output.bit_rate_bps},
             {"write_ms", to_json(output.write_ms)}};
@@ -204,6 +249,8 @@ std::string output_text(const OutputState& output) {
                                    static_cast<double>(output.bytes) / 1e6, output.dropped);
     if (output.unheard > 0)
         text += fmt::format(", {} while nobody took it", counted(output.unheard, "picture"));
+    if (output.silenced > 0)
+        text += fmt::format(", the sound of {}", counted(output.silenced, "picture"));
     if (output.failures > 0) text += fmt::format(", failed {}", times(output.failures));
     return text + '\n';
 }
@@ -334,10 +381,14 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);
     json["seek_to_picture_ms"] = to_json(programme.seek_ms);
+    json["rest_to_best_ms"] = to_json(programme.rest_ms);
     json["seek_steps_ms"] = {{"wait", to_json(programme.seek_steps_ms.wait)},
                              {"fetch", to_json(programme.seek_steps_ms.fetch)},
                              {"prepare", to_json(programme.seek_steps_ms.prepare)},
                              {"picture", to_json(programme.seek_steps_ms.picture)}};
+    if (programme.preview_pictures > 0)
+        json["preview"] = {{"pictures", programme.preview_pictures},
+                           {"make_ms", to_json(programme.preview_ms)}};
     json["instants"] = {
         {"prepared", report.instants_prepared},
         {"between_pulses", report.instants_between},
@@ -349,6 +400,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                             {"prepare", programme.prepare_shares}};
     json["faults"] = report.faults;
     json["contexts_lost"] = report.contexts_lost;
+    if (report.sound) json["sound"] = sound_json(*report.sound);
     for (const OutputState& output : report.outputs) json["outputs"].push_back(output_json(output));
     for (const SinkState& sink : programme.sinks)
         json["outputs"].push_back(
@@ -413,6 +465,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                    {"malformed", port.books.malformed},
                                    {"dropped", port.books.dropped},
                                    {"last_refusal", port.books.last_refusal},
+                                   {"told", port.books.told},
                                    {"failure", port.failure}});
     if (report.take) json["take"] = take_json(*report.take);
     if (!report.saved_set.empty()) json["saved_set"] = report.saved_set;
@@ -478,8 +531,12 @@ std::string results_text(const LiveReport& report) {
             port.name, counted(port.books.obeyed, "message"), port.books.unknown,
             port.books.malformed, port.books.dropped,
             port.failure.empty() ? "" : "; failed: ", port.failure);
+    for (const PortState& port : report.ports)
+        if (!port.books.told.empty())
+            text += fmt::format("control: {}: {}\n", port.name, port.books.told);
     if (report.take) text += take_text(*report.take);
     if (!report.saved_set.empty()) text += fmt::format("set saved to {}\n", report.saved_set);
+    if (report.sound) text += sound_text(*report.sound);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
 }
@@ -498,6 +555,8 @@ std::string to_text(const LiveReport& report) {
     if (programme.latency_ms.count > 0)
         text += line_of("exposure to picture", programme.latency_ms);
     if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    if (programme.rest_ms.count > 0)
+        text += line_of("held until the best picture", programme.rest_ms);
     if (programme.seek_ms.count > 0) {
         text += line_of("seek to picture", programme.seek_ms);
         text += line_of("  waiting for the instant before", programme.seek_steps_ms.wait);
@@ -505,6 +564,11 @@ std::string to_text(const LiveReport& report) {
         text += line_of("  preparing", programme.seek_steps_ms.prepare);
         text += line_of("  rendering, until its tick", programme.seek_steps_ms.picture);
     }
+    if (programme.preview_pictures > 0)
+        text += line_of(
+            fmt::format("{} of the preview, each", counted(programme.preview_pictures, "picture"))
+                .c_str(),
+            programme.preview_ms);
     text +=
         fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));

@@ -19,6 +19,7 @@
 #include "host_app/instants/colour_harmoniser.h"
 #include "host_app/output/output_desk.h"
 #include "host_app/programme/programme.h"
+#include "host_app/sound/sound_source.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
 
@@ -73,6 +74,7 @@ struct LiveReport {
     std::string saved_set;          ///< where the set was saved last; empty: nowhere
     std::string played;             ///< the take that was played; empty: the stage was live
 
+    std::optional<SoundState> sound;  ///< nothing: the programme has none
     std::vector<OutputState> outputs;
     std::vector<PortState> ports;  ///< that others steered by
 };

@@ -82,7 +82,8 @@ OutputDesk::Settings output_settings(const LiveSettings& settings) {
                        .height_px = settings.format.height_px,
                        .rate_hz = settings.rate_hz,
                        .encoder = settings.encoder,
-                       .overwrites = settings.overwrites},
+                       .overwrites = settings.overwrites,
+                       .has_sound = settings.sound != nullptr},
             .pulse_rate_hz = settings.pulse_rate_hz,
             .urls = settings.outputs};
 }
@@ -113,7 +114,8 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                   .quality = settings.quality,
                   .source_map = settings.source_map,
                   .replay = settings.replay,
-                  .ends_with_past = settings.ends_with_take},
+                  .ends_with_past = settings.ends_with_take,
+                  .sound = settings.sound},
                  instants_, controls_) {
     programme_.add(outputs_.sink());
     if (!settings.contact_sheet.empty())
@@ -269,6 +271,7 @@ LiveReport LiveShow::report() const {
                 state.picture->job.camera.focus_m);
         if (state.picture->sources) report.novelty = state.picture->sources->shares;
     }
+    if (settings_.sound) report.sound = settings_.sound->state();
     report.outputs = outputs_.states();
     for (const OutputState& output : report.outputs)
         if (output.write_ms.count > 0 && output.write_ms.p95 >= report.encode_ms.p95)

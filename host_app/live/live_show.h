@@ -39,6 +39,7 @@ struct LiveSettings {
     std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
     Replay replay = {};                                    ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
+    std::shared_ptr<PictureSound> sound = nullptr;         ///< of the programme; null: none
 };
 
 /// The outputs that these settings ask for.

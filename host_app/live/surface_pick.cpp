@@ -4,10 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/LU>
-
-#include "host_app/instants/depth_views.h"
-#include "host_app/instants/projection.h"
+#include "host_app/live/rig_points.h"
 
 namespace vantage {
 namespace {
@@ -24,27 +21,6 @@ constexpr double performer_radius_m = 0.45, above_floor_m = 0.2, highest_m = 2.4
 constexpr std::size_t least_performer_points = 40;
 constexpr int shifts = 4;
 
-template <class Visit>
-void for_each_point(const FrameSet& set, const Visit& visit) {
-    for (const FrameSet::Slot& slot : set.slots) {
-        if (!slot.frame) continue;
-        const DepthView view = depth_view_of(*slot.frame);
-        if (!view.has_depth() || view.colour.empty()) continue;
-        const cv::Size size = view.depth_size();
-        const Eigen::Matrix3d rays =
-            scaled_intrinsics(view.K, static_cast<double>(size.width) / view.colour.cols,
-                              static_cast<double>(size.height) / view.colour.rows)
-                .inverse();
-        const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) /
-                                                                most_points_of_a_rig)));
-        for (int y = 0; y < size.height; y += step)
-            for (int x = 0; x < size.width; x += step)
-                if (const double z = view.depth_m_at(x, y); z > 0)
-                    visit(Eigen::Vector3d(view.world_from_camera *
-                                          (z * (rays * Eigen::Vector3d(x, y, 1)))));
-    }
-}
-
 }  // namespace
 
 std::optional<Eigen::Vector3d> surface_at(const FrameSet& set, const CameraState& camera,
@@ -57,12 +33,13 @@ std::optional<Eigen::Vector3d> surface_at(const FrameSet& set, const CameraState
         Eigen::Vector3d point_m;
     };
     std::vector<Seen> seen;
-    for_each_point(set, [&](const Eigen::Vector3d& point_m) {
-        const Eigen::Vector3d there = camera_from_world * point_m;
-        if (there.z() <= 0) return;
-        if ((there.head<2>() / there.z() - at).norm() < radius_widths * width)
-            seen.push_back({there.z(), point_m});
-    });
+    for_each_rig_point(set, most_points_of_a_rig,
+                       [&](const Eigen::Vector3d& point_m, const cv::Vec4b&) {
+                           const Eigen::Vector3d there = camera_from_world * point_m;
+                           if (there.z() <= 0) return;
+                           if ((there.head<2>() / there.z() - at).norm() < radius_widths * width)
+                               seen.push_back({there.z(), point_m});
+                       });
     std::sort(seen.begin(), seen.end(),
               [](const Seen& a, const Seen& b) { return a.depth_m < b.depth_m; });
     // A tenth of what is there is a surface, and not the mistakes before it.
@@ -84,12 +61,13 @@ std::optional<Eigen::Vector3d> surface_at(const FrameSet& set, const CameraState
 std::optional<Eigen::Vector3d> performer_near(const FrameSet& set, const Eigen::Vector3d& pivot_m) {
     std::vector<Eigen::Vector2d> around;
     const Eigen::Vector2d start(pivot_m.x(), pivot_m.z());
-    for_each_point(set, [&](const Eigen::Vector3d& point_m) {
-        const Eigen::Vector2d ground(point_m.x(), point_m.z());
-        if (point_m.y() > above_floor_m && point_m.y() < highest_m &&
-            (ground - start).norm() < 2 * performer_radius_m)
-            around.push_back(ground);
-    });
+    for_each_rig_point(set, most_points_of_a_rig,
+                       [&](const Eigen::Vector3d& point_m, const cv::Vec4b&) {
+                           const Eigen::Vector2d ground(point_m.x(), point_m.z());
+                           if (point_m.y() > above_floor_m && point_m.y() < highest_m &&
+                               (ground - start).norm() < 2 * performer_radius_m)
+                               around.push_back(ground);
+                       });
     Eigen::Vector2d middle = start;
     for (int i = 0; i < shifts; ++i) {
         Eigen::Vector2d sum = Eigen::Vector2d::Zero();

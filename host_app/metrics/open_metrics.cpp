@@ -39,6 +39,9 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.percentiles(programme.hand_ms);
     text.summary("seek_to_picture_seconds", "From a jump in time to its picture.");
     text.percentiles(programme.seek_ms);
+    text.summary("rest_to_best_seconds",
+                 "From the last change of camera and time to the best picture.");
+    text.percentiles(programme.rest_ms);
     text.summary("step_seconds", "Steps of a frame's way, of rigs the worst one's.");
     for (const StepTime& step : step_times(report))
         text.percentiles(step.ms, {{"step", step.name}});

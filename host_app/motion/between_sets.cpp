@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <future>
 
+#include "host_app/motion/frame_between.h"
+#include "host_app/motion/rig_agreement.h"
+
 namespace vantage {
 
 const FrameSet* BetweenSets::fetch(const PastSets& past, std::uint64_t pulse) {
@@ -23,22 +26,31 @@ std::optional<FrameSet> BetweenSets::at(const PastSets& past, std::uint64_t puls
     const FrameSet* second = fetch(past, pulse + 1);
     if (!second) return set;
     const std::size_t rigs = std::min(first->slots.size(), second->slots.size());
-    const bool is_known = motion_from_ == pulse && motions_.size() == rigs;
-    if (!is_known) motions_.assign(rigs, {});
-    motion_from_ = pulse;
-    std::vector<std::future<void>> works;
-    for (std::size_t rig = 0; rig < rigs; ++rig) {
-        const std::shared_ptr<const RigFrame> a = first->slots[rig].frame,
-                                              b = second->slots[rig].frame;
-        if (!a || !b) continue;
-        works.push_back(std::async(std::launch::async, [&, a, b, rig] {
-            if (!is_known) motions_[rig] = motion_between(*a, *b);
-            if (motions_[rig].empty()) return;
-            set.slots[rig].frame =
-                std::make_shared<const RigFrame>(frame_between(*a, *b, motions_[rig], share));
-        }));
+    const auto for_rigs_of_both = [&](const auto& work) {
+        std::vector<std::future<void>> works;
+        for (std::size_t rig = 0; rig < rigs; ++rig)
+            if (first->slots[rig].frame && second->slots[rig].frame)
+                works.push_back(std::async(std::launch::async, [&work, rig] { work(rig); }));
+        for (std::future<void>& each : works) each.get();
+    };
+    if (motion_from_ != pulse || motions_.size() != rigs) {
+        motion_from_.reset();
+        motions_.assign(rigs, {});
+        for_rigs_of_both([&](std::size_t rig) {
+            motions_[rig] = motion_between(*first->slots[rig].frame, *second->slots[rig].frame);
+        });
+        std::vector<FollowedRig> followed;
+        for (std::size_t rig = 0; rig < rigs; ++rig)
+            followed.push_back(
+                {first->slots[rig].frame.get(), second->slots[rig].frame.get(), &motions_[rig]});
+        agree_on_motion(followed);
+        motion_from_ = pulse;
     }
-    for (std::future<void>& work : works) work.get();
+    for_rigs_of_both([&](std::size_t rig) {
+        if (motions_[rig].empty()) return;
+        set.slots[rig].frame = std::make_shared<const RigFrame>(frame_between(
+            *first->slots[rig].frame, *second->slots[rig].frame, motions_[rig], share));
+    });
     set.complete = MonotonicClock::now();
     return set;
 }

@@ -10,18 +10,21 @@ namespace vantage {
 namespace {
 
 constexpr int most_columns = 512;
+/// Of a picture that is followed by itself, px.
+constexpr int least_side_px = 32;
 /// How far from where it began the way there and back may end, px of the grid, and of the way's
 /// length. Measured on the virtual stage: tests/bench/between_truth.
-constexpr float most_doubt_px = 0.75f, most_doubt_share = 0.1f;
-/// Disparities further apart than this are of two surfaces; what moves from pulse to pulse, with
-/// the matcher's own errors, is not.
-constexpr int one_surface_steps = 48, most_approach_steps = 128;
+constexpr float most_doubt_px = 1.2f, most_doubt_share = 0.2f;
+/// That a surface comes nearer, or goes, from pulse to pulse.
+constexpr int most_approach_steps = 128;
 /// Moving pixels that are so close to each other are of one region, px; of a region so much has to
 /// be sure.
 constexpr int region_px = 7;
-constexpr double least_sure_share = 0.6;
+constexpr double least_sure_share = 0.65;
+/// Around a region, so that what stands still beside it is seen to stand still, px.
+constexpr int margin_px = 8;
 /// What is seen to move looks the same there, grey levels, the mean of 3x3.
-constexpr int most_change = 24;
+constexpr int most_change = 40;
 /// What sensors make of one thing, grey levels, the mean of 3x3.
 constexpr int most_noise = 2;
 
@@ -76,110 +79,100 @@ cv::Mat1b sure_of(const cv::Mat2f& there, const cv::Mat2f& back, const Disparity
     return sure;
 }
 
-/// What ends at a pixel of the frame between.
-struct Landed {
-    cv::Mat2f way;       ///< from the first to the second frame, px of the colour picture
-    cv::Mat1f nearness;  ///< of what landed, disparity steps; -1: nothing did
+/// What moves, taken apart.
+struct Regions {
+    cv::Mat1i of;     ///< a pixel; 0: none
+    cv::Mat1i stats;  ///< a row a region, as OpenCV has them
 };
 
-/// The pixel of another grid over the same picture.
-cv::Point on_grid(int x, int y, cv::Size size, cv::Size grid) {
-    return {std::min((2 * x + 1) * grid.width / (2 * size.width), grid.width - 1),
-            std::min((2 * y + 1) * grid.height / (2 * size.height), grid.height - 1)};
-}
-
-/// Disparity of a pixel of the colour picture, steps; 0: unknown.
-class NearnessOf {
-  public:
-    explicit NearnessOf(const RigFrame& frame)
-        : disparity_(frame.disparity), size_(frame.colour.size()) {}
-    float operator()(int x, int y) const {
-        return disparity_.empty() ? 0 : disparity_(on_grid(x, y, size_, disparity_.size()));
-    }
-
-  private:
-    const DisparityImage& disparity_;
-    cv::Size size_;
-};
-
-/// Where nothing landed: which frame tells what is there, by the disparities of both.
-bool is_of_second(float first_steps, float second_steps, bool is_followed, float share) {
-    if (is_followed && first_steps > 0 && second_steps > 0 &&
-        std::abs(first_steps - second_steps) > one_surface_steps)
-        return second_steps < first_steps;
-    return share >= 0.5f;
-}
-
-void land(const RigFrame& frame, const cv::Mat2f& flow, const cv::Mat1b& sure, double share,
-          float sign, Landed& landed) {
-    const cv::Size size = frame.colour.size();
-    const NearnessOf nearness(frame);
-    const float fx = static_cast<float>(flow.cols) / static_cast<float>(size.width);
-    const float fy = static_cast<float>(flow.rows) / static_cast<float>(size.height);
-    const auto part = static_cast<float>(share);
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            const cv::Point grid = on_grid(x, y, size, flow.size());
-            if (!sure(grid)) continue;
-            const cv::Vec2f way{flow(grid)[0] / fx, flow(grid)[1] / fy};
-            const float px = static_cast<float>(x) + part * way[0],
-                        py = static_cast<float>(y) + part * way[1];
-            const int left = cvFloor(px), top = cvFloor(py);
-            const float near = nearness(x, y);
-            for (int ty = top; ty <= top + 1; ++ty)
-                for (int tx = left; tx <= left + 1; ++tx) {
-                    if (tx < 0 || ty < 0 || tx >= size.width || ty >= size.height) continue;
-                    // What is hit at its rim only does not stand for the pixel.
-                    if (std::abs(static_cast<float>(tx) - px) > 0.75f ||
-                        std::abs(static_cast<float>(ty) - py) > 0.75f)
-                        continue;
-                    if (near <= landed.nearness(ty, tx)) continue;
-                    landed.nearness(ty, tx) = near;
-                    landed.way(ty, tx) = sign * way;
-                }
-        }
-}
-
-cv::Vec4f sample(const ColourImage& picture, float x, float y) {
-    x = std::clamp(x, 0.0f, static_cast<float>(picture.cols - 1));
-    y = std::clamp(y, 0.0f, static_cast<float>(picture.rows - 1));
-    const int left = std::min(static_cast<int>(x), picture.cols - 2),
-              top = std::min(static_cast<int>(y), picture.rows - 2);
-    const float u = x - static_cast<float>(left), v = y - static_cast<float>(top);
-    const auto at = [&](int dx, int dy) { return cv::Vec4f(picture(top + dy, left + dx)); };
-    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
-}
-
-/// Takes what moves apart into regions, and leaves alone those of which too little is sure: half a
-/// leg that goes on is worse than a leg that waits.
-cv::Mat1b followed_in(const cv::Mat1b& still, cv::Mat1b& sure_first, cv::Mat1b& sure_second) {
+Regions regions_of(const cv::Mat1b& still) {
     cv::Mat1b moving;
     cv::dilate(cv::Mat1b(~still), moving, cv::Mat1b::ones(region_px, region_px));
-    cv::Mat1i regions;
-    const int count = cv::connectedComponents(moving, regions, 4, CV_32S);
-    std::vector<double> all(static_cast<std::size_t>(count)), sure(all.size());
+    Regions regions;
+    cv::Mat1d centres;
+    cv::connectedComponentsWithStats(moving, regions.of, regions.stats, centres, 4, CV_32S);
+    return regions;
+}
+
+/// Rectangles that have all regions, and no pixel twice. What is no larger than two pixels' noise
+/// is left out.
+std::vector<cv::Rect> parts_with(const Regions& regions, cv::Size size) {
+    constexpr int least_px = 2 * region_px * region_px;
+    const cv::Rect all({}, size);
+    std::vector<cv::Rect> parts;
+    for (int region = 1; region < regions.stats.rows; ++region) {
+        const auto stat = [&](int which) { return regions.stats(region, which); };
+        if (stat(cv::CC_STAT_AREA) < least_px) continue;
+        cv::Rect part(stat(cv::CC_STAT_LEFT) - margin_px, stat(cv::CC_STAT_TOP) - margin_px,
+                      stat(cv::CC_STAT_WIDTH) + 2 * margin_px,
+                      stat(cv::CC_STAT_HEIGHT) + 2 * margin_px);
+        part &= all;
+        part.x = std::max(0, std::min(part.x, size.width - least_side_px));
+        part.y = std::max(0, std::min(part.y, size.height - least_side_px));
+        part |= cv::Rect(part.x, part.y, least_side_px, least_side_px);
+        for (auto other = parts.begin(); other != parts.end();) {
+            if ((*other & part).empty()) {
+                ++other;
+                continue;
+            }
+            part |= *other;
+            parts.erase(other);
+            other = parts.begin();
+        }
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+/// Flow of these parts of the pictures; elsewhere none.
+cv::Mat2f flow_in(const std::vector<cv::Rect>& parts, const cv::Mat1b& here,
+                  const cv::Mat1b& there) {
+    const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
+    dis->setFinestScale(0);
+    dis->setPatchStride(3);
+    dis->setGradientDescentIterations(12);
+    dis->setVariationalRefinementIterations(3);
+    cv::Mat2f flow(here.size(), cv::Vec2f(0, 0));
+    for (const cv::Rect& part : parts) {
+        cv::Mat found;
+        dis->calc(here(part).clone(), there(part).clone(), found);
+        found.copyTo(flow(part));
+    }
+    return flow;
+}
+
+/// Of which too little is sure: half a leg that goes on is worse than a leg that waits.
+std::vector<int> doubted_regions(const RigMotion& motion, const cv::Mat1b& still) {
+    std::vector<double> all(static_cast<std::size_t>(motion.regions)), sure(all.size());
     for (int y = 0; y < still.rows; ++y)
         for (int x = 0; x < still.cols; ++x) {
             if (still(y, x)) continue;
-            const auto region = static_cast<std::size_t>(regions(y, x));
+            const auto region = static_cast<std::size_t>(motion.region(y, x));
             all[region] += 2;
-            sure[region] += (sure_first(y, x) != 0) + (sure_second(y, x) != 0);
+            sure[region] += (motion.is_sure_first(y, x) != 0) + (motion.is_sure_second(y, x) != 0);
         }
-    cv::Mat1b followed(still.size(), 255);
-    for (int y = 0; y < still.rows; ++y)
-        for (int x = 0; x < still.cols; ++x) {
-            const auto region = static_cast<std::size_t>(regions(y, x));
-            if (region == 0 || sure[region] >= least_sure_share * all[region]) continue;
-            followed(y, x) = 0;
-            if (!still(y, x)) sure_first(y, x) = sure_second(y, x) = 0;
-        }
-    return followed;
+    std::vector<int> doubted;
+    for (std::size_t region = 1; region < all.size(); ++region)
+        if (sure[region] < least_sure_share * all[region])
+            doubted.push_back(static_cast<int>(region));
+    return doubted;
 }
 
 }  // namespace
 
+void leave_alone(RigMotion& motion, const std::vector<int>& regions) {
+    if (regions.empty()) return;
+    std::vector<bool> is_left(static_cast<std::size_t>(motion.regions));
+    for (const int region : regions) is_left[static_cast<std::size_t>(region)] = true;
+    for (int y = 0; y < motion.region.rows; ++y)
+        for (int x = 0; x < motion.region.cols; ++x) {
+            if (!is_left[static_cast<std::size_t>(motion.region(y, x))]) continue;
+            motion.is_sure_first(y, x) = motion.is_sure_second(y, x) = 0;
+            motion.is_followed(y, x) = 0;
+        }
+}
+
 RigMotion motion_between(const RigFrame& first, const RigFrame& second) {
-    constexpr int least_side_px = 32;
     if (first.colour.empty() || first.colour.size() != second.colour.size() ||
         std::min(first.colour.cols, first.colour.rows) < least_side_px)
         return {};
@@ -187,14 +180,12 @@ RigMotion motion_between(const RigFrame& first, const RigFrame& second) {
     if (size.width > most_columns)
         size = {most_columns, std::max(least_side_px, size.height * most_columns / size.width)};
     const cv::Mat1b before = grey_of(first.colour, size), after = grey_of(second.colour, size);
-    const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
-    RigMotion motion;
-    cv::Mat forward, backward;
-    dis->calc(before, after, forward);
-    dis->calc(after, before, backward);
-    motion.forward = forward;
-    motion.backward = backward;
     const cv::Mat1b still = still_in(before, after);
+    const Regions regions = regions_of(still);
+    const std::vector<cv::Rect> parts = parts_with(regions, size);
+    RigMotion motion;
+    motion.forward = flow_in(parts, before, after);
+    motion.backward = flow_in(parts, after, before);
     motion.forward.setTo(cv::Scalar(0, 0), still);
     motion.backward.setTo(cv::Scalar(0, 0), still);
     DisparityImage near_before, near_after;
@@ -206,77 +197,11 @@ RigMotion motion_between(const RigFrame& first, const RigFrame& second) {
     motion.is_sure_second = sure_of(motion.backward, motion.forward, near_after, near_before);
     motion.is_sure_first &= looks_the_same(before, after, motion.forward);
     motion.is_sure_second &= looks_the_same(after, before, motion.backward);
-    motion.is_followed = followed_in(still, motion.is_sure_first, motion.is_sure_second);
+    motion.region = regions.of;
+    motion.regions = regions.stats.rows;
+    motion.is_followed = cv::Mat1b(size, 255);
+    leave_alone(motion, doubted_regions(motion, still));
     return motion;
-}
-
-RigFrame frame_between(const RigFrame& first, const RigFrame& second, const RigMotion& motion,
-                       double share) {
-    const cv::Size size = first.colour.size();
-    Landed landed{cv::Mat2f(size, cv::Vec2f(0, 0)), cv::Mat1f(size, -1.0f)};
-    land(first, motion.forward, motion.is_sure_first, share, 1, landed);
-    land(second, motion.backward, motion.is_sure_second, 1 - share, -1, landed);
-
-    RigFrame between = first;
-    between.packed = nullptr;
-    between.colour = ColourImage(size);
-    between.exposure =
-        first.exposure +
-        std::chrono::nanoseconds(static_cast<std::int64_t>(
-            share * static_cast<double>((second.exposure - first.exposure).count())));
-    const auto part = static_cast<float>(share);
-    const NearnessOf near_first(first), near_second(second);
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            if (landed.nearness(y, x) < 0) {
-                const bool is_followed =
-                    motion.is_followed(on_grid(x, y, size, motion.forward.size()));
-                between.colour(y, x) =
-                    is_of_second(near_first(x, y), near_second(x, y), is_followed, part)
-                        ? second.colour(y, x)
-                        : first.colour(y, x);
-                continue;
-            }
-            const cv::Vec2f way = landed.way(y, x);
-            const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
-            const cv::Vec4f a = sample(first.colour, fx - part * way[0], fy - part * way[1]);
-            const cv::Vec4f b =
-                sample(second.colour, fx + (1 - part) * way[0], fy + (1 - part) * way[1]);
-            between.colour(y, x) = (1 - part) * a + part * b;
-        }
-
-    if (first.disparity.empty() || first.disparity.size() != second.disparity.size())
-        return between;
-    const cv::Size depth = first.disparity.size();
-    between.disparity = DisparityImage(depth);
-    const float cx = static_cast<float>(size.width) / static_cast<float>(depth.width);
-    const float cy = static_cast<float>(size.height) / static_cast<float>(depth.height);
-    const auto at = [&](const DisparityImage& picture, float x, float y) {
-        return picture(std::clamp(cvRound(y), 0, depth.height - 1),
-                       std::clamp(cvRound(x), 0, depth.width - 1));
-    };
-    for (int y = 0; y < depth.height; ++y)
-        for (int x = 0; x < depth.width; ++x) {
-            const cv::Point pixel = on_grid(x, y, depth, size);
-            std::uint16_t a = first.disparity(y, x), b = second.disparity(y, x);
-            if (landed.nearness(pixel) < 0) {
-                const bool is_followed =
-                    motion.is_followed(on_grid(pixel.x, pixel.y, size, motion.forward.size()));
-                between.disparity(y, x) = is_of_second(a, b, is_followed, part) ? b : a;
-                continue;
-            }
-            const cv::Vec2f way = landed.way(pixel);
-            const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
-            a = at(first.disparity, fx - part * way[0] / cx, fy - part * way[1] / cy);
-            b = at(second.disparity, fx + (1 - part) * way[0] / cx, fy + (1 - part) * way[1] / cy);
-            const int gap = std::abs(static_cast<int>(a) - static_cast<int>(b));
-            if (a > 0 && b > 0 && gap <= one_surface_steps)
-                between.disparity(y, x) = static_cast<std::uint16_t>(
-                    std::lround((1 - part) * static_cast<float>(a) + part * static_cast<float>(b)));
-            else
-                between.disparity(y, x) = part < 0.5f ? a : b;
-        }
-    return between;
 }
 
 }  // namespace vantage

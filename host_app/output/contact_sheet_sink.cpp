@@ -16,7 +16,7 @@ SheetMoment row_of(const Moment& moment, std::size_t row) {
     SheetMoment stills{moment.title, {{moment.picture, "virtual view"}}};
     std::vector<const RigFrame*> frames;
     for (const FrameSet::Slot& slot : moment.set->slots)
-        if (slot.frame) frames.push_back(slot.frame.get());
+        if (slot.frame && slot.frame->has_pictures()) frames.push_back(slot.frame.get());
     if (frames.empty()) return stills;
     // Every row shows another rig.
     const RigFrame& frame = *frames[row % frames.size()];

@@ -58,14 +58,26 @@ FilmFile::~FilmFile() {
 
 bool FilmFile::has_head() const { return (output_->oformat->flags & AVFMT_GLOBALHEADER) != 0; }
 
-void FilmFile::open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate) {
-    stream_ = avformat_new_stream(output_.get(), nullptr);
-    if (!stream_ || avcodec_parameters_copy(stream_->codecpar, &pictures) < 0)
+SoundEncoder::Codec FilmFile::sound_codec() const {
+    return path_.extension() == ".mp4" ? SoundEncoder::Codec::aac : SoundEncoder::Codec::pcm;
+}
+
+AVStream& FilmFile::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
+    AVStream* stream = avformat_new_stream(output_.get(), nullptr);
+    if (!stream || avcodec_parameters_copy(stream->codecpar, &parameters) < 0)
         fail("{} cannot be written: memory is short", path_.string());
     // Each container has its own.
-    stream_->codecpar->codec_tag = 0;
-    stream_->time_base = time_base_ = time_base;
+    stream->codecpar->codec_tag = 0;
+    stream->time_base = time_base;
+    return *stream;
+}
+
+void FilmFile::open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate,
+                    const AVCodecParameters* sound) {
+    stream_ = &add_stream(pictures, time_base);
+    time_base_ = time_base;
     stream_->avg_frame_rate = rate;
+    if (sound) sound_ = &add_stream(*sound, {1, sound_rate_hz});
     if (const int code =
             avio_open(&output_->pb, ("file:" + partial_.string()).c_str(), AVIO_FLAG_WRITE);
         code < 0)
@@ -86,9 +98,13 @@ void FilmFile::begin(const std::string& timecode) {
     has_begun_ = true;
 }
 
-void FilmFile::write(AVPacket& packet) {
-    av_packet_rescale_ts(&packet, time_base_, stream_->time_base);
-    packet.stream_index = stream_->index;
+void FilmFile::write(AVPacket& packet) { write(packet, time_base_, *stream_); }
+
+void FilmFile::write_sound(AVPacket& packet) { write(packet, {1, sound_rate_hz}, *sound_); }
+
+void FilmFile::write(AVPacket& packet, AVRational time_base, const AVStream& stream) {
+    av_packet_rescale_ts(&packet, time_base, stream.time_base);
+    packet.stream_index = stream.index;
     if (const int code = av_interleaved_write_frame(output_.get(), &packet); code < 0)
         fail_writing(code);
     bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));

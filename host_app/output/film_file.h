@@ -7,6 +7,7 @@
 
 #include "common/av/av_handles.h"
 #include "host_app/output/disk_sync.h"
+#include "host_app/output/sound_encoder.h"
 
 namespace vantage {
 
@@ -26,12 +27,16 @@ class FilmFile {
     FilmFile& operator=(const FilmFile&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
+    /// What sound a file of this kind has: MP4 is read everywhere with AAC only.
+    SoundEncoder::Codec sound_codec() const;
     /// Whether the stream has its head once, at its beginning.
     bool has_head() const;
 
     /// What the packets are of, and in what their times are. Throws Error if the folder cannot be
     /// used.
-    void open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate);
+    /// `sound`: with times in samples; null: the film has none.
+    void open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate,
+              const AVCodecParameters* sound = nullptr);
     /// After open(), before the first packet: the time code that the film begins with, as
     /// TimecodeClock writes it, or empty. Kept in Matroska as the stream's tag `timecode`, in MP4
     /// as a time code track.
@@ -39,6 +44,7 @@ class FilmFile {
     bool has_begun() const { return has_begun_; }
     /// In the order of decoding; what the packet holds is taken. Throws Error if the disk fails.
     void write(AVPacket& packet);
+    void write_sound(AVPacket& packet);
     /// Ends the film and puts the file in its place. Throws Error if the disk fails.
     void finish();
 
@@ -50,12 +56,15 @@ class FilmFile {
     std::uint64_t bytes() const { return bytes_; }
 
   private:
+    AVStream& add_stream(const AVCodecParameters& parameters, AVRational time_base);
+    void write(AVPacket& packet, AVRational time_base, const AVStream& stream);
     [[noreturn]] void fail_writing(int code) const;
 
     std::filesystem::path path_, partial_;
     AvOutputPtr output_;
     std::optional<DiskSync> sync_;
     AVStream* stream_ = nullptr;  ///< owned by output_
+    AVStream* sound_ = nullptr;   ///< likewise; null: none
     AVRational time_base_{1, 1};
     std::uint64_t bytes_ = 0;
     bool has_begun_ = false, is_ended_ = false, finished_ = false;

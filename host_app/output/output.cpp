@@ -20,16 +20,21 @@ constexpr std::chrono::milliseconds first_rest{500}, longest_rest{10'000};
 /// That a peer has to take what waits when an output ends.
 constexpr std::chrono::seconds last_words{2};
 constexpr std::chrono::milliseconds look_period{50};
+/// That sound waits at the most.
+constexpr double longest_sound_s = 2;
 
 }  // namespace
 
 Output::Output(OutputPlan plan, const OutputFormat& format, double pulse_rate_hz)
-    : plan_(std::move(plan)), queue_(most_waiting) {
+    : plan_(std::move(plan)),
+      queue_(most_waiting),
+      most_sounds_(static_cast<std::size_t>(longest_sound_s * format.rate_hz) + 1) {
     if (PulseGrid(format.rate_hz).rate_hz() <= most_numbers_a_second)
         timecode_.emplace(pulse_rate_hz, format.rate_hz);
     state_.name = plan_.name;
     state_.film = plan_.film;
     if (plan_.is_encoded) state_.encoder = format.encoder;
+    state_.has_sound = plan_.takes_sound;
     thread_ = std::thread([this] { run(); });
 }
 
@@ -86,6 +91,13 @@ void Output::take(const ProgrammePicture& picture) {
     if (state_.phase != OutputPhase::on && !waits_to_open) {
         ++(plan_.is_stream ? state_.unheard : state_.dropped);
         return;
+    }
+    if (plan_.takes_sound && picture.sound) {
+        sounds_.push_back({picture.tick, picture.sound});
+        if (sounds_.size() > most_sounds_) {
+            sounds_.pop_front();
+            ++state_.silenced;
+        }
     }
     if (queue_.push({picture.picture, picture.tick, std::move(timecode)})) ++state_.dropped;
 }
@@ -175,7 +187,9 @@ void Output::serve() {
 void Output::write(OutputTarget& target, const Item& item) {
     if (!first_tick_) first_tick_ = item.tick;
     const MonotonicTime start = MonotonicClock::now();
+    if (item.tick > *first_tick_) hear(target, item.tick - 1);
     target.write(item.picture, static_cast<std::int64_t>(item.tick - *first_tick_), item.timecode);
+    hear(target, item.tick);
     const MonotonicTime end = MonotonicClock::now();
     const std::lock_guard lock(mutex_);
     write_ms_.add(to_ms(end - start));
@@ -186,10 +200,25 @@ void Output::write(OutputTarget& target, const Item& item) {
     state_.bit_rate_bps = bits * bytes_rate_.per_second();
 }
 
+void Output::hear(OutputTarget& target, std::uint64_t until) {
+    for (;;) {
+        Sound sound;
+        {
+            const std::lock_guard lock(mutex_);
+            if (sounds_.empty() || sounds_.front().tick > until) return;
+            sound = std::move(sounds_.front());
+            sounds_.pop_front();
+        }
+        if (sound.tick < *first_tick_) continue;
+        target.hear(*sound.block, static_cast<std::int64_t>(sound.tick - *first_tick_));
+    }
+}
+
 void Output::note_failure(const std::string& sentence) {
     const std::lock_guard lock(mutex_);
     while (queue_.pop_for({}))
         ;
+    sounds_.clear();
     state_.dropped = state_.offered - state_.pictures - state_.unheard;
     state_.bit_rate_bps = 0;
     // Told to end before anybody took it: that is no failure.

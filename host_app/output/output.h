@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -38,6 +39,8 @@ struct OutputState {
     std::uint64_t dropped = 0;   ///< since it was slow, or failed
     std::uint64_t unheard = 0;   ///< of a stream, while nobody took it
     std::uint64_t queued = 0;    ///< the one that is being written included
+    bool has_sound = false;
+    std::uint64_t silenced = 0;  ///< ticks whose sound was left out
     std::uint64_t bytes = 0;     ///< written
     std::uint64_t failures = 0;  ///< times that it failed
     double bit_rate_bps = 0;     ///< over the last two seconds
@@ -80,6 +83,8 @@ class Output {
     /// From opening to its end or failure.
     void serve();
     void write(OutputTarget& target, const Item& item);
+    /// That of ticks until this one.
+    void hear(OutputTarget& target, std::uint64_t until);
     void want_no_more();
     void note_failure(const std::string& sentence);
     /// False: it is not wanted any more.
@@ -88,6 +93,13 @@ class Output {
     OutputPlan plan_;
     std::optional<SetTimecode> timecode_;  ///< of the programme's thread; none above 60 Hz
     BoundedQueue<Item> queue_;
+    struct Sound {
+        std::uint64_t tick = 0;
+        std::shared_ptr<const SoundBlock> block;
+    };
+    /// A sound outlasts the picture that was left out: it is heard where that is not seen.
+    std::deque<Sound> sounds_;
+    std::size_t most_sounds_;
     OutputPatience patience_;
     std::optional<std::uint64_t> first_tick_;  ///< of the thread: since it was opened
     mutable std::mutex mutex_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/av/sound.h"
 #include "common/image/image.h"
 #include "host_app/output/output_patience.h"
 #include "host_app/output/output_url.h"
@@ -20,6 +21,7 @@ struct OutputFormat {
     double rate_hz = 30;              ///< 29.97 and its like are n * 1000 / 1001
     std::string encoder = "libx264";  ///< one of known_encoders()
     bool overwrites = false;          ///< a file that is there may be replaced
+    bool has_sound = false;           ///< every tick has a SoundBlock
 };
 
 /// Where an output's pictures go, open. Made, used and destroyed on the output's own thread, which
@@ -31,6 +33,9 @@ class OutputTarget {
     /// `timecode` is its, or empty. Throws Error if the target has failed.
     virtual void write(const ColourImage& picture, std::int64_t tick,
                        const std::string& timecode) = 0;
+    /// The sound of tick n, where the plan says that the target takes sound: in the order of ticks,
+    /// right after the picture; that of a tick whose picture was left out comes before the next.
+    virtual void hear(const SoundBlock& /*sound*/, std::int64_t /*tick*/) {}
     /// Called where no picture waits: what carries no times makes up here for one tick that was
     /// left out. False: there is none. Throws as write().
     virtual bool catch_up() { return false; }
@@ -45,9 +50,10 @@ class OutputTarget {
 
 /// How an output is made of its URL; all of it that can be known before it is opened is checked.
 struct OutputPlan {
-    std::string name;           ///< for people, without secrets
-    std::string film = "";      ///< its file, where it is one
-    bool is_stream = false;     ///< what fails is tried again, and what nobody takes is no loss
+    std::string name;        ///< for people, without secrets
+    std::string film = "";   ///< its file, where it is one
+    bool is_stream = false;  ///< what fails is tried again, and what nobody takes is no loss
+    bool takes_sound = false;
     bool is_listening = false;  ///< opening it waits for somebody who calls
     bool is_encoded = true;
     bool takes_stdout = false;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "common/av/sound.h"
 #include "common/image/image.h"
 #include "common/receive/frame_set.h"
 #include "host_app/flight/camera_state.h"
@@ -16,8 +17,9 @@ struct ProgrammePicture {
     ColourImage picture;     ///< clean
     ColourImage overlaid;    ///< for people: with the source map where that is asked for
     std::shared_ptr<const FrameSet> set;
-    CameraState camera;  ///< that the picture was rendered from
-    std::string title;   ///< one line for people: when, of what, from where
+    CameraState camera;                       ///< that the picture was rendered from
+    std::string title;                        ///< one line for people: when, of what, from where
+    std::shared_ptr<const SoundBlock> sound;  ///< of the tick; null: the programme has none
 };
 
 /// Where the programme's pictures go. One that fails is closed and reported; neither the programme

@@ -6,6 +6,10 @@
 #include "common/av/av_log.h"
 #include "common/base/error.h"
 
+extern "C" {
+#include <libavutil/opt.h>
+}
+
 namespace vantage {
 namespace {
 
@@ -36,7 +40,10 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
     output_->interrupt_callback = {is_over, const_cast<OutputPatience*>(&patience)};
     // A picture waits for nothing behind it.
     output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    output_->max_delay = 0;
+    // Its sound comes two frames of AAC later. A receiver that keeps to the stream's clock is told
+    // to wait that long: libavformat's clock is behind by twice this.
+    constexpr int sound_lag_us = 50'000;
+    output_->max_delay = settings.has_sound ? sound_lag_us : 0;
     AvDictionary options;
     for (const auto& [name, value] : settings.options)
         av_dict_set(&options.entries, name.c_str(), value.c_str(), 0);
@@ -45,11 +52,13 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
         code < 0)
         fail_for("it cannot be opened", code);
     encoder_.emplace(settings.encoder, settings.encoding);
-    stream_ = avformat_new_stream(output_.get(), nullptr);
-    if (!stream_) fail("memory is short");
-    stream_->time_base = encoder_->context().time_base;
+    stream_ = &add_stream(encoder_->context());
     stream_->avg_frame_rate = encoder_->context().framerate;
-    avcodec_parameters_from_context(stream_->codecpar, &encoder_->context());
+    if (settings.has_sound) {
+        sound_.emplace(settings.encoding.rate_hz, SoundEncoder::Codec::aac, false);
+        sound_stream_ = &add_stream(sound_->encoder().context());
+        av_opt_set_int(output_->priv_data, "pes_payload_size", 0, 0);
+    }
     av_dict_set(&output_->metadata, "service_name", "Vantage", 0);
     if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
         fail_for("it cannot be opened", code);
@@ -60,9 +69,26 @@ void StreamTarget::write(const ColourImage& picture, std::int64_t tick, const st
     send();
 }
 
+AVStream& StreamTarget::add_stream(const AVCodecContext& encoder) {
+    AVStream* stream = avformat_new_stream(output_.get(), nullptr);
+    if (!stream) fail("memory is short");
+    stream->time_base = encoder.time_base;
+    avcodec_parameters_from_context(stream->codecpar, &encoder);
+    return *stream;
+}
+
+void StreamTarget::hear(const SoundBlock& sound, std::int64_t tick) {
+    sound_->add(sound, tick);
+    send_sound();
+}
+
 void StreamTarget::finish() {
     encoder_->end();
     send();
+    if (sound_) {
+        sound_->encoder().end();
+        send_sound();
+    }
     if (const int code = av_write_trailer(output_.get()); code < 0)
         fail_for("it does not end", code);
 }
@@ -72,12 +98,22 @@ std::uint64_t StreamTarget::bytes() const {
 }
 
 void StreamTarget::send() {
-    while (AVPacket* packet = encoder_->next()) {
-        av_packet_rescale_ts(packet, encoder_->context().time_base, stream_->time_base);
-        packet->stream_index = stream_->index;
-        if (const int code = av_write_frame(output_.get(), packet); code < 0)
-            fail_for("its peer or the network is gone", code);
+    while (AVPacket* packet = encoder_->next()) write(*packet, encoder_->context(), *stream_);
+}
+
+void StreamTarget::send_sound() {
+    SoundEncoder& encoder = sound_->encoder();
+    while (AVPacket* packet = encoder.next()) {
+        // MPEG-TS has no time before the first picture; a decoder begins with the next one as well.
+        if (packet->pts >= 0) write(*packet, encoder.context(), *sound_stream_);
     }
+}
+
+void StreamTarget::write(AVPacket& packet, const AVCodecContext& encoder, const AVStream& stream) {
+    av_packet_rescale_ts(&packet, encoder.time_base, stream.time_base);
+    packet.stream_index = stream.index;
+    if (const int code = av_write_frame(output_.get(), &packet); code < 0)
+        fail_for("its peer or the network is gone", code);
 }
 
 EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format) {

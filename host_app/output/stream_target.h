@@ -7,11 +7,12 @@
 
 #include "host_app/output/output_target.h"
 #include "host_app/output/picture_encoder.h"
+#include "host_app/output/sound_encoder.h"
 
 namespace vantage {
 
-/// A stream over a network by FFmpeg: H.264 in MPEG-TS. A picture is on its way when write()
-/// returns; a receiver can join at any second.
+/// A stream over a network by FFmpeg: H.264, and AAC where there is sound, in MPEG-TS. A picture is
+/// on its way when write() returns; a receiver can join at any second.
 class StreamTarget final : public OutputTarget {
   public:
     struct Settings {
@@ -19,21 +20,28 @@ class StreamTarget final : public OutputTarget {
         std::vector<std::pair<std::string, std::string>> options;  ///< FFmpeg's of its protocol
         std::string encoder;
         EncoderSettings encoding;
+        bool has_sound = false;
     };
     /// Waits for a peer where the protocol has one. Throws Error if there is none, or it refuses,
     /// or patience is over; `patience` must outlive this.
     StreamTarget(const Settings& settings, const OutputPatience& patience);
 
     void write(const ColourImage& picture, std::int64_t tick, const std::string& timecode) override;
+    void hear(const SoundBlock& sound, std::int64_t tick) override;
     void finish() override;
     std::uint64_t bytes() const override;
 
   private:
     void send();
+    void send_sound();
+    AVStream& add_stream(const AVCodecContext& encoder);
+    void write(AVPacket& packet, const AVCodecContext& encoder, const AVStream& stream);
 
     AvOutputPtr output_;
     std::optional<PictureEncoder> encoder_;
-    AVStream* stream_ = nullptr;  ///< owned by output_
+    std::optional<SoundTrack> sound_;
+    AVStream* stream_ = nullptr;        ///< owned by output_
+    AVStream* sound_stream_ = nullptr;  ///< likewise
 };
 
 /// What every stream of a programme is encoded with: a constant bit rate, by the option `bitrate`

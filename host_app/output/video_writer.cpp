@@ -25,7 +25,15 @@ VideoWriter::VideoWriter(std::filesystem::path path, const VideoSettings& settin
     const AvCodecParametersPtr pictures(avcodec_parameters_alloc());
     if (!pictures || avcodec_parameters_from_context(pictures.get(), &context) < 0)
         fail("{} cannot be written: memory is short", file_.path().string());
-    file_.open(*pictures, context.time_base, context.framerate);
+    if (!settings.has_sound) {
+        file_.open(*pictures, context.time_base, context.framerate);
+        return;
+    }
+    sound_.emplace(settings.rate_hz, file_.sound_codec(), file_.has_head());
+    const AvCodecParametersPtr sound(avcodec_parameters_alloc());
+    if (!sound || avcodec_parameters_from_context(sound.get(), &sound_->encoder().context()) < 0)
+        fail("{} cannot be written: memory is short", file_.path().string());
+    file_.open(*pictures, context.time_base, context.framerate, sound.get());
 }
 
 void VideoWriter::add(const ColourImage& picture, std::int64_t tick, const std::string& timecode) {
@@ -37,15 +45,23 @@ void VideoWriter::add(const ColourImage& picture, std::int64_t tick, const std::
     ++frames_;
 }
 
+void VideoWriter::hear(const SoundBlock& sound, std::int64_t tick) {
+    sound_->add(sound, tick);
+    drain();
+}
+
 void VideoWriter::finish() {
     if (frames_ == 0) fail("{} is not written: the film has no picture", file_.path().string());
     encoder_->end();
+    if (sound_) sound_->encoder().end();
     drain();
     file_.finish();
 }
 
 void VideoWriter::drain() {
     while (AVPacket* packet = encoder_->next()) file_.write(*packet);
+    if (!sound_) return;
+    while (AVPacket* packet = sound_->encoder().next()) file_.write_sound(*packet);
 }
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include "common/image/image.h"
 #include "host_app/output/film_file.h"
 #include "host_app/output/picture_encoder.h"
+#include "host_app/output/sound_encoder.h"
 
 namespace vantage {
 
@@ -17,6 +18,7 @@ struct VideoSettings {
     double quality = 20;              ///< x264's constant rate factor, 0 (lossless) .. 51
     std::optional<std::int64_t> bit_rate_bps = {};  ///< nothing: what the quality needs
     std::string encoder = "libx264";                ///< one of known_encoders()
+    bool has_sound = false;
 };
 
 /// Encodes pictures as H.264, colours by ITU-R BT.709, into a FilmFile.
@@ -30,6 +32,10 @@ class VideoWriter {
     ///
     /// `timecode` is the film's at its start: the first picture's is kept.
     void add(const ColourImage& picture, std::int64_t tick, const std::string& timecode = {});
+
+    /// Sound of that tick, in their order, where the settings say that there is any. Throws Error
+    /// likewise. Precondition: a picture was added.
+    void hear(const SoundBlock& sound, std::int64_t tick);
 
     /// Ends the film and puts the file in its place. Throws Error if the disk fails, or if no
     /// picture was added.
@@ -47,6 +53,7 @@ class VideoWriter {
 
     FilmFile file_;
     std::optional<PictureEncoder> encoder_;
+    std::optional<SoundTrack> sound_;
     std::uint64_t frames_ = 0;
     std::int64_t last_tick_ = -1;
 };

@@ -14,6 +14,11 @@ constexpr std::chrono::milliseconds recovery{200};
 
 }  // namespace
 
+bool is_same_picture(const PictureJob& a, const PictureJob& b) {
+    return a.instant->number == b.instant->number && is_same_view(a.camera, b.camera) &&
+           a.level.rank == b.level.rank && a.source_map == b.source_map;
+}
+
 PictureMaker::PictureMaker(SynthesiserEntry synthesiser, PictureFormat format,
                            ContextGroup& contexts, RightOfWay& way, Manner manner)
     : synthesiser_(std::move(synthesiser)),
@@ -41,6 +46,15 @@ void PictureMaker::start(PictureJob job) {
     {
         const std::lock_guard lock(mutex_);
         job_ = std::move(job);
+    }
+    woken_.notify_all();
+}
+
+void PictureMaker::rehearse(PictureJob job) {
+    {
+        const std::lock_guard lock(mutex_);
+        job_ = std::move(job);
+        is_rehearsal_ = true;
     }
     woken_.notify_all();
 }
@@ -86,7 +100,7 @@ void PictureMaker::run() {
         }
         std::unique_lock lock(mutex_);
         ++faults_;
-        is_ready_ = false;
+        is_ready_ = is_rehearsal_ = false;
         job_.reset();
         if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
     }
@@ -110,25 +124,40 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
             job_.reset();
             continue;
         }
-        const PictureJob job = *job_;
+        PictureJob job = *job_;
+        const bool is_rehearsal = std::exchange(is_rehearsal_, false);
         lock.unlock();
-        auto made = std::make_shared<MadePicture>();
-        const MonotonicTime start = MonotonicClock::now();
-        std::optional<RightOfWay::Claim> claim;
-        if (manner_ == Manner::at_once) claim.emplace(*way_);
-        made->picture = painter.paint(*job.instant->instant, job.camera, job.level,
-                                      job.source_map ? &made->sources : nullptr);
-        made->readback_ms = painter.last_readback_ms();
-        claim.reset();
-        made->render_ms = ms_since(start) - made->readback_ms;
-        made->job = job;
+        std::shared_ptr<MadePicture> picture;
+        if (is_rehearsal) {
+            for (const RenderLevel& level : render_levels()) {
+                job.level = level;
+                (void)made(painter, job);
+            }
+        } else {
+            picture = made(painter, job);
+        }
         lock.lock();
+        job_.reset();
+        if (!picture) continue;
         // The hand that moved one which nobody took waits for this one.
         if (finished_ && finished_->job.hand && (!job.hand || *finished_->job.hand < *job.hand))
-            made->job.hand = finished_->job.hand;
-        finished_ = std::move(made);
-        job_.reset();
+            picture->job.hand = finished_->job.hand;
+        finished_ = std::move(picture);
     }
+}
+
+std::shared_ptr<MadePicture> PictureMaker::made(ViewPainter& painter, const PictureJob& job) const {
+    auto made = std::make_shared<MadePicture>();
+    const MonotonicTime start = MonotonicClock::now();
+    std::optional<RightOfWay::Claim> claim;
+    if (manner_ == Manner::at_once) claim.emplace(*way_);
+    made->picture = painter.paint(*job.instant->instant, job.camera, job.level,
+                                  job.source_map ? &made->sources : nullptr);
+    made->readback_ms = painter.last_readback_ms();
+    claim.reset();
+    made->render_ms = ms_since(start) - made->readback_ms;
+    made->job = job;
+    return made;
 }
 
 }  // namespace vantage

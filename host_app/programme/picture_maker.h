@@ -26,6 +26,9 @@ struct PictureJob {
     std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in it
 };
 
+/// Whether a picture of one would be that of the other.
+bool is_same_picture(const PictureJob& a, const PictureJob& b);
+
 /// A picture of the virtual camera. Immutable.
 struct MadePicture {
     PictureJob job;
@@ -56,6 +59,9 @@ class PictureMaker {
     bool is_idle() const;
     /// Precondition: is_idle().
     void start(PictureJob job);
+    /// Makes pictures of the job at all levels, which nobody gets: see InstantPreparer::rehearse().
+    /// Precondition: is_idle().
+    void rehearse(PictureJob job);
     /// In slices: waits between two of them, for as long as this is so.
     void pause(bool is_paused);
     /// What was finished since the last call.
@@ -67,6 +73,7 @@ class PictureMaker {
     void run();
     void wait_while_paused();
     void make_pictures(const ContextGroup::Member& member);
+    std::shared_ptr<MadePicture> made(ViewPainter& painter, const PictureJob& job) const;
 
     SynthesiserEntry synthesiser_;
     PictureFormat format_;
@@ -76,7 +83,7 @@ class PictureMaker {
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<PictureJob> job_;
-    bool is_ready_ = false, is_stopping_ = false, is_paused_ = false;
+    bool is_ready_ = false, is_stopping_ = false, is_paused_ = false, is_rehearsal_ = false;
     std::shared_ptr<const MadePicture> finished_;
     int faults_ = 0;
     std::thread thread_;

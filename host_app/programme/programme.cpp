@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "common/base/pulse_grid.h"
 #include "common/base/time.h"
 #include "host_app/programme/tick_clock.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 /// How often a tick looks whether the picture maker has become free.
 constexpr std::chrono::milliseconds look_period{2};
+/// For which the first tick waits.
+constexpr std::chrono::seconds longest_rehearsal{20}, rest_of_rehearsal{1};
 /// A camera and an instant that were left alone for so long are worth the best picture.
 constexpr std::chrono::milliseconds rest{250};
 /// Pictures that the lead before a tick is judged by, and what is added to the longest of them.
@@ -24,12 +27,6 @@ constexpr double lead_ratio = 1.15, lead_margin_ms = 3;
 double ms_between(MonotonicTime start, MonotonicTime end) { return to_ms(end - start); }
 
 void sleep_until(MonotonicTime time) { std::this_thread::sleep_for(time - MonotonicClock::now()); }
-
-/// Whether a picture of one would be that of the other.
-bool is_same(const PictureJob& a, const PictureJob& b) {
-    return a.instant->number == b.instant->number && is_same_view(a.camera, b.camera) &&
-           a.level.rank == b.level.rank && a.source_map == b.source_map;
-}
 
 std::string title_of(const MadePicture& made, double time_s) {
     constexpr double deg = 180 / std::numbers::pi;
@@ -50,18 +47,18 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       pilot_(pilot),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       replay_(settings_.replay),
-      entry_(find_synthesiser(settings_.synthesiser)),
+      preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.right_of_way()),
       source_map_(settings_.source_map) {
     // The first instant is prepared for where the camera begins.
     view_ = pilot_.step(0, transport().pulse()).view;
     camera_ = view_.camera();
     forecast_.see(camera_, 0);
     wish_for_instant(MonotonicClock::now());
-    instants_.prepare_for(entry_.name, entry_.make_preparer);
-    maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
-                                            instants_.right_of_way());
+    renderer_ = &renderer_of(find_synthesiser(settings_.synthesiser));
+    const SynthesiserEntry& first = renderer_->synthesiser;
+    instants_.prepare_for(first.name, first.make_preparer);
     state_.view = view_;
-    state_.synthesiser = entry_.name;
+    state_.synthesiser = first.name;
 }
 
 Programme::~Programme() {
@@ -92,11 +89,8 @@ bool Programme::is_over() const {
 void Programme::stop() {
     is_stopping_ = true;
     if (thread_.joinable()) thread_.join();
-    maker_.reset();
-    next_maker_.reset();
-    retired_maker_.reset();
-    still_maker_.reset();
-    retired_still_.reset();
+    renderers_.clear();
+    preview_.end();
     for (Sink& sink : sinks_) {
         if (!sink.state.failure.empty()) continue;
         try {
@@ -118,8 +112,29 @@ std::chrono::nanoseconds Programme::lead() const {
         std::min<std::chrono::duration<double>>(lead, period));
 }
 
+void Programme::rehearse() {
+    const std::shared_ptr<const ReadyInstant> instant = instants_.newest();
+    if (!instant || instant->synthesiser != renderer_->synthesiser.name) return;
+    const MonotonicTime end = MonotonicClock::now() + longest_rehearsal;
+    const auto is_idle_in_time = [&] {
+        while (!renderer_->maker->is_idle()) {
+            if (is_stopping_ || MonotonicClock::now() > end) return false;
+            std::this_thread::sleep_for(look_period);
+        }
+        return true;
+    };
+    if (!is_idle_in_time()) return;
+    renderer_->maker->rehearse({instant, camera_, governor_.render(), source_map_});
+    if (!is_idle_in_time() || !instant->is_live) return;
+    // The first picture is to be of now.
+    const MonotonicTime patience = MonotonicClock::now() + rest_of_rehearsal;
+    while (!is_stopping_ && instants_.newest() == instant && MonotonicClock::now() < patience)
+        std::this_thread::sleep_for(look_period);
+}
+
 void Programme::run() {
     for (Sink& sink : sinks_) sink.state.name = sink.sink->name();
+    rehearse();
     const MonotonicTime start = MonotonicClock::now();
     TickClock clock(settings_.rate_hz, start);
     std::uint64_t tick = clock.next_tick(start);
@@ -131,7 +146,7 @@ void Programme::run() {
         bool is_begun = false;
         for (;;) {
             const MonotonicTime now = MonotonicClock::now();
-            if (!is_begun && maker_->is_idle() && (take_up_sought() || was_due)) {
+            if (!is_begun && renderer_->maker->is_idle() && (take_up_sought() || was_due)) {
                 begin_picture();
                 is_begun = true;
             }
@@ -142,7 +157,8 @@ void Programme::run() {
         }
         follow_synthesiser();
         const std::uint64_t next = clock.next_tick(MonotonicClock::now());
-        hand_over(next - tick, was_due);
+        hand_over(next - tick, was_due, due);
+        follow_preview();
         tick = next;
         const std::lock_guard lock(mutex_);
         if (is_over_(books_.ticks, due_s)) return;
@@ -175,30 +191,22 @@ bool Programme::look(double time_s, MonotonicTime now) {
         moments_a_pulse_ = 1;
     follow_seek(now);
     // What is held was left: its better picture waits for the first one of where time jumped to.
-    if (still_maker_) still_maker_->pause(seek_.has_value());
+    if (renderer_->still) renderer_->still->pause(seek_.has_value());
+    preview_.pause(seek_.has_value());
     if (step.toggle_source_map) source_map_ = !source_map_;
-    if (step.next_synthesiser && !next_maker_ && !retired_maker_ && !retired_still_) {
-        const std::vector<SynthesiserEntry> all = synthesiser_entries();
-        const auto at = std::find_if(all.begin(), all.end(), [&](const SynthesiserEntry& entry) {
-            return entry.name == entry_.name;
-        });
-        entry_ = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
-        next_maker_ = std::make_unique<PictureMaker>(entry_, settings_.format, instants_.contexts(),
-                                                     instants_.right_of_way());
-        if (still_maker_) still_maker_->pause(false);
-        retired_still_ = std::move(still_maker_);
-        begun_still_.reset();
-    }
+    if (step.next_synthesiser && !next_) begin_next_synthesiser();
     const CameraState camera = step.camera.value_or(step.view.camera());
     if (!is_same_view(camera, camera_) || step.time.is_any() || transport().is_moving())
         changed_ = now;
     view_ = step.view;
     camera_ = camera;
+    preview_view_ = step.preview;
     forecast_.see(camera_, time_s);
     wish_for_instant(now);
     {
         const std::lock_guard lock(mutex_);
         state_.view = view_;
+        state_.preview.view = preview_view_;
         state_.time = transport().state();
         state_.replay = replay_.state();
         state_.past = span;
@@ -213,14 +221,14 @@ bool Programme::look(double time_s, MonotonicTime now) {
         books_.render_shares = governor_.render_shares(now);
         books_.prepare_shares = governor_.prepare_shares(now);
     }
-    if (!instant_ || instant_->synthesiser != maker_->synthesiser()) return false;
+    if (!instant_ || instant_->synthesiser != renderer_->synthesiser.name) return false;
     const PictureJob job{instant_, camera_, governor_.render(), source_map_};
     if (shown_ && shown_->job.level.rank < job.level.rank) {
         PictureJob better = job;
         better.level = shown_->job.level;
-        if (is_same(better, shown_->job)) return false;
+        if (is_same_picture(better, shown_->job)) return false;
     }
-    return !shown_ || !is_same(job, shown_->job);
+    return !shown_ || !is_same_picture(job, shown_->job);
 }
 
 void Programme::follow_seek(MonotonicTime now) {
@@ -237,7 +245,8 @@ void Programme::follow_seek(MonotonicTime now) {
 bool Programme::take_up_sought() {
     if (!seek_) return false;
     std::shared_ptr<const ReadyInstant> newest = instants_.newest();
-    if (!newest || newest->synthesiser != maker_->synthesiser() || newest == instant_) return false;
+    if (!newest || newest->synthesiser != renderer_->synthesiser.name || newest == instant_)
+        return false;
     instant_ = std::move(newest);
     return true;
 }
@@ -253,10 +262,11 @@ void Programme::wish_for_instant(MonotonicTime now) {
     const PrepareLevel& level = seek_ ? governor_.prepare_sought()
                                 : is_resting && !settings_.quality.level ? prepare_levels().front()
                                                                          : governor_.prepare();
-    instants_.wish({transport().pulse(), moments_a_pulse_, transport().is_held(),
-                    view_of(forecast_.in(shown_in_s()),
-                            {settings_.format.width_px, settings_.format.height_px}),
-                    level, transport().jumps()});
+    const cv::Size size(settings_.format.width_px, settings_.format.height_px);
+    instants_.wish(
+        {transport().pulse(), moments_a_pulse_, transport().is_held(),
+         view_of(forecast_.in(shown_in_s()), size), level, transport().jumps(),
+         preview_view_ ? std::optional(view_of(preview_view_->camera(), size)) : std::nullopt});
     if (instant_ && instant_->number != seen_prepared_ && transport().is_moving()) {
         seen_prepared_ = instant_->number;
         governor_.saw_prepare(instant_->instant->level, instant_->prepare_ms, now);
@@ -266,7 +276,7 @@ void Programme::wish_for_instant(MonotonicTime now) {
 }
 
 void Programme::begin_picture() {
-    maker_->start({instant_, camera_, governor_.render(), source_map_, hand_});
+    renderer_->maker->start({instant_, camera_, governor_.render(), source_map_, hand_});
     hand_.reset();
 }
 
@@ -274,30 +284,58 @@ void Programme::better_what_is_held(MonotonicTime now) {
     if (settings_.quality.level || transport().is_moving() || now - changed_ < rest || !instant_ ||
         !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
         return;
-    if (retired_still_) return;
-    if (!still_maker_) {
-        still_maker_ = std::make_unique<PictureMaker>(
-            entry_, settings_.format, instants_.contexts(), instants_.right_of_way(),
-            PictureMaker::Manner::in_slices);
+    std::unique_ptr<PictureMaker>& still = renderer_->still;
+    if (!still) {
+        still = std::make_unique<PictureMaker>(renderer_->synthesiser, settings_.format,
+                                               instants_.contexts(), instants_.right_of_way(),
+                                               PictureMaker::Manner::in_slices);
         return;
     }
     const PictureJob job{instant_, camera_, render_levels().front(), source_map_};
-    if (!still_maker_->is_idle() || (begun_still_ && is_same(*begun_still_, job))) return;
+    if (!still->is_idle() || (begun_still_ && is_same_picture(*begun_still_, job))) return;
     begun_still_ = job;
-    still_maker_->start(job);
+    still->start(job);
+}
+
+Programme::Renderer& Programme::renderer_of(const SynthesiserEntry& synthesiser) {
+    Renderer& renderer = renderers_[synthesiser.name];
+    if (!renderer.maker) {
+        renderer.synthesiser = synthesiser;
+        renderer.maker = std::make_unique<PictureMaker>(
+            synthesiser, settings_.format, instants_.contexts(), instants_.right_of_way());
+    }
+    return renderer;
+}
+
+void Programme::begin_next_synthesiser() {
+    const std::vector<SynthesiserEntry> all = synthesiser_entries();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const SynthesiserEntry& entry) {
+        return entry.name == renderer_->synthesiser.name;
+    });
+    next_ = &renderer_of(at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1));
+}
+
+void Programme::follow_preview() {
+    const MonotonicTime now = MonotonicClock::now();
+    preview_.follow(preview_view_, renderer_->synthesiser, instant_,
+                    renderer_->maker->is_idle() && !seek_, now);
+    const std::lock_guard lock(mutex_);
+    state_.preview.picture = preview_.picture();
+    if (books_.preview_pictures != preview_.pictures()) preview_ms_.add(preview_.last_make_ms());
+    books_.preview_pictures = state_.preview.pictures = preview_.pictures();
 }
 
 void Programme::follow_synthesiser() {
-    // One that is at work would keep its destructor waiting.
-    if (retired_maker_ && retired_maker_->is_idle()) retired_maker_.reset();
-    if (retired_still_ && retired_still_->is_idle()) retired_still_.reset();
-    if (!next_maker_ || !next_maker_->is_idle()) return;
-    instants_.prepare_for(entry_.name, entry_.make_preparer);
-    if (!instant_ || instant_->synthesiser != entry_.name) return;
-    retired_maker_ = std::move(maker_);
-    maker_ = std::move(next_maker_);
+    if (!next_ || !next_->maker->is_idle()) return;
+    const SynthesiserEntry& wanted = next_->synthesiser;
+    instants_.prepare_for(wanted.name, wanted.make_preparer);
+    if (!instant_ || instant_->synthesiser != wanted.name) return;
+    if (renderer_->still) renderer_->still->pause(false);
+    begun_still_.reset();
+    renderer_ = std::exchange(next_, nullptr);
+    (void)renderer_->maker->take_finished();  // of when it was last in use
     const std::lock_guard lock(mutex_);
-    state_.synthesiser = entry_.name;
+    state_.synthesiser = wanted.name;
 }
 
 void Programme::note(const MadePicture& made, MonotonicTime now) {
@@ -317,6 +355,13 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
         latency_ms_.add(latency_ms);
         state_.latency_ms = latency_ms;
     }
+}
+
+void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
+    const bool is_best = made.job.level.rank == 0 && made.job.instant->instant->level == 0;
+    if (!is_best || transport().is_moving() || rest_noted_ == changed_) return;
+    rest_noted_ = changed_;
+    rest_ms_.add(ms_between(changed_, now));
 }
 
 void Programme::note_seek(const ReadyInstant& instant, MonotonicTime now) {
@@ -340,9 +385,9 @@ void Programme::note_seek(const ReadyInstant& instant, MonotonicTime now) {
     seek_.reset();
 }
 
-void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
+void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due) {
     const MonotonicTime now = MonotonicClock::now();
-    std::shared_ptr<const MadePicture> fresh = maker_->take_finished();
+    std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished();
     const bool is_new = fresh != nullptr;
     {
         const std::lock_guard lock(mutex_);
@@ -352,27 +397,59 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due) {
                 passed_ticks = 1;
             }
             ++books_.pictures;
-            books_.faults = maker_->faults();
+            books_.faults = 0;
+            for (const auto& [name, one] : renderers_) books_.faults += one.maker->faults();
             note(*fresh, now);
+            if (settings_.sound) note_sound_delay(*fresh->job.instant);
         } else if (!was_due) {
             last_new_.reset();
         }
-        if (!is_new && still_maker_) {
-            fresh = still_maker_->take_finished();
+        if (!is_new && renderer_->still) {
+            fresh = renderer_->still->take_finished();
             if (fresh && (transport().is_moving() || !is_same_view(fresh->job.camera, camera_) ||
                           fresh->job.instant != instant_))
                 fresh.reset();
         }
-        if (fresh) shown_ = state_.picture = std::move(fresh);
+        if (fresh) {
+            note_rest(*fresh, now);
+            shown_ = state_.picture = std::move(fresh);
+        }
         if (!shown_) return;
         books_.ticks += passed_ticks;
         books_.repeated += passed_ticks - 1 + (was_due && !is_new ? 1 : 0);
         books_.duration_s = ms_between(*first_picture_, now) / 1000;
     }
-    give_to_sinks(*shown_, passed_ticks);
+    give_to_sinks(*shown_, passed_ticks, due);
 }
 
-void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
+void Programme::note_sound_delay(const ReadyInstant& instant) {
+    if (instant.number == sound_of_) return;
+    sound_of_ = instant.number;
+    if (instant.is_live) {
+        if (instant.exposure) settings_.sound->saw_live(TaiClock::now() - *instant.exposure);
+    } else if (transport().is_at_normal_speed() && transport().pulse()) {
+        const double shown = static_cast<double>(instant.set->trigger_index) + instant.share;
+        settings_.sound->saw_past(from_s((*transport().pulse() - shown) / settings_.pulse_rate_hz));
+    }
+}
+
+PictureSound::Tick Programme::sound_tick(MonotonicTime due, std::uint64_t later) const {
+    const std::chrono::nanoseconds after = from_s(static_cast<double>(later) / settings_.rate_hz);
+    PictureSound::Tick tick;
+    tick.now = TaiClock::now() - (MonotonicClock::now() - due) + after;
+    if (transport().is_live()) {
+        tick.shown_time = tick.now;
+    } else if (const std::optional<double> pulse = transport().pulse();
+               pulse && transport().is_at_normal_speed()) {
+        const PulseGrid pulses(settings_.pulse_rate_hz);
+        const double whole = std::floor(*pulse);
+        tick.shown_time = pulses.time_of(static_cast<std::uint64_t>(whole)) +
+                          from_s((*pulse - whole) / settings_.pulse_rate_hz) + after;
+    }
+    return tick;
+}
+
+void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due) {
     for (std::uint64_t i = 0; i < ticks; ++i, ++sink_ticks_) {
         const ProgrammePicture picture{
             sink_ticks_,
@@ -380,7 +457,8 @@ void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks) {
             shown.sources ? shown.sources->picture : shown.picture,
             shown.job.instant->set,
             shown.job.camera,
-            title_of(shown, static_cast<double>(sink_ticks_) / settings_.rate_hz)};
+            title_of(shown, static_cast<double>(sink_ticks_) / settings_.rate_hz),
+            settings_.sound ? settings_.sound->next(sound_tick(due, i)) : nullptr};
         for (Sink& sink : sinks_) {
             if (!sink.state.failure.empty()) continue;
             try {
@@ -415,8 +493,10 @@ ProgrammeBooks Programme::books() const {
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hand_ms_.summary();
     books.seek_ms = seek_ms_.summary();
+    books.rest_ms = rest_ms_.summary();
     books.seek_steps_ms = {seek_steps_ms_.wait.summary(), seek_steps_ms_.fetch.summary(),
                            seek_steps_ms_.prepare.summary(), seek_steps_ms_.picture.summary()};
+    books.preview_ms = preview_ms_.summary();
     books.render_ms = render_ms_.summary();
     books.readback_ms = readback_ms_.summary();
     return books;

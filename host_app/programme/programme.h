@@ -4,6 +4,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,7 +19,9 @@
 #include "host_app/output/picture_sink.h"
 #include "host_app/programme/governor.h"
 #include "host_app/programme/picture_maker.h"
+#include "host_app/programme/preview.h"
 #include "host_app/replay/replay.h"
+#include "host_app/sound/picture_sound.h"
 
 namespace vantage {
 
@@ -49,9 +52,12 @@ struct ProgrammeBooks {
     Percentiles hand_ms;         ///< from an input to the hand-over of the first picture with it
     Percentiles seek_ms;         ///< from a jump in time to the hand-over of its instant's picture
     SeekSteps<Percentiles> seek_steps_ms;
+    Percentiles rest_ms;  ///< from the last change of camera and time to the best picture
     Percentiles render_ms, readback_ms;
     std::vector<double> render_shares, prepare_shares;  ///< of the time, by level
-    int faults = 0;                                     ///< renderers that were made anew
+    std::uint64_t preview_pictures = 0;
+    Percentiles preview_ms;  ///< that one took, waiting for the programme included
+    int faults = 0;          ///< renderers that were made anew
     std::vector<SinkState> sinks;
 };
 
@@ -59,6 +65,12 @@ struct ProgrammeBooks {
 struct ProgrammeState {
     std::shared_ptr<const MadePicture> picture;  ///< null before the first
     OrbitView view;
+    /// Of the camera on preview.
+    struct Preview {
+        std::optional<OrbitView> view;               ///< nothing: there is none
+        std::shared_ptr<const MadePicture> picture;  ///< null before the first
+        std::uint64_t pictures = 0;                  ///< so far
+    } preview;
     bool source_map = false;
     TransportState time;
     ReplayState replay;
@@ -79,9 +91,10 @@ class Programme {
         double rate_hz = 30, pulse_rate_hz = 30;
         std::string synthesiser = default_synthesiser;
         QualityWish quality;
-        bool source_map = false;      ///< shown at first
-        Replay replay = {};           ///< at first
-        bool ends_with_past = false;  ///< once the end of what is played is shown
+        bool source_map = false;                        ///< shown at first
+        Replay replay = {};                             ///< at first
+        bool ends_with_past = false;                    ///< once the end of what is played is shown
+        std::shared_ptr<PictureSound> sound = nullptr;  ///< that goes with it; null: none
     };
     /// Draws on contexts of the instants' group. Runs from start() on. `pilot` and `instants` must
     /// outlive it.
@@ -107,7 +120,16 @@ class Programme {
         std::unique_ptr<PictureSink> sink;
         SinkState state;
     };
+    /// Makes a synthesiser's pictures. Kept when another takes over: drivers give back little of
+    /// what a renderer has taken, and who comes back need not compile again.
+    struct Renderer {
+        SynthesiserEntry synthesiser;
+        std::unique_ptr<PictureMaker> maker;
+        std::unique_ptr<PictureMaker> still;  ///< of what is held; null: nothing was yet
+    };
     void run();
+    /// Before the first tick: pictures at all levels of the newest instant, which nobody sees.
+    void rehearse();
     /// Asks hands and plans; true if a picture is due that would differ from the last one.
     bool look(double time_s, MonotonicTime now);
     /// While a jump is waited for: what has become ready since the look is shown at the next tick,
@@ -119,12 +141,21 @@ class Programme {
     void begin_picture();
     void follow_seek(MonotonicTime now);
     void better_what_is_held(MonotonicTime now);
+    /// Compiles where it is asked for the first time.
+    Renderer& renderer_of(const SynthesiserEntry& synthesiser);
+    void begin_next_synthesiser();
+    void follow_preview();
     void follow_synthesiser();
-    void hand_over(std::uint64_t passed_ticks, bool was_due);
-    void give_to_sinks(const MadePicture& shown, std::uint64_t ticks);
+    /// `due`: the first of the ticks that have passed.
+    void hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due);
+    void give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due);
+    /// Of the tick that was due then, so many ticks after the one for which time was looked at.
+    PictureSound::Tick sound_tick(MonotonicTime due, std::uint64_t later) const;
+    void note_sound_delay(const ReadyInstant& instant);
     void note_sinks();
     void note(const MadePicture& made, MonotonicTime now);
     void note_seek(const ReadyInstant& instant, MonotonicTime now);
+    void note_rest(const MadePicture& made, MonotonicTime now);
     const Transport& transport() const { return replay_.transport(); }
     /// How long before a tick its picture is to be begun.
     std::chrono::nanoseconds lead() const;
@@ -139,8 +170,11 @@ class Programme {
     Governor governor_;
     Replay replay_;
     std::optional<double> last_look_s_;
-    SynthesiserEntry entry_;  ///< that is wanted
-    std::unique_ptr<PictureMaker> maker_, next_maker_, retired_maker_, still_maker_, retired_still_;
+    std::map<std::string, Renderer> renderers_;  ///< by synthesiser
+    Renderer* renderer_ = nullptr;               ///< in use
+    Renderer* next_ = nullptr;                   ///< takes over when it is ready; null: none
+    Preview preview_;
+    std::optional<OrbitView> preview_view_;
     OrbitView view_;
     CameraState camera_;
     CameraForecast forecast_;
@@ -155,9 +189,10 @@ class Programme {
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;
-    MonotonicTime changed_{};  ///< camera or time, last
+    MonotonicTime changed_{};     ///< camera or time, last
+    MonotonicTime rest_noted_{};  ///< of the rest since then the best picture was shown
     std::optional<MonotonicTime> first_picture_, last_new_;
-    std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0;
+    std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0, sound_of_ = 0;
     bool source_map_ = false;
     int moments_a_pulse_ = 1;     ///< as InstantWish
     std::deque<double> make_ms_;  ///< of the last pictures
@@ -165,7 +200,8 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, seek_ms_, render_ms_, readback_ms_;
+    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, seek_ms_, rest_ms_, render_ms_,
+        readback_ms_, preview_ms_;
     SeekSteps<PercentileRecorder> seek_steps_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;

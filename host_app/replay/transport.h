@@ -65,6 +65,10 @@ class Transport {
     bool is_moving() const {
         return is_live() || (is_led_ ? is_led_on_ : state_.pulse && state_.speed != 0);
     }
+    /// What is shown goes on as it was, or a flight leads it, whichever way that is.
+    bool is_at_normal_speed() const {
+        return is_live() || (is_moving() && (is_led_ || (state_.speed == 1 && !state_.is_held)));
+    }
     /// It played to an end and stopped there.
     bool is_at_end() const { return is_at_end_; }
     /// It played over the out mark, or the end, and this much further in its time.

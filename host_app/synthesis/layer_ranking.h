@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "host_app/instants/view_ranking.h"
@@ -8,15 +10,27 @@
 
 namespace vantage {
 
-/// The surfaces of the `rigs` most useful rigs, best first.
-inline std::vector<DrawnLayer> layers_of(const Instant& instant, const VirtualView& view,
-                                         std::size_t rigs) {
+/// The `rigs` most useful rigs of an instant, best first.
+inline std::vector<const InstantRig*> ranked_rigs(const Instant& instant, const VirtualView& view,
+                                                  std::size_t rigs) {
     std::vector<const InstantRig*> all;
     for (const InstantRig& rig : instant.rigs) all.push_back(&rig);
+    return most_useful(all, view, rigs);
+}
+
+/// One part of each: its surface, or what stands before that.
+inline std::vector<DrawnLayer> layers_of(
+    std::span<const InstantRig* const> rigs,
+    std::shared_ptr<const RigSurface> InstantRig::*part = &InstantRig::surface) {
     std::vector<DrawnLayer> layers;
-    for (const InstantRig* rig : most_useful(all, view, rigs))
-        layers.push_back({rig->surface.get(), rig->presence});
+    for (const InstantRig* rig : rigs) layers.push_back({(rig->*part).get(), rig->presence});
     return layers;
+}
+
+/// The surfaces of the `rigs` most useful rigs.
+inline std::vector<DrawnLayer> layers_of(const Instant& instant, const VirtualView& view,
+                                         std::size_t rigs) {
+    return layers_of(ranked_rigs(instant, view, rigs));
 }
 
 /// How many of the layers are drawn by every pixel.

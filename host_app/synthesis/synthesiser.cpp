@@ -22,12 +22,12 @@ SynthesiserEntry with_choices(SynthesiserEntry entry, const std::string& asked) 
 
 std::span<const RenderLevel> render_levels() {
     static constexpr RenderLevel levels[] = {
-        {0, most_drawn_rigs, 2, 1, false, 2},
-        {1, 2, 1, 1, false, 2},
-        {2, 2, 0, 0.75, false, 1},
-        {3, 2, 0, 1, true, 1},
-        {4, 2, 0, 0.75, true, 1},
-        {5, 2, 0, 0.625, true, 1},
+        {0, most_drawn_rigs, 2, 1, false},
+        {1, 2, 1, 1, false},
+        {2, 2, 0, 0.75, false},
+        {3, 2, 0, 1, true},
+        {4, 2, 0, 0.75, true},
+        {5, 2, 0, 0.625, true},
     };
     return levels;
 }

@@ -33,9 +33,8 @@ struct RenderLevel {
     /// So many rigs' surfaces are drawn by every pixel, the others' by a quarter of the quads.
     /// Where there are no more rigs than a picture takes, all are at rank 0.
     std::size_t finely = 2;
-    double scale = 1;        ///< of the picture that is rendered to the one that is shown
-    bool is_plain = false;   ///< every pixel is coloured by the same little work
-    std::size_t plates = 2;  ///< rigs whose background plates are shown
+    double scale = 1;       ///< of the picture that is rendered to the one that is shown
+    bool is_plain = false;  ///< every pixel is coloured by the same little work
 };
 
 /// From the best to the cheapest, by rank.
@@ -109,7 +108,7 @@ class Synthesiser {
     void set_views(std::span<const DepthView> views, double dt_s = 1.0 / 30) {
         preparer_->take(views, dt_s);
     }
-    void forget() { preparer_->forget(); }
+    void cut() { preparer_->cut(); }
     /// As ViewRenderer::render(). Throws Error with what the instant lacks for it.
     const Texture& render(const VirtualView& view);
     bool note_origins(bool noted) { return renderer_->note_origins(noted); }

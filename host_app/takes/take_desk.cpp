@@ -15,7 +15,7 @@ constexpr std::size_t most_attached_bytes = 1 << 20;
 
 TakeRecorder::Settings recorder_settings(const StageConfig& stage,
                                          const std::filesystem::path& stage_file,
-                                         std::chrono::nanoseconds pre_roll) {
+                                         std::chrono::nanoseconds pre_roll, bool has_sound) {
     TakeRecorder::Settings settings;
     settings.attachments.push_back(
         {stage_attachment, "application/toml", read_file(stage_file, most_attached_bytes)});
@@ -29,6 +29,7 @@ TakeRecorder::Settings recorder_settings(const StageConfig& stage,
     settings.program = fmt::format("vantage {}", version());
     settings.show = to_json(take_show_of(stage));
     settings.pre_roll = pre_roll;
+    settings.has_sound = has_sound;
     return settings;
 }
 
@@ -55,10 +56,11 @@ class CameraSink final : public PictureSink {
 
 TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
                    std::filesystem::path path, std::filesystem::path folder,
-                   std::chrono::nanoseconds pre_roll)
+                   std::chrono::nanoseconds pre_roll, bool has_sound)
     : path_(std::move(path)),
       folder_(std::move(folder)),
-      recorder_(recorder_settings(stage, stage_file, pre_roll)) {
+      has_sound_(has_sound),
+      recorder_(recorder_settings(stage, stage_file, pre_roll, has_sound)) {
     if (!folder_.empty() && !std::filesystem::is_directory(folder_))
         fail("takes cannot go to {}: there is no such folder; make it", folder_.string());
 }
@@ -67,14 +69,21 @@ FrameTap TakeDesk::tap() {
     return [this](const ArrivedFrame& frame) { recorder_.offer(frame); };
 }
 
+std::function<void(const SoundBlock&)> TakeDesk::sound_tap() {
+    if (!has_sound_) return {};
+    return [this](const SoundBlock& sound) { recorder_.offer(sound); };
+}
+
 StageFeed TakeDesk::feed(StageFeed feed) {
     if (!feed.ask) return feed;
     ask_ = feed.ask;
+    look_at_ = feed.look_at;
     for (const RigStatus& rig : feed.status().rigs) wishes_[rig.rig] = true;
     feed.ask = [this](const std::string& rig, bool streaming) {
         const std::lock_guard lock(mutex_);
         wishes_[rig] = streaming;
         ask_(rig, streaming || recorder_.is_running());
+        if (look_at_) look_at_(rig, streaming);
     };
     return feed;
 }

@@ -23,12 +23,15 @@ class TakeDesk {
     /// with one the second is PATH-2. Throws Error without that folder.
     TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
              std::filesystem::path path, std::filesystem::path folder,
-             std::chrono::nanoseconds pre_roll);
+             std::chrono::nanoseconds pre_roll, bool has_sound = false);
 
     /// For the receiver; this must outlive it.
     FrameTap tap();
-    /// The same feed, whose rigs send while a take runs. This must outlive it.
+    /// The same feed, whose rigs send while a take runs; those that the programme does not need are
+    /// not decoded then. This must outlive it.
     StageFeed feed(StageFeed feed);
+    /// Records what is heard; empty: takes have no sound. This must outlive it.
+    std::function<void(const SoundBlock&)> sound_tap();
     /// Records the camera of every tick. This must outlive it.
     std::unique_ptr<PictureSink> camera_sink();
 
@@ -46,9 +49,10 @@ class TakeDesk {
     void ask_all();
 
     std::filesystem::path path_, folder_;
+    bool has_sound_;
     TakeRecorder recorder_;
     std::mutex mutex_;
-    std::function<void(const std::string&, bool)> ask_;
+    std::function<void(const std::string&, bool)> ask_, look_at_;
     std::map<std::string, bool> wishes_;  ///< of the programme: whether it needs a rig's frames
 };
 

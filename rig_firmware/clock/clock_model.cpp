@@ -35,6 +35,7 @@ void ClockModel::observe(MonotonicTime source, TaiTime tai) {
     const double apart_ns = ns((tai - odd_->tai) - (source - odd_->source));
     if (std::abs(apart_ns) <= step_limit_ns + largest_rate_error * ns(source - odd_->source)) {
         ++steps_;
+        last_step_ns_ = deviation_ns;
         window_.clear();
         take(*odd_);
         odd_.reset();
@@ -93,7 +94,8 @@ ClockModel::State ClockModel::state() const {
             .residual_ns = residual_ns_,
             .pairs = pairs_,
             .outliers = outliers_,
-            .steps = steps_};
+            .steps = steps_,
+            .last_step_ns = last_step_ns_};
 }
 
 }  // namespace vantage

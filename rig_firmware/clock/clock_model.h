@@ -21,6 +21,7 @@ class ClockModel {
         std::uint64_t pairs = 0;  ///< taken since the start
         std::uint64_t outliers = 0;
         std::uint64_t steps = 0;  ///< either clock was set
+        double last_step_ns = 0;  ///< by so much, TAI forward of the source
     };
 
     /// Both clocks read at one moment. Pairs come in the order of their times; one that is no later
@@ -46,7 +47,7 @@ class ClockModel {
     std::optional<Pair> odd_;  ///< the last pair, far off the line
     double slope_ = 0;         ///< TAI nanoseconds a source nanosecond, less 1
     double intercept_ns_ = 0;  ///< of the line at the newest pair, less that pair's
-    double residual_ns_ = 0;
+    double residual_ns_ = 0, last_step_ns_ = 0;
     std::uint64_t pairs_ = 0, outliers_ = 0, steps_ = 0;
 };
 

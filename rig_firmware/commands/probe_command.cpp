@@ -15,6 +15,7 @@ struct ProbeReport {
     ProbePart gpio = probe_gpio();
     ProbePart gpu = probe_gpu();
     ProbePart clocks = probe_clocks();
+    ProbePart known = probe_known_faults();
     std::vector<std::string> unfit;
 
     ProbeReport() {
@@ -25,7 +26,7 @@ struct ProbeReport {
             unfit.insert(unfit.end(), part->unfit.begin(), part->unfit.end());
     }
     std::vector<const ProbePart*> parts() const {
-        return {&libcamera, &v4l2, &gpio, &gpu, &clocks};
+        return {&libcamera, &v4l2, &gpio, &gpu, &clocks, &known};
     }
 };
 
@@ -46,6 +47,7 @@ void print_for_machines(const ProbeReport& report) {
         {"gpio", report.gpio.facts},
         {"gpu", report.gpu.facts},
         {"clocks", report.clocks.facts},
+        {"known", report.known.facts},
         {"unfit", report.unfit}};
     // Device names are bytes that need not be UTF-8.
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";

@@ -29,7 +29,8 @@ std::unique_ptr<Matcher> chosen(const std::string& name, const RigConfig& config
                          .height_px = geometry.height_px,
                          .disparities = config.match.disparities,
                          .preset = parse_preset(config.match.preset),
-                         .fill = config.match.fill});
+                         .fill = config.match.fill,
+                         .of_stream = config.match.steady});
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       right_intake_(context_, shaders_, {calibration.right.width_px, calibration.right.height_px}),
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
-      packer_(config.stream.jpeg_quality),
+      packer_(config.stream.jpeg_quality, parse_chroma(config.stream.chroma)),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
     prepare_intakes(config.source.buffers, specimens);

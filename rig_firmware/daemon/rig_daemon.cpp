@@ -18,6 +18,8 @@
 #include "common/base/version.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
+#include "rig_firmware/clock/clock_model.h"
+#include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/clock/ptp_state_file.h"
 #include "rig_firmware/daemon/gpu_stage.h"
 #include "rig_firmware/daemon/health_monitor.h"
@@ -109,7 +111,8 @@ struct RigDaemon::Impl {
     void publish();
     void keep_in_step(const RigHealth& facts);
     void announce(std::uint64_t first_pulse);
-    RigSync sync_now(const std::optional<PtpReading>& clock, int tai_offset_s) const;
+    RigSync sync_now(const std::optional<PtpReading>& clock, int tai_offset_s,
+                     const ClockModel::State& time_of_day) const;
     void stop();
 
     /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
@@ -251,6 +254,7 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     std::optional<PtpReading> clock;
     int tai_offset_s = 0;
     HealthMonitor monitor(facts);
+    ClockModel time_of_day;  // Nothing sets CLOCK_MONOTONIC.
     for (int look = 0; !stopping && !finished; ++look) {
         sync_heart.beat();
         if (look % looks_per_second == 0) {
@@ -262,7 +266,9 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
             trigger->rethrow_failure();
             announce(publisher.announced_pulse());
         }
-        const RigSync now = sync_now(clock, tai_offset_s);
+        const ClockPair pair = ClockPair::now();
+        time_of_day.observe(pair.monotonic, pair.tai);
+        const RigSync now = sync_now(clock, tai_offset_s, time_of_day.state());
         publisher.report(now);
         {
             const std::lock_guard lock(mutex);
@@ -283,7 +289,9 @@ void RigDaemon::Impl::announce(std::uint64_t first_pulse) {
     }
 }
 
-RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int tai_offset_s) const {
+RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int tai_offset_s,
+                                  const ClockModel::State& time_of_day) const {
+    constexpr double ns_per_ms = 1e6;
     RigSync now;
     now.ready = true;
     now.tai_offset_s = tai_offset_s;
@@ -308,11 +316,10 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int ta
         now.ptp_path_delay_ns = clock->ptp.path_delay_ns;
         now.ptp_state = clock->ptp.port_state;
     }
+    now.clock_steps = time_of_day.steps;
+    now.clock_step_ms = time_of_day.last_step_ns / ns_per_ms;
     const std::lock_guard lock(mutex);
-    if (sensor_clock) {
-        now.clock_ppm = sensor_clock->ppm;
-        now.clock_steps = sensor_clock->steps;
-    }
+    if (sensor_clock) now.clock_ppm = sensor_clock->ppm;
     return now;
 }
 

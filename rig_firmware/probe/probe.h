@@ -21,5 +21,7 @@ ProbePart probe_v4l2();       ///< video nodes, with formats, sizes, rates and c
 ProbePart probe_gpio();       ///< chips and lines, with who holds each
 ProbePart probe_gpu();        ///< ways to a context, renderer, limits, import of camera buffers
 ProbePart probe_clocks();     ///< TAI, resolutions, PTP devices and daemons, scheduling
+ProbePart
+probe_known_faults();  ///< board, kernel, linuxptp, and what is known to be wrong with them
 
 }  // namespace vantage

@@ -23,6 +23,9 @@ struct MatchSettings {
     MatchPreset preset = MatchPreset::balanced;
     bool fill = true;         ///< dense output; false leaves unknown as 0
     bool confidence = false;  ///< also give Matcher::confidence()
+    /// Pictures follow one another from one place: what stands still is averaged along time before
+    /// it is matched. Matchers that have no such average take no notice.
+    bool of_stream = false;
 
     /// Throws Error naming the limit that is exceeded.
     void validate() const;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/config/rig_config.h"
+#include "common/serve/host_links.h"
 #include "common/wire/frame_message.h"
-#include "rig_firmware/stream/host_links.h"
 
 namespace vantage {
 

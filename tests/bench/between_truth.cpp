@@ -12,7 +12,8 @@
 #include "common/gl/egl_context.h"
 #include "common/image/image_file.h"
 #include "host_app/instants/depth_views.h"
-#include "host_app/motion/rig_motion.h"
+#include "host_app/motion/frame_between.h"
+#include "host_app/motion/rig_agreement.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/bench/cpu_time.h"
@@ -104,7 +105,7 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
         "| --- | --- | --- | --- | --- | --- |\n",
         wanted.size.width, wanted.size.height, wanted.apart_deg, wanted.rate_hz,
         wanted.with_exact_depth ? "exact" : "own", wanted.share);
-    std::vector<double> motion_ms, between_ms;
+    std::vector<double> motion_ms, agree_ms, between_ms;
     Errors all_rigs[ways], all_camera[ways];
     for (const std::uint64_t set : wanted.sets) {
         VirtualStage stage(library, set), truth_stage(library, set);
@@ -170,6 +171,18 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
             const std::vector<RigFrame> a = film(at(0)), b = film(at(1));
             std::vector<RigFrame> between[ways];
             between[filmed] = film(at(wanted.share));
+            std::vector<RigMotion> motions;
+            for (std::size_t r = 0; r < rigs.size(); ++r) {
+                const double start = cpu_ms();
+                motions.push_back(motion_between(a[r], b[r]));
+                motion_ms.push_back(cpu_ms() - start);
+            }
+            std::vector<FollowedRig> followed;
+            for (std::size_t r = 0; r < rigs.size(); ++r)
+                followed.push_back({&a[r], &b[r], &motions[r]});
+            const double asked = cpu_ms();
+            agree_on_motion(followed);
+            agree_ms.push_back((cpu_ms() - asked) / static_cast<double>(rigs.size()));
             for (std::size_t r = 0; r < rigs.size(); ++r) {
                 const VirtualRig clean(calibrations[r], {.sigma = 0}, false);
                 const ColourImage before = clean.render_noiseless(stage, at(0)).left;
@@ -178,11 +191,8 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                 const cv::Mat1b moving = moving_in(before, after);
                 between[nearest].push_back(wanted.share < 0.5 ? a[r] : b[r]);
                 between[blended].push_back(blended_frame(a[r], b[r], wanted.share));
-                double start = cpu_ms();
-                const RigMotion motion = motion_between(a[r], b[r]);
-                motion_ms.push_back(cpu_ms() - start);
-                start = cpu_ms();
-                between[moved].push_back(frame_between(a[r], b[r], motion, wanted.share));
+                const double start = cpu_ms();
+                between[moved].push_back(frame_between(a[r], b[r], motions[r], wanted.share));
                 between_ms.push_back(cpu_ms() - start);
                 for (int way = 0; way < ways; ++way) {
                     at_rigs[way].add(between[way][r].colour, truth, moving);
@@ -235,12 +245,14 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                                  all_rigs[way].psnr_db(0), all_rigs[way].psnr_db(1),
                                  wanted.with_camera ? all_camera[way].psnr_db(0) : 0,
                                  wanted.with_camera ? all_camera[way].psnr_db(1) : 0);
-    std::sort(motion_ms.begin(), motion_ms.end());
-    std::sort(between_ms.begin(), between_ms.end());
+    const auto median_of = [](std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
     std::cout << fmt::format(
         "\nOf the processor, median: {:.1f} ms a rig and pair of pulses for the motion, {:.1f} ms "
-        "a rig and instant for the frame between.\n",
-        motion_ms[motion_ms.size() / 2], between_ms[between_ms.size() / 2]);
+        "for what rigs ask each other, {:.1f} ms a rig and instant for the frame between.\n",
+        median_of(motion_ms), median_of(agree_ms), median_of(between_ms));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/bench/markdown_tables.h"
+#include "tests/bench/run_bench.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -300,10 +301,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage
 
 int main(int argc, char** argv) {
-    try {
-        return vantage::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "gallery_bench: " << error.what() << '\n';
-        return 1;
-    }
+    return vantage::run_bench("gallery_bench", [&] { return vantage::run(argc, argv); });
 }

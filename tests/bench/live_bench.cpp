@@ -17,6 +17,7 @@
 #include "host_app/instants/depth_views.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/run_bench.h"
 #include "tests/bench/size_option.h"
 
 namespace vantage {
@@ -164,10 +165,5 @@ int main(int argc, char** argv) {
     app.add_option("--repeats", options.repeats, "Of which the medians are taken")
         ->check(CLI::Range(1, 1000));
     CLI11_PARSE(app, argc, argv);
-    try {
-        std::cout << vantage::table(options);
-    } catch (const std::exception& error) {
-        std::cerr << "live_bench: " << error.what() << "\n";
-        return 1;
-    }
+    return vantage::run_bench("live_bench", [&] { std::cout << vantage::table(options); });
 }

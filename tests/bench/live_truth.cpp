@@ -23,6 +23,12 @@ int main(int argc, char** argv) {
     steps->add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
     steps->add_option("--preset", preset, "Of the rigs' matchers");
     steps->add_option("--disparities", stepped.rigs.disparities);
+    steps
+        ->add_option("--jpeg-quality", stepped.rigs.jpeg_quality,
+                     "Of the rigs' colour; 0: it is not packed")
+        ->check(CLI::Range(0, 100));
+    std::string chroma(name_of(stepped.rigs.chroma));
+    steps->add_option("--chroma", chroma, "4:4:4, 4:2:2 or 4:2:0")->capture_default_str();
     steps->add_option("--apart", stepped.apart_deg, "Degrees between two rigs");
     steps->add_option("--rate", stepped.rate_hz, "Instants a second")
         ->check(CLI::Range(0.5, 100.0));
@@ -77,6 +83,7 @@ int main(int argc, char** argv) {
         for (const std::string& region : exact_in)
             stepped.exact_in.push_back(parse_truth_region(region));
         stepped.rigs.size = size_of(size);
+        stepped.rigs.chroma = parse_chroma(chroma);
         stepped.rigs.preset = parse_preset(preset);
         std::cout << stepped_table(shaders, stepped);
     } catch (const std::exception& error) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/colour_codec.h"
+
 namespace vantage {
 
 StereoCalibration rig_at(double azimuth_deg, cv::Size size) {
@@ -26,8 +28,11 @@ MatchingRig::MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::
                             {.width_px = settings.size.width,
                              .height_px = settings.size.height,
                              .disparities = settings.disparities,
-                             .preset = settings.preset})),
-      steady_(library, settings.size.width, settings.size.height) {
+                             .preset = settings.preset,
+                             .of_stream = true})),
+      steady_(library, settings.size.width, settings.size.height),
+      jpeg_quality_(settings.jpeg_quality),
+      chroma_(settings.chroma) {
     view_.name = fmt::format("{:g}", azimuth_deg);
     view_.K = calibration_.left.K();
     view_.world_from_camera = calibration_.world_from_left;
@@ -41,6 +46,10 @@ void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
     right_.upload(frame.right);
     const cv::Mat found = steady_.run(matcher_->match(left_, right_), left_).download();
     view_.colour = frame.left;
+    if (jpeg_quality_ > 0)
+        view_.colour =
+            JpegDecoder().decode(JpegEncoder().encode(frame.left, jpeg_quality_, chroma_),
+                                 frame.left.cols, frame.left.rows);
     own_m_ = depth_of(found);
     exact_m_ = depth_of(frame.exact_disparity);
 }

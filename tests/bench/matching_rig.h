@@ -6,6 +6,7 @@
 
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "common/wire/chroma.h"
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/virtual_view.h"
 #include "rig_firmware/stereo/matcher.h"
@@ -27,6 +28,8 @@ class MatchingRig {
         int disparities = 64;
         MatchPreset preset = MatchPreset::quality;
         double noise_sigma = 1;  ///< of the sensors, grey levels
+        int jpeg_quality = 0;    ///< 1..100: colour goes through a JPEG; 0: as it is seen
+        Chroma chroma = Chroma::quarter;
     };
     MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::uint64_t seed,
                 const Settings& settings);
@@ -46,6 +49,8 @@ class MatchingRig {
     Texture left_, right_;
     std::unique_ptr<Matcher> matcher_;
     TemporalPass steady_;
+    int jpeg_quality_;
+    Chroma chroma_;
     DepthView view_;
     DepthImage own_m_, exact_m_;
 };

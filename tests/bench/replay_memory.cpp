@@ -10,55 +10,23 @@
 #include "common/gl/egl_context.h"
 #include "common/wire/frame_codec.h"
 #include "host_app/sets/replay_buffer.h"
-#include "tests/bench/matching_rig.h"
-#include "tests/bench/size_option.h"
+#include "tests/bench/full_size_frames.h"
+#include "tests/bench/run_bench.h"
 
 namespace vantage {
 namespace {
 
 struct Wanted {
-    std::string colour = "1456x1088", depth = "640x400";
-    double rate_hz = 30, seconds = 20, past_mb = 1000, noise_sigma = 1;
-    int jpeg_quality = 85, disparities = 64, instants = 3;
+    FullSizeFrames frames;
+    double rate_hz = 30, seconds = 20, past_mb = 1000;
 };
-
-/// One rig's frames at a few moments of the stage, as they travel.
-std::vector<PackedFrame> film(const ShaderLibrary& library, const Wanted& wanted,
-                              double azimuth_deg, std::uint64_t seed) {
-    VirtualStage stage(library, 0);
-    const VirtualRig colours(rig_at(azimuth_deg, size_of(wanted.colour)),
-                             {.sigma = wanted.noise_sigma, .seed = seed}, false);
-    const StereoCalibration small = rig_at(azimuth_deg, size_of(wanted.depth));
-    MatchingRig::Settings settings;
-    settings.size = size_of(wanted.depth);
-    settings.disparities = wanted.disparities;
-    settings.preset = MatchPreset::balanced;
-    settings.noise_sigma = wanted.noise_sigma;
-    MatchingRig depths(library, azimuth_deg, seed, settings);
-    FrameEncoder encoder(wanted.jpeg_quality);
-    std::vector<PackedFrame> frames;
-    for (int i = 0; i < wanted.instants; ++i) {
-        const std::chrono::milliseconds at(2000 + 700 * i);
-        const auto number = static_cast<std::uint64_t>(i);
-        depths.film(stage, at, number);
-        const DepthView seen = depths.view(true);
-        RigFrame frame;
-        frame.rig = seen.name;
-        frame.colour = colours.render(stage, at, number).left;
-        frame.disparity = disparity_from_depth(seen.depth_m, small.rectified);
-        frame.geometry = rig_at(azimuth_deg, size_of(wanted.colour)).rectified;
-        frame.world_from_camera = seen.world_from_camera;
-        frames.push_back(encoder.encode(frame));
-    }
-    return frames;
-}
 
 void measure(const ShaderLibrary& library, const Wanted& wanted) {
     constexpr double places_deg[] = {-30, -10, 10, 30};
     std::vector<std::vector<PackedFrame>> rigs;
     double colour = 0, disparity = 0, frames = 0;
     for (const double azimuth_deg : places_deg) {
-        rigs.push_back(film(library, wanted, azimuth_deg, rigs.size() + 1));
+        rigs.push_back(film_full_size(library, wanted.frames, azimuth_deg, rigs.size() + 1));
         for (const PackedFrame& frame : rigs.back()) {
             colour += static_cast<double>(frame.colour.size());
             disparity += static_cast<double>(frame.disparity.size());
@@ -80,13 +48,14 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
     }
     const PastSets::Span span = *past.span();
     std::cout << fmt::format(
-        "{} rigs, colour {} as JPEG {}, depth {}, {:g} Hz, noise of {:g} grey levels: a frame has "
+        "{} rigs, colour {} as JPEG {} of {}, depth {}, {:g} Hz, noise of {:g} grey levels: a "
+        "frame has "
         "{:.0f} kB of colour and {:.0f} kB of depth.\n"
         "Of {:g} s a replay buffer of {:g} MB keeps {:.1f} s, {:.0f} MB.\n",
-        rigs.size(), wanted.colour, wanted.jpeg_quality, wanted.depth, wanted.rate_hz,
-        wanted.noise_sigma, colour / frames / 1e3, disparity / frames / 1e3, wanted.seconds,
-        wanted.past_mb, static_cast<double>(span.sets) / wanted.rate_hz,
-        static_cast<double>(span.bytes) / 1e6);
+        rigs.size(), wanted.frames.colour, wanted.frames.jpeg_quality, wanted.frames.chroma,
+        wanted.frames.depth, wanted.rate_hz, wanted.frames.noise_sigma, colour / frames / 1e3,
+        disparity / frames / 1e3, wanted.seconds, wanted.past_mb,
+        static_cast<double>(span.sets) / wanted.rate_hz, static_cast<double>(span.bytes) / 1e6);
 }
 
 }  // namespace
@@ -96,25 +65,25 @@ int main(int argc, char** argv) {
     using namespace vantage;
     CLI::App app("How long a past fits into the replay buffer");
     Wanted wanted;
-    app.add_option("--colour", wanted.colour, "Size of the rigs' pictures")->capture_default_str();
-    app.add_option("--depth", wanted.depth, "Size of their depth")->capture_default_str();
+    app.add_option("--colour", wanted.frames.colour, "Size of the rigs' pictures")
+        ->capture_default_str();
+    app.add_option("--depth", wanted.frames.depth, "Size of their depth")->capture_default_str();
     app.add_option("--rate", wanted.rate_hz, "Pulses a second")->capture_default_str();
     app.add_option("--seconds", wanted.seconds, "That are sent")->capture_default_str();
     app.add_option("--past-mb", wanted.past_mb, "Of the buffer")->capture_default_str();
-    app.add_option("--jpeg-quality", wanted.jpeg_quality, "1 to 100; 0: lossless")
+    app.add_option("--jpeg-quality", wanted.frames.jpeg_quality, "1 to 100; 0: lossless")
         ->capture_default_str();
-    app.add_option("--noise", wanted.noise_sigma, "Of the sensors, grey levels")
+    app.add_option("--chroma", wanted.frames.chroma, "4:4:4, 4:2:2 or 4:2:0")
         ->capture_default_str();
-    app.add_option("--instants", wanted.instants, "Of the stage, which are sent in turn")
+    app.add_option("--noise", wanted.frames.noise_sigma, "Of the sensors, grey levels")
+        ->capture_default_str();
+    app.add_option("--instants", wanted.frames.instants, "Of the stage, which are sent in turn")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    try {
-        EglContext context;
+    return run_bench("replay_memory", [&] {
+        const EglContext context;
         const ShaderLibrary shaders;
         measure(shaders, wanted);
-    } catch (const std::exception& error) {
-        std::cerr << "replay_memory: " << error.what() << "\n";
-        return 1;
-    }
+    });
 }

@@ -113,15 +113,15 @@ std::string rows(const ShaderLibrary& library, const SetTruth& wanted, std::uint
         const std::shared_ptr<const Instant> instant =
             preparer.prepare(target, prepare_levels().front());
         const RigSurface& surface = *instant->rigs.at(0).surface;
-        const DepthImage depth_m(surface.plate()->picture().depth_m().download());
+        const DepthImage depth_m(surface.depth().download());
         const DepthImage& truth_m = regions[i].set_depth_m();
         const double apart_m = (camera.world_from_camera.translation() -
                                 rigs[i > 0 ? i - 1 : 1]->camera().world_from_camera.translation())
                                    .norm();
         const double parallax_px = camera.K(0, 0) * apart_m;
         const cv::Mat1b where = regions[i].of(truth_m);
-        cv::Mat1b is_known;
-        cv::extractChannel(surface.plate()->picture().colour().download(), is_known, 3);
+        const cv::Mat1b is_known =
+            SetLearner::known(learnt.rigs[i], 1 / wanted.rate_hz) & (depth_m > 0);
         learnt_errors.add(learnt.rigs[i].depth_m, truth_m, where, is_known, parallax_px);
         bettered_errors.add(depth_m, truth_m, where, is_known, parallax_px);
         if (!wanted.pictures.empty())

@@ -16,6 +16,7 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/run_bench.h"
 
 namespace vantage {
 namespace {
@@ -98,11 +99,5 @@ int main(int argc, char** argv) {
     program.add_option("--columns", options.columns, "of the strip");
     program.add_option("--azimuths", options.azimuths_deg, "of the strip's rigs, in degrees");
     CLI11_PARSE(program, argc, argv);
-    try {
-        vantage::run(options);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stage_bench: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return vantage::run_bench("stage_bench", [&] { vantage::run(options); });
 }

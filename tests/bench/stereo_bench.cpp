@@ -26,9 +26,12 @@
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/opencv_matchers.h"
+#include "tests/bench/plain_surface_table.h"
 #include "tests/bench/printed_text.h"
+#include "tests/bench/run_bench.h"
 #include "tests/bench/stereo_scenes.h"
 #include "tests/bench/stereo_stage_tables.h"
+#include "tests/bench/still_film_table.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -333,7 +336,7 @@ int run(int argc, char** argv) {
     std::string data = data_folder().value_or("").string(), pictures, matcher, only, memory_of;
     int repeats = 11, random_scenes = 6;
     std::uint64_t first_seed = first_held_out_seed;
-    bool no_times = false, gpu_times = false;
+    bool no_times = false, gpu_times = false, only_plain = false, only_films = false;
     std::string document, stage_picture;
     app.add_option("--write", document, "Markdown file whose tables are written anew");
     app.add_option("--stage-picture", stage_picture,
@@ -347,6 +350,8 @@ int run(int argc, char** argv) {
     app.add_option("--random-scenes", random_scenes, "generated scenes to judge as well");
     app.add_option("--first-seed", first_seed, "of the generated scenes");
     app.add_flag("--quality-only", no_times, "leave out times, memory and robustness");
+    app.add_flag("--only-plain", only_plain, "print only the table of plain surfaces");
+    app.add_flag("--only-films", only_films, "print only the tables of films");
     app.add_flag("--gpu-times", gpu_times, "print only what matching takes on the GPU");
     app.add_option("--memory-of", memory_of, "print only this preset's memory, as a row's end");
     CLI11_PARSE(app, argc, argv);
@@ -364,6 +369,10 @@ int run(int argc, char** argv) {
     if (gpu_times) {
         fmt::print("{}\n\n", GlInfo::query().renderer);
         print_gpu_times(library, matcher, repeats);
+        return 0;
+    }
+    if (only_films) {
+        print_still_film_table(library);
         return 0;
     }
     std::optional<PrintedText> printed;
@@ -384,7 +393,13 @@ int run(int argc, char** argv) {
             return scene.name.find(only) == std::string::npos;
         });
     if (!pictures.empty()) std::filesystem::create_directories(pictures);
+    if (only_plain) {
+        print_plain_surface_table(library, scenes);
+        return 0;
+    }
     print_quality(library, matcher, scenes, pictures);
+    print_plain_surface_table(library, scenes);
+    print_still_film_table(library);
     print_stage_tables(library, stage_picture);
     if (no_times) {
         write_document();
@@ -411,10 +426,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage
 
 int main(int argc, char** argv) {
-    try {
-        return vantage::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "stereo_bench: " << error.what() << '\n';
-        return 1;
-    }
+    return vantage::run_bench("stereo_bench", [&] { return vantage::run(argc, argv); });
 }

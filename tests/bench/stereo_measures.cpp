@@ -58,6 +58,36 @@ SubpixelError subpixel_error_on_slants(const cv::Mat1f& found_px, const FilmedPa
     return result;
 }
 
+cv::Mat1b plain_pixels(const GreyImage& luma) {
+    cv::Mat1f along, down, gradient;
+    cv::Sobel(luma, along, CV_32F, 1, 0, 1, 0.5);
+    cv::Sobel(luma, down, CV_32F, 0, 1, 1, 0.5);
+    cv::magnitude(along, down, gradient);
+    cv::boxFilter(gradient, gradient, CV_32F, {9, 9});
+    return gradient < most_plain_gradient;
+}
+
+cv::Mat1b seen_by_right(const cv::Mat1f& disparity_px) {
+    cv::Mat1b seen(disparity_px.size(), 0);
+    std::vector<float> nearest(static_cast<std::size_t>(disparity_px.cols));
+    for (int y = 0; y < disparity_px.rows; ++y) {
+        std::ranges::fill(nearest, 0.0f);
+        const auto place = [&](int x) {
+            return static_cast<int>(std::lround(static_cast<float>(x) - disparity_px(y, x)));
+        };
+        for (int x = 0; x < disparity_px.cols; ++x)
+            if (place(x) >= 0) {
+                float& d = nearest[static_cast<std::size_t>(place(x))];
+                d = std::max(d, disparity_px(y, x));
+            }
+        for (int x = 0; x < disparity_px.cols; ++x)
+            if (place(x) >= 0 &&
+                disparity_px(y, x) + 1 >= nearest[static_cast<std::size_t>(place(x))])
+                seen(y, x) = 255;
+    }
+    return seen;
+}
+
 std::vector<JudgedPixel> judged_pixels(const Matcher& matcher, const cv::Mat1f& found_px,
                                        const FilmedPair& pair, float most_px) {
     const cv::Mat1b confidence = matcher.confidence()->download();

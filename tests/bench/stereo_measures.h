@@ -19,6 +19,16 @@ struct SubpixelError {
 SubpixelError subpixel_error_on_slants(const cv::Mat1f& found_px, const FilmedPair& pair,
                                        int disparities);
 
+/// Grey levels a pixel, mean length of the gradient over 9x9 pixels, below which a surface counts
+/// as plain.
+inline constexpr float most_plain_gradient = 4;
+
+/// 255 where a surface is plain.
+cv::Mat1b plain_pixels(const GreyImage& luma);
+
+/// 255 where the right camera sees what the left one does, by the left one's exact disparity.
+cv::Mat1b seen_by_right(const cv::Mat1f& disparity_px);
+
 /// A pixel of known truth: how sure the matcher was, and whether it erred by more than it may.
 struct JudgedPixel {
     int confidence;

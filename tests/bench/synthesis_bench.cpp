@@ -25,6 +25,7 @@
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/own_matching_table.h"
+#include "tests/bench/run_bench.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {
@@ -259,10 +260,5 @@ int run(int argc, char** argv) {
 }  // namespace vantage
 
 int main(int argc, char** argv) {
-    try {
-        return vantage::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "synthesis_bench: " << error.what() << '\n';
-        return 1;
-    }
+    return vantage::run_bench("synthesis_bench", [&] { return vantage::run(argc, argv); });
 }

@@ -15,6 +15,7 @@
 #include "host_app/live/live_show.h"
 #include "host_app/takes/take_sets.h"
 #include "host_app/takes/take_show.h"
+#include "tests/bench/run_bench.h"
 #include "tests/bench/size_option.h"
 
 namespace vantage {
@@ -116,10 +117,5 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seed", wanted.seed, "Of the places")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    try {
-        measure(wanted);
-    } catch (const std::exception& error) {
-        std::cerr << "take_seeks: " << error.what() << "\n";
-        return 1;
-    }
+    return run_bench("take_seeks", [&] { measure(wanted); });
 }

@@ -1,7 +1,6 @@
 // What a network does to the frames between a rig and a host, and what becomes of them.
 #include <chrono>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,6 +10,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "rig_firmware/stream/publisher.h"
+#include "tests/faults/comes_true.h"
 #include "tests/faults/impaired_road.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/wire_frames.h"
@@ -20,22 +20,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Far beyond what any of this takes; a test that waits so long has failed.
-constexpr auto patience = 60s;
 /// A stage of 25 pulses a second. A slow computer makes beats longer, and never shorter.
 constexpr auto beat_period = 40ms;
 /// Two seconds.
 constexpr int beats_to_recover = 50;
 constexpr int beats_of_trouble = 50;
-
-bool comes_true(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (std::chrono::steady_clock::now() < end) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(2ms);
-    }
-    return false;
-}
 
 struct NetworkFault {
     std::string name;

@@ -3,7 +3,6 @@
 #include <array>
 #include <chrono>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -23,6 +22,7 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
 #include "rig_firmware/stream/publisher.h"
+#include "tests/faults/comes_true.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/wire_frames.h"
 
@@ -32,18 +32,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// Far beyond what any of this takes; a test that waits so long has failed.
-constexpr auto patience = 60s;
 constexpr int beats_beside = 25;
-
-bool in_time(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (std::chrono::steady_clock::now() < end) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(2ms);
-    }
-    return false;
-}
 
 std::size_t log_lines_with(const std::string& words) {
     const std::vector<std::string> lines = recent_log_lines();
@@ -81,7 +70,7 @@ class PeerFaults : public testing::Test {
         place_.sin_port = htons(static_cast<std::uint16_t>(
             std::stoi(rig_->endpoint().substr(rig_->endpoint().rfind(':') + 1))));
         host_ = std::make_unique<StageReceiver>(stage_at(rig_->endpoint()));
-        ASSERT_TRUE(in_time([&] { return host_->status().rigs[0].connected; }));
+        ASSERT_TRUE(comes_true([&] { return host_->status().rigs[0].connected; }));
         beat();
     }
 
@@ -96,7 +85,7 @@ class PeerFaults : public testing::Test {
     void beat() {
         rig_->publish(make_frame(1000 + beats_));
         ++beats_;
-        ASSERT_TRUE(in_time([&] { return host_->status().rigs[0].received == beats_; }));
+        ASSERT_TRUE(comes_true([&] { return host_->status().rigs[0].received == beats_; }));
         while (host_->next(0s)) {
         }
     }
@@ -176,7 +165,7 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     nothing_was_noticed();
     // Who is welcome still comes in.
     const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::look_on);
-    EXPECT_TRUE(in_time([&] { return second.status().rigs[0].connected; }));
+    EXPECT_TRUE(comes_true([&] { return second.status().rigs[0].connected; }));
     strangers.clear();
     beat();
 }
@@ -196,7 +185,7 @@ TEST_F(PeerFaults, AFloodOfStrangersKeysIsRefusedAndSaidOnce) {
         strangers.push_back(std::move(socket));
     }
     const std::string refused = stranger_keys.public_key + " is refused";
-    ASSERT_TRUE(in_time([&] { return log_lines_with(refused) > 0; }));
+    ASSERT_TRUE(comes_true([&] { return log_lines_with(refused) > 0; }));
     beat(beats_beside);
     nothing_was_noticed();
     EXPECT_LE(log_lines_with(refused), most_lines());
@@ -217,7 +206,7 @@ TEST_F(PeerFaults, AHostThatFloodsIsAnsweredAFewTimesAndSaidOnce) {
         (void)socket.send(zmq::str_buffer("\xff\x07garbage"), zmq::send_flags::none);
         if (i % 500 == 0) beat();
     }
-    ASSERT_TRUE(in_time([&] { return rig_->status().malformed == 5000; }));
+    ASSERT_TRUE(comes_true([&] { return rig_->status().malformed == 5000; }));
     beat(beats_beside);
     nothing_was_noticed();
     const std::size_t lines = log_lines_with(refused) - lines_before;
@@ -249,7 +238,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
                          MSG_NOSIGNAL);
         }
     };
-    ASSERT_TRUE(in_time([&] {
+    ASSERT_TRUE(comes_true([&] {
         carry();
         return second->status().rigs[0].connected;
     }));
@@ -296,7 +285,7 @@ TEST_F(PeerFaults, ASlowReaderLosesItsOwnFramesOnly) {
         (void)slow.send(zmq::buffer(message), zmq::send_flags::none);
     };
     say();
-    ASSERT_TRUE(in_time([&] { return rig_->status().hosts.size() == 2; }));
+    ASSERT_TRUE(comes_true([&] { return rig_->status().hosts.size() == 2; }));
     for (int i = 0; i < 100 && !HasFatalFailure(); ++i) {
         say();
         beat();

@@ -77,7 +77,7 @@ void write_pictures(const Seeds& seeds) {
     seeds.write("colour_codec", "lossless",
                 with_size(width, height, LosslessColourEncoder().encode(frame.colour)));
     seeds.write("colour_codec", "jpeg",
-                with_size(width, height, JpegEncoder().encode(frame.colour, 85)));
+                with_size(width, height, JpegEncoder().encode(frame.colour, 85, Chroma::quarter)));
     write_pfm(seeds.place("pfm", "plain"), cv::Mat1f(3, 4, 2.0f));
 }
 
@@ -137,6 +137,7 @@ disparities = 32
 [stream]
 bind = "tcp://127.0.0.1:5600"
 jpeg_quality = 85
+chroma = "4:4:4"
 queue_frames = 4
 key_file = "k"
 authorized_hosts = "h"
@@ -253,10 +254,19 @@ void write_controls(const Seeds& seeds) {
     seeds.write("osc_message", "bundle",
                 "#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x14/vantage/live\0\0\0,\0\0\0"sv);
     seeds.write("rosstalk_line", "lines", "GPI 3\r\nXPT 1:2\r\nMEM 4\r\nGPI -1\r\n");
+    seeds.write("midi_message", "pad_encoder_bend",
+                "\0\1\x24\x64\0\0\0\1\1\x10\x7f\0\0\0\2\1\0\0\x10\0\0"sv);
+    seeds.write("midi_map", "one_of_each",
+                "version = 1\n[buttons]\n\"note 36\" = \"shot 1\"\n[axes.\"cc 1 ch 2\"]\n"
+                "action = \"orbit\"\nbits = 14\n[lamps.\"note 36\"]\nlamp = \"hold\"\non = 5\n");
     seeds.write("clip_file", "two",
                 "version = 1\npulse_rate_hz = 25\nprogramme_speed = 0.5\nlist_loops = true\n"
                 "[[clip]]\nnumber = 1\nname = \"leap\"\nin_pulse = 5\nout_pulse = 9\n"
                 "speed = 0.5\nguard_s = 2\nshot = 3\n[[entry]]\nclip = 1\nspeed = 2\n");
+    seeds.write("desk_file", "arranged",
+                "version = 1\npanels = true\nrigs = false\noutside = true\n[eye]\n"
+                "azimuth_deg = 30\nelevation_deg = 20\nnearness = 0.5\n[window]\nx = 0\n"
+                "y = 0\nwidth = 1280\nheight = 720\nmaximised = false\n");
     seeds.write("tsl_message", "v3",
                 "\x85\x31"
                 "CAMERA 5        "sv);
@@ -354,6 +364,7 @@ void write_takes(const Seeds& seeds) {
         TakeFacts facts;
         facts.program = "seed";
         facts.origin = tai_from_ns(0);
+        facts.has_sound = quality > 0;
         PackedFrame packed = FrameEncoder(quality).encode(frame);
         facts.rigs = {take_rig_of(decode_frame_head(packed.header))};
         const std::filesystem::path path =
@@ -369,6 +380,8 @@ void write_takes(const Seeds& seeds) {
         CameraRecord camera;
         camera.time = tai_from_ns(1'000'000);
         writer.add(camera);
+        const SoundBlock sound{480, std::vector<float>(960, 0.1F)};
+        if (facts.has_sound) writer.add(sound);
         writer.finish();
         const auto unsealed = [](const std::string& text) {
             return text.substr(0, text.rfind(",\"crc32\""));
@@ -377,6 +390,8 @@ void write_takes(const Seeds& seeds) {
         seeds.write("take", "depth-" + std::to_string(quality), stored.depth);
         seeds.write("take", "record-" + std::to_string(quality), unsealed(to_text(stored.record)));
         seeds.write("take", "camera-" + std::to_string(quality), unsealed(to_text(camera)));
+        seeds.write("take", "sound-" + std::to_string(quality),
+                    unsealed(to_text(SoundRecord{480, 480, 1})));
         seeds.write("take", "facts-" + std::to_string(quality), to_json(facts).dump());
     }
 }

@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 extern "C" {
@@ -20,6 +21,7 @@ void read_sealed(std::span<const std::byte> bytes) {
     expect_result_or_error([&] { take_facts_from(text); });
     expect_result_or_error([&] { frame_record_from(seal_record(text)); });
     expect_result_or_error([&] { camera_record_from(seal_record(text)); });
+    expect_result_or_error([&] { sound_record_from(seal_record(text)); });
     RigFrame frame = seed_frame();
     const PackedFrame packed = FrameEncoder(85).encode(frame);
     static const TakeRig rig = take_rig_of(decode_frame_head(packed.header));
@@ -41,6 +43,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const InputFile file({data, size});
     expect_result_or_error([&] {
         const TakeReader reader(file.path());
+        std::int64_t heard = 0;
+        for (const TakeReader::Sound& sound : reader.sounds()) {
+            // Whoever plays it looks for a sample among blocks in their order.
+            if (sound.first < heard || sound.count == 0) std::abort();
+            heard = sound.end();
+            expect_result_or_error([&] {
+                if (sound_from_stored(reader.load(sound)).size() != sound_channels * sound.count)
+                    std::abort();
+            });
+        }
         for (std::size_t rig = 0; rig < reader.facts().rigs.size(); ++rig) {
             std::optional<FrameRestorer> restorer;
             for (const TakeReader::Frame& frame : reader.frames(rig))

@@ -82,16 +82,6 @@ void read_axis_action(TomlTable& table, AxisMap& map) {
     table.refuse(key, fmt::format("must not be '{}'; {}", name, suggest_name(name, names)));
 }
 
-ButtonMap read_button(TomlTable& table, const std::string& control, const std::string& action) {
-    if (action == does_nothing) return {};
-    if (action == store_next) return {ButtonAction::store_next, {}};
-    if (const std::optional<CommandCall> call = parse_button_command(action))
-        return {ButtonAction::command, *call};
-    std::vector<std::string> names = button_commands();
-    names.insert(names.end(), {does_nothing, store_next});
-    table.refuse(control, fmt::format("must not be '{}'; {}", action, suggest_name(action, names)));
-}
-
 ReportField read_field(TomlTable& table) {
     ReportField field;
     table.require("name");
@@ -177,16 +167,11 @@ WheelProfile read_members(TomlTable& top) {
     const auto controls = controls_of(profile, top);
     top.read_named_tables("axes", [&](const std::string& name, TomlTable& table) {
         check_control(table, "action", name, false, controls);
-        AxisMap map;
-        read_axis_action(table, map);
+        const AxisMap map = read_axis_map(table);
         if (map.action == AxisAction::shuttle && !has_control(controls, name, JogKind::axis))
             table.refuse("action",
                          "must not be 'shuttle' for a control without a rest; 'wheel' "
                          "takes its steps");
-        table.read("dead_zone", map.dead_zone, {0, 0.9});
-        table.read("sensitivity", map.sensitivity, {0.001, 1000});
-        table.read("curve", map.curve, {0.2, 5});
-        table.read("inverted", map.inverted);
         profile.axes[name] = map;
     });
     top.read_table("buttons", [&](TomlTable& table) {
@@ -194,7 +179,7 @@ WheelProfile read_members(TomlTable& top) {
             std::string action;
             table.read(name, action);
             check_control(table, name, name, true, controls);
-            profile.buttons[name] = read_button(table, name, action);
+            profile.buttons[name] = read_button_map(table, name, action);
         }
     });
     return profile;
@@ -218,6 +203,27 @@ void add_profiles_of(const std::filesystem::path& own, std::vector<WheelProfile>
 }
 
 }  // namespace
+
+AxisMap read_axis_map(TomlTable& table) {
+    AxisMap map;
+    read_axis_action(table, map);
+    table.read("dead_zone", map.dead_zone, {0, 0.9});
+    table.read("sensitivity", map.sensitivity, {0.001, 1000});
+    table.read("curve", map.curve, {0.2, 5});
+    table.read("inverted", map.inverted);
+    return map;
+}
+
+ButtonMap read_button_map(const TomlTable& table, const std::string& control,
+                          const std::string& action) {
+    if (action == does_nothing) return {};
+    if (action == store_next) return {ButtonAction::store_next, {}};
+    if (const std::optional<CommandCall> call = parse_button_command(action))
+        return {ButtonAction::command, *call};
+    std::vector<std::string> names = button_commands();
+    names.insert(names.end(), {does_nothing, store_next});
+    table.refuse(control, fmt::format("must not be '{}'; {}", action, suggest_name(action, names)));
+}
 
 WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::path& name) {
     WheelProfile profile;

@@ -12,6 +12,8 @@
 
 namespace vantage {
 
+class TomlTable;
+
 inline constexpr std::size_t max_wheel_file_bytes = 1 << 20;
 /// What a control is called that does nothing.
 inline constexpr const char* does_nothing = "nothing";
@@ -43,6 +45,12 @@ struct ButtonMap {
     ButtonAction action = ButtonAction::nothing;
     CommandCall call = {};  ///< of ButtonAction::command; a shot stores after `store_next`
 };
+
+/// The action of an axis with all that shapes it, out of its table. Throws Error as the table does.
+AxisMap read_axis_map(TomlTable& table);
+/// What a button does, by the words of its key `control`. Throws Error for what is no command.
+ButtonMap read_button_map(const TomlTable& table, const std::string& control,
+                          const std::string& action);
 
 /// What a wheel's controls do, and for a wheel that no family knows how its reports are read. A
 /// file each (hw_config/jog/ documents every key).

@@ -6,6 +6,7 @@
 
 #include "common/base/time.h"
 #include "host_app/control/flight_controls.h"
+#include "host_app/control/ports/ltc_board.h"
 #include "host_app/control/table/lamp.h"
 
 namespace vantage {
@@ -55,6 +56,7 @@ struct ControlBench {
     TrackedCamera& tracked;
     Tally& tally;
     const LampBoard& lamps;
+    LtcBoard& ltc;
 };
 
 }  // namespace vantage

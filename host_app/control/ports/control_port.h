@@ -19,6 +19,7 @@ struct PortBooks {
     std::uint64_t malformed = 0;  ///< not what the protocol says, or an argument that does not fit
     std::uint64_t dropped = 0;    ///< more than may come
     std::string last_refusal;     ///< the latest that was unknown or malformed, for people
+    std::string told;             ///< what came last, for people, where that is not a command
 };
 
 /// Something that listens for others who steer, or tell of what is steered. Made, served and

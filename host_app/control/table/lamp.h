@@ -23,7 +23,10 @@ struct ShowLamps {
     double set = -1;  ///< 0..1 known, of the rig that knows least; -1: none is learnt
     std::string saved_set;
     bool programme_tally = false, preview_tally = false;
-    bool tracked = false;  ///< a tracked camera flies
+    bool hands_preview = false;   ///< hands fly a camera on preview
+    double fly_to_preview = -1;   ///< 0..1; -1: not under way
+    double fly_to_preview_s = 0;  ///< that it takes
+    bool tracked = false;         ///< a tracked camera flies
     bool source_map = false;
     double move = -1;      ///< 0..1 along the planned move; -1: not on it
     double keyframes = 0;  ///< that the move has

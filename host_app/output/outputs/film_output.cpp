@@ -79,6 +79,10 @@ class FilmTarget final : public OutputTarget {
         }
         writer_->add(picture, tick - first_tick_, timecode);
     }
+    void hear(const SoundBlock& sound, std::int64_t tick) override {
+        // What belongs to the end of a part that is written already.
+        if (writer_->frames() > 0 && tick >= first_tick_) writer_->hear(sound, tick - first_tick_);
+    }
     void finish() override { writer_->finish(); }
     std::string salvage() override {
         if (writer_->frames() == 0) return "";
@@ -116,7 +120,8 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                       .height_px = format.height_px,
                       .rate_hz = format.rate_hz,
                       .bit_rate_bps = url.bit_rate_bps(),
-                      .encoder = format.encoder};
+                      .encoder = format.encoder,
+                      .has_sound = format.has_sound};
     require_film_name(film->path);
     require_writable_output(film->path, {});
     const std::filesystem::path first =
@@ -129,9 +134,10 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
     if (format.width_px % 2 != 0 || format.height_px % 2 != 0)
         fail("a film of {}x{} cannot be recorded: its sides have to be even", format.width_px,
              format.height_px);
-    return {.name = "film " + url.shown, .film = url.place, .open = [film](const OutputPatience&) {
-                return std::make_unique<FilmTarget>(film);
-            }};
+    return {.name = "film " + url.shown,
+            .film = url.place,
+            .takes_sound = format.has_sound,
+            .open = [film](const OutputPatience&) { return std::make_unique<FilmTarget>(film); }};
 }
 
 }  // namespace

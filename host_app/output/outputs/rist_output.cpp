@@ -18,15 +18,18 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                     {"buffer_size", std::to_string(latency_ms)},
                     {"pkt_size", "1316"}},
         .encoder = format.encoder,
-        .encoding = stream_encoding(url, format)};
+        .encoding = stream_encoding(url, format),
+        .has_sound = format.has_sound};
     if (!passphrase.empty()) {
         settings.options.emplace_back("secret", passphrase);
         settings.options.emplace_back("encryption", "128");
     }
-    return {
-        .name = url.shown, .is_stream = true, .open = [settings](const OutputPatience& patience) {
-            return std::make_unique<StreamTarget>(settings, patience);
-        }};
+    return {.name = url.shown,
+            .is_stream = true,
+            .takes_sound = format.has_sound,
+            .open = [settings](const OutputPatience& patience) {
+                return std::make_unique<StreamTarget>(settings, patience);
+            }};
 }
 
 }  // namespace

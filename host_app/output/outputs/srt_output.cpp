@@ -18,11 +18,13 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                                                 {"latency", std::to_string(us_a_ms * latency_ms)},
                                                 {"pkt_size", "1316"}},
                                     .encoder = format.encoder,
-                                    .encoding = stream_encoding(url, format)};
+                                    .encoding = stream_encoding(url, format),
+                                    .has_sound = format.has_sound};
     if (!passphrase.empty()) settings.options.emplace_back("passphrase", passphrase);
     if (const auto id = url.option("streamid")) settings.options.emplace_back("streamid", *id);
     return {.name = url.shown,
             .is_stream = true,
+            .takes_sound = format.has_sound,
             .is_listening = is_listening,
             .open = [settings](const OutputPatience& patience) {
                 return std::make_unique<StreamTarget>(settings, patience);

@@ -12,11 +12,14 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
         .options = {{"pkt_size", "1316"},
                     {"ttl", std::to_string(url.number("ttl", 1, most_ttl).value_or(usual_ttl))}},
         .encoder = format.encoder,
-        .encoding = stream_encoding(url, format)};
-    return {
-        .name = url.shown, .is_stream = true, .open = [settings](const OutputPatience& patience) {
-            return std::make_unique<StreamTarget>(settings, patience);
-        }};
+        .encoding = stream_encoding(url, format),
+        .has_sound = format.has_sound};
+    return {.name = url.shown,
+            .is_stream = true,
+            .takes_sound = format.has_sound,
+            .open = [settings](const OutputPatience& patience) {
+                return std::make_unique<StreamTarget>(settings, patience);
+            }};
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "host_app/synthesis/gallery/performer_preparer.h"
 
-#include "host_app/instants/rig_presence.h"
-
 namespace vantage {
 namespace {
 
@@ -30,7 +28,7 @@ std::shared_ptr<RigSurface> PerformerPreparer::surface_of(const RigHistory& rig,
 void PerformerPreparer::take(std::span<const DepthView> views, double dt_s) {
     auto instant = std::make_shared<Instant>();
     auto performers = std::make_shared<PerformerInstant>();
-    for (RigHistory* rig : upload_with_fades(views, dt_s, rigs_)) {
+    for (RigHistory* rig : rigs_.upload(views, dt_s)) {
         sets_.learn(*rig);
         const std::shared_ptr<RigSurface> set =
             surface_of(*rig, rig->steady_depth(), rig->colour());
@@ -48,10 +46,6 @@ void PerformerPreparer::take(std::span<const DepthView> views, double dt_s) {
 std::shared_ptr<const Instant> PerformerPreparer::prepare(const VirtualView& /*target*/,
                                                           const PrepareLevel& /*level*/) {
     return instant_;
-}
-
-void PerformerPreparer::forget() {
-    for (const auto& rig : rigs_) rig->forget();
 }
 
 }  // namespace vantage

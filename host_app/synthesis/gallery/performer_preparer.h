@@ -6,6 +6,7 @@
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/instants/instant_preparer.h"
 #include "host_app/instants/recycle_pool.h"
+#include "host_app/instants/rig_roster.h"
 #include "host_app/instants/set_learner.h"
 #include "host_app/instants/triangle_builder.h"
 
@@ -36,14 +37,13 @@ class PerformerPreparer final : public InstantPreparer {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
-    void forget() override;
 
   private:
     std::shared_ptr<RigSurface> surface_of(const RigHistory& rig, const Texture& depth_m,
                                            const Texture& colour);
     void copy(const Texture& source, const Framebuffer& target);
 
-    std::vector<std::unique_ptr<RigHistory>> rigs_;
+    RigRoster rigs_;
     SetLearner sets_;
     TriangleBuilder triangles_;
     FullscreenPass copy_;

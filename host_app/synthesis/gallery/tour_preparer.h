@@ -41,7 +41,6 @@ class TourPreparer final : public InstantPreparer {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
-    void forget() override { performers_.forget(); }
 
   private:
     PerformerPreparer performers_;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "host_app/instants/depth_picture.h"
 #include "host_app/instants/projection.h"
 #include "host_app/instants/view_ranking.h"
 #include "host_app/synthesis/gallery/tour_preparer.h"

@@ -1,13 +1,14 @@
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/instants/staged_preparer.h"
-#include "host_app/synthesis/background_plate.h"
 #include "host_app/synthesis/fused_colour.h"
 #include "host_app/synthesis/impulse_filter.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/performer_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
@@ -22,7 +23,7 @@ constexpr float softness = 0.005f;
 class FusedRenderer final : public ViewRenderer {
   public:
     explicit FusedRenderer(const ShaderLibrary& library)
-        : plates_(library), colour_(library), blender_(library), impulses_(library) {
+        : colour_(library), blender_(library), impulses_(library), performers_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
             depth_pass_.emplace_back(library, "fused_depth.frag",
                                      ShaderDefines{{"LAYERS", std::to_string(layers)}});
@@ -31,14 +32,15 @@ class FusedRenderer final : public ViewRenderer {
     const Texture& render(const Instant& instant, const VirtualView& view,
                           const RenderLevel& level) override {
         RigLayers& layers = blender_.layers();
-        layers.draw(layers_of(instant, view, level.rigs), view, finely_drawn(instant, level));
+        const std::vector<const InstantRig*> rigs = ranked_rigs(instant, view, level.rigs);
+        layers.draw(layers_of(rigs), view, finely_drawn(instant, level));
         fused_depth_.resize({view.width_px, view.height_px});
         const Texture* kinds = nullptr;
         if (!layers.used().empty()) {
             find_depth();
             if (!level.is_plain) kinds = &colour_.sort(fused_depth_.texture());
         }
-        const Texture& picture = blender_.blend(
+        const Texture& set = blender_.blend(
             view,
             [&](const DepthPicture& into, bool notes_origins) {
                 if (level.is_plain)
@@ -46,18 +48,22 @@ class FusedRenderer final : public ViewRenderer {
                 else
                     colour_.draw(layers, fused_depth_.texture(), into, notes_origins);
             },
-            [&](const DepthPicture& blended) -> const DepthPicture& {
-                return plates_.show(blended, layers, view, level.plates);
-            },
-            kinds);
-        return layers.used().empty() ? picture : impulses_.filter(picture, fused_depth_.texture());
+            {}, kinds);
+        origins_.reset();
+        if (blender_.origins()) origins_ = *blender_.origins();
+        if (layers.used().empty()) return set;
+        const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
+        const DepthPicture& picture = performers_.show(
+            set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr, performers, view);
+        if (origins_) origins_->shares = picture.shares();
+        return impulses_.filter(picture.colour(), picture.depth_m());
     }
 
     bool note_origins(bool noted) override {
         blender_.note_origins(noted);
         return true;
     }
-    const PixelOrigins* origins() const override { return blender_.origins(); }
+    const PixelOrigins* origins() const override { return origins_ ? &*origins_ : nullptr; }
 
   private:
     void find_depth() {
@@ -68,10 +74,11 @@ class FusedRenderer final : public ViewRenderer {
         pass.draw(fused_depth_.target());
     }
 
-    BackgroundPlates plates_;
     FusedColour colour_;
     LayerBlender blender_;
     ImpulseFilter impulses_;
+    PerformerLayers performers_;
+    std::optional<PixelOrigins> origins_;
     std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers
     DrawnTexture fused_depth_{TextureFormat::r32f};
 };

@@ -5,12 +5,15 @@
 #include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/texture.h"
+#include "rig_firmware/stereo/passes/exposure_pass.h"
 
 namespace vantage {
 
-/// Steadies the disparities of a stream of pictures from one place: a running mean over frames
-/// where picture and disparity stay as they were (it halves the standard deviation of what flickers
-/// and more), the new value at once where either moves, so that a moving edge leaves no trail.
+/// Steadies the disparities of a stream of pictures from one place. Where the picture stays as it
+/// was, a disparity is a running mean of those that agree with it (it halves the standard deviation
+/// of what flickers and more) and is held against those that do not until more frames spoke against
+/// it than for it; where the picture changes the new value counts at once, so that a moving edge
+/// leaves no trail. An exposure that drifts, or leaps, is no change of the picture.
 class TemporalPass {
   public:
     TemporalPass(const ShaderLibrary& library, int width_px, int height_px);
@@ -27,6 +30,7 @@ class TemporalPass {
     }
 
   private:
+    ExposurePass exposure_;
     FullscreenPass pass_;
     Texture steadied_;
     std::array<Texture, 2> states_;

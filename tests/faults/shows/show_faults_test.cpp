@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -68,7 +69,9 @@ class ShowFaults : public testing::Test {
         return std::make_unique<ChildProgram>(
             VANTAGE_RIG_PROGRAM,
             std::vector<std::string>{"run", "--config", file(name + ".toml"), "--json"},
-            folder_.path(), std::vector<std::string>{"LD_PRELOAD=" + file("clock_set.so")});
+            folder_.path(),
+            std::vector<std::string>{"LD_PRELOAD=" + file("clock_set.so"),
+                                     fmt::format("CLOCK_SET_MS={}", clock_set_ms_)});
     }
     std::unique_ptr<ChildProgram> start_far() {
         std::unique_ptr<ChildProgram> rig;
@@ -138,6 +141,7 @@ class ShowFaults : public testing::Test {
     }
 
     TemporaryFolder folder_;
+    int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
     std::unique_ptr<ImpairedRoad> road_;
     std::string near_endpoint_;
     std::unique_ptr<ChildProgram> far_, near_, host_;
@@ -252,6 +256,33 @@ TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     EXPECT_EQ(near["link"]["lost"], 0);
     expect_balanced(far);
     expect_balanced(near);
+}
+
+TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
+    far_->send_signal(SIGTERM);
+    far_->wait();
+    clock_set_ms_ = 50;
+    far_ = start_far();
+    wait_for(*far_, "publishing on");
+    start_host({"--seconds", "600"});
+    wait_for(*host_, " pictures, ");
+    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    const auto named_ms = [&](const std::string& words) {
+        wait_for(*host_, words);
+        const std::string log = host_->err();
+        return std::atof(log.c_str() + log.find(words) + words.size());
+    };
+    far_->send_signal(SIGUSR1);
+    EXPECT_NEAR(named_ms("rig far: its clock was set once, by "), 50, 10);
+    far_->send_signal(SIGUSR2);
+    EXPECT_NEAR(named_ms("rig far: its clock was set 2 times, by "), -50, 10);
+    host_->send_signal(SIGINT);
+    const ProgramResult result = host_->wait();
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    const nlohmann::json far = summary["rigs"][0];
+    EXPECT_EQ(far["host"]["out_of_step"], 0) << "nothing else tells";
+    EXPECT_THAT(far["clock"].get<std::string>(), testing::HasSubstr("set 2 times"));
+    expect_balanced(far);
 }
 
 }  // namespace

@@ -1,20 +1,37 @@
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 
 #include <dlfcn.h>
 #include <time.h>
 
-// To be preloaded (LD_PRELOAD) into a program of Vantage: its clocks of the time of day are set a
-// second ahead by SIGUSR1 and a second back by SIGUSR2, as a person or NTP does.
+// To be preloaded (LD_PRELOAD) into a program of Vantage: its clocks of the time of day are set
+// ahead by SIGUSR1 and back by SIGUSR2, as a person or NTP does: by a second, or by so many
+// milliseconds as CLOCK_SET_MS says.
 
 namespace {
 
-std::atomic<int> ahead_s = 0;
+constexpr long ns_per_ms = 1'000'000, ns_per_s = 1'000'000'000;
 
-void set_ahead(int /*signal*/) { ++ahead_s; }
-void set_back(int /*signal*/) { --ahead_s; }
+std::atomic<long> step_ns = ns_per_s, ahead_ns = 0;
+
+void set_ahead(int /*signal*/) { ahead_ns += step_ns; }
+void set_back(int /*signal*/) { ahead_ns -= step_ns; }
+
+void add(timespec& time, long ns) {
+    time.tv_sec += ns / ns_per_s;
+    time.tv_nsec += ns % ns_per_s;
+    if (time.tv_nsec >= ns_per_s) {
+        time.tv_nsec -= ns_per_s;
+        ++time.tv_sec;
+    } else if (time.tv_nsec < 0) {
+        time.tv_nsec += ns_per_s;
+        --time.tv_sec;
+    }
+}
 
 [[gnu::constructor]] void listen() {
+    if (const char* ms = std::getenv("CLOCK_SET_MS")) step_ns = ns_per_ms * std::atol(ms);
     std::signal(SIGUSR1, set_ahead);
     std::signal(SIGUSR2, set_back);
 }
@@ -31,7 +48,7 @@ bool is_of_the_day(clockid_t clock) { return clock == CLOCK_REALTIME || clock ==
 extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
     static auto* const real = next_of<int(clockid_t, timespec*)>("clock_gettime");
     const int status = real(clock, time);
-    if (status == 0 && is_of_the_day(clock)) time->tv_sec += ahead_s;
+    if (status == 0 && is_of_the_day(clock)) add(*time, ahead_ns);
     return status;
 }
 
@@ -39,6 +56,6 @@ extern "C" int clock_nanosleep(clockid_t clock, int flags, const timespec* time,
     static auto* const real =
         next_of<int(clockid_t, int, const timespec*, timespec*)>("clock_nanosleep");
     timespec until = *time;
-    if ((flags & TIMER_ABSTIME) != 0 && is_of_the_day(clock)) until.tv_sec -= ahead_s;
+    if ((flags & TIMER_ABSTIME) != 0 && is_of_the_day(clock)) add(until, -ahead_ns);
     return real(clock, flags, &until, rest);
 }

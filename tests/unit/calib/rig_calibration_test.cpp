@@ -16,9 +16,9 @@ namespace {
 
 using testing::HasSubstr;
 
-const BoardPattern pattern = chessboard_pattern("9x6", 0.04);
+const BoardPattern chessboard = chessboard_pattern("9x6", 0.04);
 
-std::string failure_of(const SyntheticRig::Series& series, const BoardPattern& board = pattern) {
+std::string failure_of(const SyntheticRig::Series& series, const BoardPattern& board = chessboard) {
     try {
         calibrate_rig(series.left, series.right, board, {.family = &lens_family("brown4")});
         return "no failure";
@@ -29,11 +29,11 @@ std::string failure_of(const SyntheticRig::Series& series, const BoardPattern& b
 
 TEST(RigCalibration, recovers_a_known_rig_and_states_uncertainties_that_cover_it) {
     const SyntheticRig rig;
-    SyntheticViews views(pattern, 0.1);
+    SyntheticViews views(chessboard, 0.1);
     const SyntheticRig::Series series = rig.film(views, 20);
     ASSERT_EQ(series.left.size(), 20u);
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("brown4")});
     EXPECT_EQ(c.views_used, 20u);
     EXPECT_TRUE(c.rejected.empty());
     EXPECT_NEAR(c.uncertainty.residual_sigma_px, 0.1, 0.01);
@@ -57,10 +57,10 @@ TEST(RigCalibration, errs_by_as_much_as_it_says_over_many_films) {
         ++count;
     };
     for (std::uint64_t seed = 1; seed <= films; ++seed) {
-        SyntheticViews views(pattern, 0.1, 100 + seed);
+        SyntheticViews views(chessboard, 0.1, 100 + seed);
         const SyntheticRig::Series series = rig.film(views, 10);
-        const RigCalibration c =
-            calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        const RigCalibration c = calibrate_rig(series.left, series.right, chessboard,
+                                               {.family = &lens_family("brown4")});
         for (const bool is_left : {true, false}) {
             const CameraModel& truth = is_left ? rig.left : rig.right;
             const CameraModel& solved = is_left ? c.calibration.left : c.calibration.right;
@@ -90,10 +90,10 @@ TEST(RigCalibration, recovers_small_pictures_whose_pixels_are_not_square) {
         camera->cx_px *= 0.5;
         camera->cy_px *= 0.5;
     }
-    SyntheticViews views(pattern, 0.15);
+    SyntheticViews views(chessboard, 0.15);
     const SyntheticRig::Series series = rig.film(views, 12);
     ASSERT_EQ(series.left.size(), 12u);
-    const RigCalibration c = calibrate_rig(series.left, series.right, pattern, {});
+    const RigCalibration c = calibrate_rig(series.left, series.right, chessboard, {});
     for (const bool is_left : {true, false}) {
         const CameraModel& truth = is_left ? rig.left : rig.right;
         const CameraModel& solved = is_left ? c.calibration.left : c.calibration.right;
@@ -105,40 +105,40 @@ TEST(RigCalibration, recovers_small_pictures_whose_pixels_are_not_square) {
 }
 
 TEST(RigCalibration, of_a_sound_rig_has_no_doubts) {
-    SyntheticViews views(pattern, 0.1);
+    SyntheticViews views(chessboard, 0.1);
     const SyntheticRig::Series series = SyntheticRig().film(views, 10);
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("brown4")});
     EXPECT_THAT(c.doubts, testing::IsEmpty());
 }
 
 TEST(RigCalibration, says_that_it_rests_on_few_views) {
-    SyntheticViews views(pattern, 0.05);
+    SyntheticViews views(chessboard, 0.05);
     const SyntheticRig::Series series = SyntheticRig().film(views, 4);
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("radial2")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
     EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("rests on 4 views")));
     EXPECT_EQ(to_json(c)["doubts"].size(), c.doubts.size());
 }
 
 TEST(RigCalibration, doubts_boards_that_are_bent) {
-    SyntheticViews views(pattern, 0.05);
+    SyntheticViews views(chessboard, 0.05);
     SyntheticRig::Series series = SyntheticRig().film(views, 10);
     for (std::vector<SeenPicture>* side : {&series.left, &series.right})
         for (SeenPicture& picture : *side) {
             const double bend_px = 3 * std::sin(picture.name().size() + picture.name()[4]);
             for (BoardCorner& corner : picture.sighting.corners)
-                corner.pixel.y() += bend_px * std::cos(0.9 * (corner.id % pattern.columns));
+                corner.pixel.y() += bend_px * std::cos(0.9 * (corner.id % chessboard.columns));
         }
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("radial2")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
     EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("bent")));
 }
 
 /// Pairs whose board moves by up to this much between the left and the right exposure.
 SyntheticRig::Series loose_pairs(double moves_m) {
     const SyntheticRig rig;
-    SyntheticViews views(pattern, 0.05);
+    SyntheticViews views(chessboard, 0.05);
     SyntheticRig::Series series;
     for (int i = 0; i < 12; ++i) {
         Pose pose;
@@ -159,7 +159,7 @@ SyntheticRig::Series loose_pairs(double moves_m) {
 TEST(RigCalibration, doubts_pairs_that_are_not_quite_of_one_instant) {
     const SyntheticRig::Series series = loose_pairs(0.002);
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("brown4")});
     EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("not of one instant")));
 }
 
@@ -168,7 +168,7 @@ TEST(RigCalibration, refuses_pairs_that_are_not_of_one_instant) {
 }
 
 TEST(RigCalibration, names_a_camera_that_is_upside_down) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 8);
     for (SeenPicture& picture : series.right)
         for (BoardCorner& corner : picture.sighting.corners)
@@ -178,14 +178,14 @@ TEST(RigCalibration, names_a_camera_that_is_upside_down) {
 }
 
 TEST(RigCalibration, leaves_out_copies_of_a_picture_and_says_of_which) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 9);
     for (const std::size_t copy : {3u, 6u}) {
         series.left[copy].sighting = series.left[0].sighting;
         series.right[copy].sighting = series.right[0].sighting;
     }
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("brown4")});
     EXPECT_EQ(c.views_used, 7u);
     ASSERT_EQ(c.rejected.size(), 4u);
     EXPECT_EQ(c.rejected[0].name, "left3.png");
@@ -202,35 +202,35 @@ TEST(Lens, that_folds_the_picture_over_in_its_corners_alone_is_implausible) {
 
 TEST(RigCalibration, chooses_a_lens_that_predicts_withheld_views) {
     const SyntheticRig rig;
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     const SyntheticRig::Series series = rig.film(views, 12);
-    const RigCalibration c = calibrate_rig(series.left, series.right, pattern, {});
+    const RigCalibration c = calibrate_rig(series.left, series.right, chessboard, {});
     EXPECT_GE(c.bundle.cameras[0].family->free_count(), 2);
     EXPECT_LE(c.bundle.cameras[0].family->free_count(), 5);
     EXPECT_NEAR(c.calibration.left.fx_px, rig.left.fx_px, 2);
 }
 
 TEST(RigCalibration, names_swapped_sides) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 8);
     std::swap(series.left, series.right);
     EXPECT_THAT(failure_of(series), HasSubstr("swapped"));
 }
 
 TEST(RigCalibration, names_pictures_mirrored_against_each_other) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 8);
     for (SeenPicture& picture : series.right) {
         BoardCorners mirrored;
         // As the finder numbers a mirrored 9x6 board: rows from the other side keep squares black.
-        for (int row = pattern.rows - 1; row >= 0; --row)
-            for (int column = 0; column < pattern.columns; ++column) {
+        for (int row = chessboard.rows - 1; row >= 0; --row)
+            for (int column = 0; column < chessboard.columns; ++column) {
                 BoardCorner corner =
                     picture.sighting
-                        .corners[static_cast<std::size_t>(row * pattern.columns + column)];
+                        .corners[static_cast<std::size_t>(row * chessboard.columns + column)];
                 corner.pixel.x() = picture.width_px - 1 - corner.pixel.x();
                 corner.id = static_cast<int>(mirrored.size());
-                corner.board_m = pattern.corner_m(corner.id);
+                corner.board_m = chessboard.corner_m(corner.id);
                 mirrored.push_back(corner);
             }
         picture.sighting.corners = mirrored;
@@ -239,14 +239,14 @@ TEST(RigCalibration, names_pictures_mirrored_against_each_other) {
 }
 
 TEST(RigCalibration, names_one_camera_given_twice) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 8);
     series.right = series.left;
     EXPECT_THAT(failure_of(series), HasSubstr("one and the same camera"));
 }
 
 TEST(RigCalibration, names_pairs_that_are_out_of_step) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 9);
     series.left.pop_back();
     series.right.erase(series.right.begin());
@@ -254,7 +254,7 @@ TEST(RigCalibration, names_pairs_that_are_out_of_step) {
 }
 
 TEST(RigCalibration, names_two_resolutions) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 8);
     for (SeenPicture& picture : series.right) {
         picture.width_px = 320;
@@ -266,7 +266,7 @@ TEST(RigCalibration, names_two_resolutions) {
 
 TEST(RigCalibration, refuses_boards_that_all_face_the_camera) {
     SyntheticRig rig;
-    SyntheticViews views(pattern, 0.2);
+    SyntheticViews views(chessboard, 0.2);
     SyntheticRig::Series series;
     for (int i = 0; i < 6; ++i) {
         Pose pose = Pose::Identity();
@@ -278,12 +278,12 @@ TEST(RigCalibration, refuses_boards_that_all_face_the_camera) {
 }
 
 TEST(RigCalibration, leaves_out_a_view_that_contradicts_the_others_and_says_which) {
-    SyntheticViews views(pattern);
+    SyntheticViews views(chessboard);
     SyntheticRig::Series series = SyntheticRig().film(views, 12);
     for (BoardCorner& corner : series.right[5].sighting.corners)
         corner.pixel += Eigen::Vector2d(3 * std::sin(corner.id), 9);
     const RigCalibration c =
-        calibrate_rig(series.left, series.right, pattern, {.family = &lens_family("brown4")});
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("brown4")});
     ASSERT_EQ(c.rejected.size(), 1u);
     EXPECT_THAT(c.rejected[0].name, HasSubstr("right5.png"));
     EXPECT_THAT(c.rejected[0].reason, HasSubstr("contradicts"));

@@ -57,9 +57,10 @@ const std::vector<StageRig>& calibrated_rigs() {
 }
 
 /// Films boards that stand about the stage at an instant, with all cameras of rigs first to last.
-void film(RenderedStage& stage, const BoardSet& boards, long long instant,
-          const std::vector<RenderedStage::StandingBoard>& standing, std::vector<StageRig>& rigs,
-          int first = 0, int last = RenderedStage::rig_count - 1) {
+void film_boards(RenderedStage& stage, const BoardSet& boards, long long instant,
+                 const std::vector<RenderedStage::StandingBoard>& standing,
+                 std::vector<StageRig>& rigs, int first = 0,
+                 int last = RenderedStage::rig_count - 1) {
     for (int r = first; r <= last; ++r)
         for (const int side : {0, 1}) {
             const BoardSighting seen = find_board(stage.film(r, side, standing, {}), boards);
@@ -92,9 +93,10 @@ TEST(SeveralBoards, of_different_markers_join_four_rigs_in_one_calibration) {
     // another pair of rigs.
     const RenderedStage::StandingBoard floor{0, stage.board_on_floor()};
     for (int i = 0; i < 6; ++i) {
-        film(stage, boards, instant++,
-             {floor, {1, stage.board_before_pair(0)}, {2, stage.board_before_pair(2)}}, rigs);
-        film(stage, boards, instant++, {floor, {2, stage.board_before_pair(1)}}, rigs, 1, 2);
+        film_boards(stage, boards, instant++,
+                    {floor, {1, stage.board_before_pair(0)}, {2, stage.board_before_pair(2)}},
+                    rigs);
+        film_boards(stage, boards, instant++, {floor, {2, stage.board_before_pair(1)}}, rigs, 1, 2);
     }
     const StageCalibration solved = calibrate_stage(rigs, boards, Floor(0, "floor"));
     EXPECT_EQ(solved.bodies.size(), 3u);
@@ -120,7 +122,7 @@ TEST(SeveralBoards, fixed_to_a_wand_join_rigs_that_see_different_faces) {
         std::vector<RenderedStage::StandingBoard> standing;
         for (std::size_t f = 0; f < faces.size(); ++f)
             standing.push_back({f, world_from_wand * on_cube[f]});
-        film(stage, boards, i, standing, rigs);
+        film_boards(stage, boards, i, standing, rigs);
     }
     const StageCalibration solved = calibrate_stage(rigs, boards, std::nullopt);
     expect_within_bounds(solved, stage);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int width = 30, height = 20;
+constexpr int asked_width = 30, asked_height = 20;
 
 /// What two cameras of a test have to deliver, and how often they were opened.
 struct Bench {
@@ -61,8 +61,8 @@ class CameraSourceTest : public testing::Test {
         RigConfig config;
         config.source.kind = "v4l2";
         config.source.left_device = "both";
-        config.source.width_px = width;
-        config.source.height_px = height;
+        config.source.width_px = asked_width;
+        config.source.height_px = asked_height;
         config.trigger.role = "lead";
         source_ = make_camera_source(config, [this](const std::string&, bool) {
             return std::make_unique<FakeCamera>(bench_);
@@ -73,9 +73,10 @@ class CameraSourceTest : public testing::Test {
     }
 
     void deliver() {
-        bench_.pictures.push_back({.sequence = 0,
-                                   .time = MonotonicClock::now(),
-                                   .colour = ColourImage(height, 2 * width, cv::Vec4b::all(9))});
+        bench_.pictures.push_back(
+            {.sequence = 0,
+             .time = MonotonicClock::now(),
+             .colour = ColourImage(asked_height, 2 * asked_width, cv::Vec4b::all(9))});
     }
 
     static constexpr auto longer_than_any_silence = 3300ms;

@@ -83,6 +83,7 @@ TEST_F(ClockModelTest, FollowsAClockThatIsSetAfterOneMorePair) {
     EXPECT_EQ(model_.state().steps, 0u);
     observe(21s);
     EXPECT_EQ(model_.state().steps, 1u);
+    EXPECT_NEAR(model_.state().last_step_ns, 37e9, 100);
     EXPECT_LE(error_at(22s), 10ns);
     step_ = -2h;
     observe(22s);

@@ -56,6 +56,7 @@ TEST(ExampleFiles, LoadAndShowTheDefaults) {
     EXPECT_EQ(rig.match.preset, defaults.match.preset);
     EXPECT_EQ(rig.stream.bind, defaults.stream.bind);
     EXPECT_EQ(rig.stream.jpeg_quality, defaults.stream.jpeg_quality);
+    EXPECT_EQ(rig.stream.chroma, defaults.stream.chroma);
     EXPECT_EQ(rig.stream.queue_frames, defaults.stream.queue_frames);
     const StageConfig stage = load_stage_config(source_folder() / "hw_config/stage.toml");
     const StageConfig stage_defaults;

@@ -65,6 +65,7 @@ gigabytes = 12.5
 [stream]
 bind = "tcp://0.0.0.0:5601"
 jpeg_quality = 0
+chroma = "4:2:2"
 queue_frames = 2
 key_file = "keys/rig.key"
 authorized_hosts = "/etc/hosts.keys"
@@ -100,6 +101,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_TRUE(config.match.steady);
     EXPECT_EQ(config.stream.bind, "tcp://0.0.0.0:5601");
     EXPECT_EQ(config.stream.jpeg_quality, 0);
+    EXPECT_EQ(config.stream.chroma, "4:2:2");
     EXPECT_EQ(config.stream.queue_frames, 2);
     EXPECT_EQ(config.keep.folder, "/var/takes");
     EXPECT_EQ(config.keep.gigabytes, 12.5);

@@ -214,12 +214,13 @@ TEST(FlightControlsPivot, FollowsUntilAHandTakesItElsewhere) {
         for (int i = 0; i < 200; ++i) controls.step(time_s += 0.02, {});
         return controls.step(time_s += 0.02, {}).view.pivot_m;
     };
-    controls.follow({1, 1, 0});
+    controls.follow({1, {1, 1, 0}});
     EXPECT_NEAR(pass().x(), 0, 1e-9) << "nobody asked for it";
     controls.hands().put({.toggle_follow = true}, {});
     pass();
     EXPECT_TRUE(controls.lines().is_following);
-    controls.follow({1, 1, 0});
+    ASSERT_EQ(controls.lines().following.size(), 1u);
+    controls.follow({controls.lines().following[0].camera, {1, 1, 0}});
     EXPECT_NEAR(pass().x(), 1, 1e-6);
     controls.hands().put({.orbit_azimuth_rad = 0.3}, {});
     pass();
@@ -227,7 +228,7 @@ TEST(FlightControlsPivot, FollowsUntilAHandTakesItElsewhere) {
     controls.hands().put({.pan_right_widths = 0.1}, {});
     const double panned = pass().x();
     EXPECT_FALSE(controls.lines().is_following);
-    controls.follow({-1, 1, 0});
+    controls.follow({1, {-1, 1, 0}});
     EXPECT_NEAR(pass().x(), panned, 1e-9);
 }
 
@@ -565,6 +566,79 @@ TEST_F(FlightControlsTest, ATrackedCameraFliesWithoutAJumpUntilAHandSteers) {
     controls_.tracked().put(tracked, MonotonicClock::now());
     step();
     EXPECT_TRUE(controls_.lines().is_tracked);
+}
+
+TEST_F(FlightControlsTest, HandsFlyThePreviewAndACutBringsItToAir) {
+    const Pose before = step().view.world_from_camera();
+    controls_.hands().put({.toggle_preview = true}, {});
+    EXPECT_TRUE(step().preview->world_from_camera().isApprox(before, 1e-9));
+    controls_.hands().put({.orbit_azimuth_rad = 0.4}, {});
+    PilotStep now = step();
+    for (int i = 0; i < 200; ++i) {
+        now = step();
+        ASSERT_TRUE(now.view.world_from_camera().isApprox(before, 1e-12)) << "not moved on air";
+    }
+    ASSERT_TRUE(now.preview);
+    ASSERT_TRUE(controls_.lines().preview);
+    const Pose previewed = now.preview->world_from_camera();
+    EXPECT_GT((previewed.translation() - before.translation()).norm(), 0.5);
+    controls_.hands().put({.cut = true}, {});
+    now = step();
+    EXPECT_TRUE(now.view.world_from_camera().isApprox(previewed, 1e-6));
+    EXPECT_TRUE(now.preview->world_from_camera().isApprox(before, 1e-6));
+    controls_.hands().put({.fly_to_preview = true, .fly_to_preview_tenths = 20}, {});
+    step();
+    EXPECT_EQ(controls_.lines().fly_to_preview_s, 2);
+    EXPECT_TRUE(controls_.lines().preview->fly_progress);
+    for (int i = 0; i < 200; ++i) now = step();
+    EXPECT_TRUE(now.view.world_from_camera().isApprox(before, 1e-6));
+    controls_.hands().put({.toggle_preview = true}, {});
+    EXPECT_FALSE(step().preview);
+    EXPECT_FALSE(controls_.lines().preview);
+}
+
+TEST_F(FlightControlsTest, WithoutAPreviewNothingIsCutTo) {
+    const OrbitView before = step().view;
+    controls_.hands().put({.cut = true}, {});
+    controls_.hands().put({.fly_to_preview = true}, {});
+    step();
+    EXPECT_TRUE(is_same_view(step().view.camera(), before.camera()));
+}
+
+TEST_F(FlightControlsTest, ACutFromATrackedCameraDoesNotGlide) {
+    CameraState tracked = step().view.camera();
+    tracked.world_from_camera.translation() += Eigen::Vector3d(1, 0, 0);
+    controls_.hands().put({.toggle_preview = true}, {});
+    const Pose previewed = step().preview->world_from_camera();
+    const auto track = [&] {
+        controls_.tracked().put(tracked, MonotonicClock::now());
+        return step();
+    };
+    for (int i = 0; i < 100; ++i) track();
+    controls_.hands().put({.orbit_elevation_rad = 0.0001}, {});
+    EXPECT_TRUE(track().camera) << "hands on preview leave the tracked camera on air";
+    controls_.hands().put({.cut = true}, {});
+    const PilotStep now = track();
+    EXPECT_FALSE(now.camera);
+    EXPECT_TRUE(now.view.world_from_camera().isApprox(previewed, 1e-3));
+}
+
+TEST_F(FlightControlsTest, APerformerIsFollowedByTheCameraThatWasTold) {
+    controls_.hands().put({.toggle_follow = true}, {});
+    step();
+    controls_.hands().put({.toggle_preview = true}, {});
+    step();
+    ASSERT_EQ(controls_.lines().following.size(), 1u);
+    EXPECT_FALSE(controls_.lines().is_following) << "the one in hand does not";
+    const auto [camera, pivot_m] = controls_.lines().following[0];
+    const Eigen::Vector3d there_m = pivot_m + Eigen::Vector3d(0.2, 0, 0);
+    controls_.hands().put({.cut = true}, {});
+    step();
+    controls_.follow({camera, there_m});
+    PilotStep now = step();
+    for (int i = 0; i < 200; ++i) now = step();
+    EXPECT_TRUE(now.preview->pivot_m.isApprox(there_m, 1e-3));
+    EXPECT_TRUE(now.view.pivot_m.isApprox(pivot_m, 1e-6));
 }
 
 }  // namespace

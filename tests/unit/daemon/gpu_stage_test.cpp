@@ -59,7 +59,10 @@ TEST_F(GpuStageTest, PacksTheColourOfEveryFrameAsThePublisherWould) {
         result.packed_colour.clear();
         result.rig = "rig";
         result.session = 1;
-        EXPECT_EQ(FrameEncoder(config_.stream.jpeg_quality).encode(result).colour, ahead);
+        EXPECT_EQ(FrameEncoder(config_.stream.jpeg_quality, parse_chroma(config_.stream.chroma))
+                      .encode(result)
+                      .colour,
+                  ahead);
         EXPECT_GT(result.times.pack_ms, 0);
         cv::bitwise_not(frame_.left, frame_.left);
         cv::bitwise_not(frame_.right, frame_.right);

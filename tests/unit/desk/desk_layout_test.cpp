@@ -15,13 +15,14 @@ constexpr Size sizes[] = {{640, 360},   {960, 540},   {1280, 720}, {1280, 1024},
                           {1920, 1080}, {2560, 1080}, {3840, 2160}};
 constexpr float wide = 9.0f / 16;
 
-DeskLayout layout_of(Size size, int rigs = 4, float aspect = wide, bool has_clips = false) {
+DeskLayout layout_of(Size size, int rigs = 4, float aspect = wide, bool has_clips = false,
+                     bool has_preview = false) {
     return desk_layout(size.width, size.height, letter_height_px(size.width, size.height, 1), rigs,
-                       aspect, has_clips);
+                       aspect, has_clips, has_preview);
 }
 std::vector<DeskRect> parts_of(const DeskLayout& layout) {
-    return {layout.status, layout.programme, layout.shots, layout.clips,
-            layout.side,   layout.time_line, layout.rigs};
+    return {layout.status, layout.programme, layout.preview,   layout.shots,
+            layout.clips,  layout.side,      layout.time_line, layout.rigs};
 }
 bool overlap(const DeskRect& a, const DeskRect& b) {
     constexpr float slack = 0.5f;
@@ -31,9 +32,10 @@ bool overlap(const DeskRect& a, const DeskRect& b) {
 
 TEST(DeskLayoutTest, PartsStandInTheWindowAndNotOverOneAnother) {
     for (const Size size : sizes)
-        for (const int rigs : {0, 1, 2, -2, 4, 9, -9, 16}) {
+        for (const int rigs : {0, 1, 2, -2, 4, 9, -9, 16, 104, -102}) {
+            const bool has_preview = std::abs(rigs) > 100;
             const std::vector<DeskRect> parts =
-                parts_of(layout_of(size, std::abs(rigs), wide, rigs < 0));
+                parts_of(layout_of(size, std::abs(rigs) % 100, wide, rigs < 0, has_preview));
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 if (parts[i].is_empty()) continue;
                 EXPECT_GE(parts[i].left, -0.5f) << size.width << " part " << i;
@@ -60,7 +62,7 @@ TEST(DeskLayoutTest, ThePictureIsTheLargestPart) {
 
 TEST(DeskLayoutTest, AllPartsAreThereFromTheSmallestPromisedSizeOn) {
     for (const Size size : sizes)
-        for (const DeskRect& part : parts_of(layout_of(size, 4, wide, true)))
+        for (const DeskRect& part : parts_of(layout_of(size, 4, wide, true, true)))
             EXPECT_FALSE(part.is_empty()) << size.width << "x" << size.height;
 }
 
@@ -90,6 +92,23 @@ TEST(DeskLayoutTest, ClipsHaveABinOfTheirOwnBesideTheShotsAndNoneWhereThereAreNo
     EXPECT_GT(with.programme.width, 0.5f * 1280);
     EXPECT_TRUE(layout_of({640, 360}, 4, wide, true).clips.is_empty() ||
                 !layout_of({640, 360}).shots.is_empty());
+}
+
+TEST(DeskLayoutTest, APreviewIsLargeAndTheProgrammeIsLarger) {
+    for (const Size size : sizes) {
+        const DeskLayout layout = layout_of(size, 4, wide, false, true);
+        const DeskRect programme = layout.programme.fitted(wide);
+        const DeskRect preview = layout.preview.fitted(wide);
+        EXPECT_GE(programme.width, preview.width) << size.width;
+        EXPECT_GT(preview.width, 0.26f * size.width) << size.width;
+        EXPECT_GT(layout.side.height, 4 * letter_height_px(size.width, size.height, 1));
+    }
+    const DeskLayout small = layout_of({320, 240}, 4, wide, false, true);
+    EXPECT_FLOAT_EQ(small.programme.width, small.preview.width);
+    EXPECT_LT(small.preview.right(), small.programme.left);
+    const DeskLayout alone = pictures_alone(1280, 720, true);
+    EXPECT_FLOAT_EQ(alone.programme.width, 640);
+    EXPECT_TRUE(pictures_alone(1280, 720, false).preview.is_empty());
 }
 
 TEST(DeskLayoutTest, ManyRigsStandInRows) {

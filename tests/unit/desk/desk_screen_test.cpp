@@ -39,7 +39,7 @@ class DeskScreen : public testing::Test {
         const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
         return desk_layout(width, height, letter_height_px(width, height, 1),
                            static_cast<int>(desk_.state.rigs.size()), 9.0f / 16,
-                           !desk_.state.replay.clips.empty());
+                           !desk_.state.replay.clips.empty(), desk_.state.preview.has_value());
     }
     static cv::Rect pixels(const DeskRect& rect) {
         return {cvCeil(rect.left), cvCeil(rect.top), cvFloor(rect.width) - 1,
@@ -80,6 +80,37 @@ TEST_F(DeskScreen, LaysNothingOverThePicture) {
         EXPECT_EQ(of_colour(screen, inside, {40, 90, 140}), pixels(inside).area()) << size;
         EXPECT_FALSE(drawn_.has_overlay);
     }
+}
+
+TEST_F(DeskScreen, ShowsProgrammeAndPreviewWithNothingOverThemAtAnySize) {
+    desk_.show_preview();
+    for (const bool panels : {true, false})
+        for (const cv::Size size : {cv::Size(320, 240), cv::Size(640, 360), usual}) {
+            switches_.panels = panels;
+            const ColourImage screen = draw(size);
+            const DeskRect programme = drawn_.picture.shrunk(1);
+            EXPECT_EQ(of_colour(screen, programme, {40, 90, 140}), pixels(programme).area())
+                << size;
+            ASSERT_TRUE(drawn_.preview);
+            const DeskRect preview = drawn_.preview->shrunk(1);
+            EXPECT_EQ(of_colour(screen, preview, {90, 130, 60}), pixels(preview).area()) << size;
+            EXPECT_EQ(&drawn_.in_hand(), &*drawn_.preview);
+        }
+    state().preview.reset();
+    draw();
+    EXPECT_EQ(&drawn_.in_hand(), &drawn_.picture);
+}
+
+TEST_F(DeskScreen, SaysHowThePreviewStands) {
+    desk_.show_preview();
+    const ColourImage before = draw();
+    const DeskRect over{layout().preview.left, layout().preview.top, layout().preview.width, 18};
+    state().preview->coverage = Coverage{.share = 0.2};
+    EXPECT_GT(differing(before, draw(), over), 20);
+    const DeskRect name{layout().programme.left, layout().programme.top, layout().programme.width,
+                        18};
+    state().preview->fly_progress = 0.3;
+    EXPECT_GT(differing(before, draw(), name), 20);
 }
 
 TEST_F(DeskScreen, ShowsThePictureAloneWhereTheOperatorWantsThat) {
@@ -175,6 +206,19 @@ TEST_F(DeskScreen, ShowsTheMarksAndThePlaceOnTheTimeLine) {
     EXPECT_GT(differing(live, past, line), 1000);
 }
 
+TEST_F(DeskScreen, ShowsTheKeyframesOfAFlightOnTheTimeLine) {
+    const DeskRect line = layout().time_line;
+    const ColourImage before = draw();
+    state().time->keyframes = {1200, 1500, 5000};
+    const ColourImage after = draw();
+    const int two = differing(before, after, line);
+    EXPECT_GT(two, 20);
+    state().time->keyframes.pop_back();
+    EXPECT_EQ(differing(after, draw(), line), 0) << "one beyond the past is not shown";
+    state().time->keyframes = {1200};
+    EXPECT_LT(differing(before, draw(), line), two);
+}
+
 TEST_F(DeskScreen, WithoutAPastThereIsNothingToSeekIn) {
     state().time.reset();
     draw();
@@ -248,6 +292,35 @@ TEST_F(DeskScreen, ThePlanFollowsTheCamera) {
     const DeskRect side = layout().side;
     EXPECT_GT(differing(before, draw(), {side.left, side.top, side.width, 0.4f * side.height}),
               300);
+}
+
+TEST_F(DeskScreen, TheStageIsSeenFromOutsideAndTurned) {
+    desk_.add_points();
+    const ColourImage plan = draw();
+    EXPECT_TRUE(drawn_.spots.outside.is_empty());
+    switches_.outside = true;
+    const ColourImage outside = draw();
+    const DeskRect part = drawn_.spots.outside;
+    ASSERT_FALSE(part.is_empty());
+    EXPECT_GT(differing(plan, outside, part), 3000);
+    EXPECT_GT(of_colour(outside, part, {220, 150, 60}), 100) << "the performer";
+    switches_.eye.turn(1.5, 0);
+    EXPECT_GT(differing(outside, draw(), part), 1000);
+    state().view.azimuth_rad += 0.5;
+    const ColourImage turned = draw();
+    state().plan->points.clear();
+    EXPECT_EQ(of_colour(draw(), part, {220, 150, 60}), 0);
+    EXPECT_GT(differing(turned, draw(), part), 300);
+    state().plan.reset();
+    draw();
+}
+
+TEST_F(DeskScreen, WithoutTheRigsThereIsMoreRoomForTheRest) {
+    draw();
+    const float before = drawn_.spots.time->rect.bottom();
+    switches_.rigs = false;
+    draw();
+    EXPECT_GT(drawn_.spots.time->rect.bottom(), before + 100);
 }
 
 TEST_F(DeskScreen, NamesTheColoursOfTheSourceMap) {

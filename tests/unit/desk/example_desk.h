@@ -14,10 +14,12 @@ class ExampleDesk {
     ExampleDesk()
         : picture(TextureFormat::rgba8, 320, 180, Filter::linear),
           colour(TextureFormat::rgba8, 160, 120, Filter::linear),
-          depth(TextureFormat::rgba8, 160, 120, Filter::linear) {
+          depth(TextureFormat::rgba8, 160, 120, Filter::linear),
+          preview_picture(TextureFormat::rgba8, 160, 90, Filter::linear) {
         // Alpha 0, as where no rig saw the surface: the desk shows the pixel all the same.
         picture.upload(ColourImage(180, 320, cv::Vec4b(40, 90, 140, 0)));
         colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
+        preview_picture.upload(ColourImage(90, 160, cv::Vec4b(90, 130, 60, 255)));
         depth.upload(ColourImage(120, 160, cv::Vec4b(230, 210, 60, 255)));
         state.picture = &picture;
         state.waiting = false;
@@ -59,6 +61,28 @@ class ExampleDesk {
         state.shots[3] = {"kept", &picture, true};
     }
 
+    /// A camera on preview that is flown to the right of the programme's.
+    void show_preview() {
+        DeskPreview preview;
+        preview.picture = &preview_picture;
+        preview.view.azimuth_rad = 0.7;
+        preview.picture_rate_hz = 3.4;
+        preview.is_near_only = true;
+        preview.coverage = Coverage{.share = 0.88};
+        state.preview = preview;
+    }
+
+    /// A wall and a performer of points.
+    void add_points() {
+        for (int i = 0; i < 40; ++i)
+            for (int j = 0; j < 25; ++j) {
+                const float x = 0.1f * static_cast<float>(i - 20), y = 0.1f * static_cast<float>(j);
+                state.plan->points.push_back({{x, y, -2.5f}, {90, 110, 150}});
+                if (std::abs(i - 20) < 4 && j < 18)
+                    state.plan->points.push_back({{x, y, 0.3f}, {220, 150, 60}});
+            }
+    }
+
     /// A wheel of five buttons with its ring turned a little, and in hand.
     void open_wheel_map() {
         using Kind = DeskWheel::Kind;
@@ -87,7 +111,7 @@ class ExampleDesk {
         state.wheel_map = wheel;
     }
 
-    Texture picture, colour, depth;
+    Texture picture, colour, depth, preview_picture;
     DeskState state;
 
   private:

@@ -382,6 +382,37 @@ TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
     EXPECT_EQ(export_moments(take_, ply, {}, path("points")).written, 11u);
 }
 
+TEST_F(TakeExportTest, IsTheSameByteForByteFromTwoProcessesAtATime) {
+    const std::string take = take_.path().string();
+    const auto arguments = [&](const std::string& folder) {
+        return std::vector<std::string>{
+            "take", "export", take, "--as", "ply", "-o", path(folder).string()};
+    };
+    const auto with = [](std::vector<std::string> all, const std::vector<std::string>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    ASSERT_EQ(run_to_end(VANTAGE_PROGRAM, arguments("whole")).status, 0);
+    std::filesystem::create_directory(path("first"));
+    std::filesystem::create_directory(path("second"));
+    ChildProgram first(VANTAGE_PROGRAM, with(arguments("parts"), {"--to", "0.3"}), path("first"));
+    ChildProgram second(VANTAGE_PROGRAM, with(arguments("parts"), {"--from", "0.3"}),
+                        path("second"));
+    for (ChildProgram* part : {&first, &second}) {
+        const ProgramResult result = part->wait();
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path("whole"))) {
+        const std::string file = entry.path().filename().string();
+        EXPECT_TRUE(text("whole/" + file) == text("parts/" + file)) << file;
+        ++files;
+    }
+    EXPECT_EQ(files, 16u) << "15 moments and what they are of";
+    const std::filesystem::directory_iterator parts(path("parts"));
+    EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(parts), end(parts))), files);
+}
+
 TEST_F(TakeExportTest, MixesWithNothingElse) {
     const auto refused = [&](const std::string& form, const std::string& folder,
                              const std::string& words) {

@@ -1,17 +1,16 @@
 #include "host_app/flight/camera_state.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/looking.h"
+
 namespace vantage {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
-CameraState turned(CameraState camera, double angle_rad) {
+CameraState turned_camera(CameraState camera, double angle_rad) {
     camera.world_from_camera.rotate(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()));
     return camera;
 }
@@ -31,7 +30,7 @@ TEST(CameraState, IsTheSameViewAsItself) {
     // Rounding must not make an angle of a rotation with itself.
     CameraState camera;
     for (int i = 0; i < 200; ++i) {
-        camera = turned(camera, 0.1 * i);
+        camera = turned_camera(camera, 0.1 * i);
         EXPECT_TRUE(is_same_view(camera, camera)) << i;
     }
 }
@@ -39,10 +38,10 @@ TEST(CameraState, IsTheSameViewAsItself) {
 TEST(CameraState, IsTheSameViewUpToLessThanAPixel) {
     const CameraState camera{.world_from_camera = Pose::Identity(), .field_of_view_rad = 45 * deg};
     const double pixel_rad = camera.field_of_view_rad / 1920;
-    EXPECT_TRUE(is_same_view(camera, turned(camera, 0.02 * pixel_rad)));
-    EXPECT_FALSE(is_same_view(camera, turned(camera, pixel_rad)));
-    EXPECT_FALSE(is_same_view(camera, turned(camera, -pixel_rad)));
-    EXPECT_FALSE(is_same_view(camera, turned(camera, 180 * deg)));
+    EXPECT_TRUE(is_same_view(camera, turned_camera(camera, 0.02 * pixel_rad)));
+    EXPECT_FALSE(is_same_view(camera, turned_camera(camera, pixel_rad)));
+    EXPECT_FALSE(is_same_view(camera, turned_camera(camera, -pixel_rad)));
+    EXPECT_FALSE(is_same_view(camera, turned_camera(camera, 180 * deg)));
 
     CameraState zoomed = camera;
     zoomed.field_of_view_rad += pixel_rad;

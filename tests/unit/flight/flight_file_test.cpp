@@ -1,5 +1,4 @@
 #include <fstream>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -7,11 +6,10 @@
 #include "host_app/flight/flight_book.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/flight/looking.h"
 
 namespace vantage {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 class FlightFile : public testing::Test {
   protected:

@@ -1,14 +1,13 @@
 #include "host_app/flight/flight_recording.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/looking.h"
+
 namespace vantage {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 /// A hand that turns, stops, dollies in and lifts; `rolls` as only a tracked camera does.
 FlightRecording hand_flight(double rate_hz, bool rolls) {

@@ -5,18 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/looking.h"
 #include "tests/unit/flight/ring_of_rigs.h"
 
 namespace vantage {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
-OrbitView looking(double azimuth_rad) {
-    OrbitView view;
-    view.azimuth_rad = azimuth_rad;
-    return view;
-}
 std::optional<OrbitView> no_rig(int) { return std::nullopt; }
 
 /// 1 rad/s from 0 to 10 rad.

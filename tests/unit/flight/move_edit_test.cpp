@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/looking.h"
+
 namespace vantage {
 namespace {
-
-OrbitView looking(double azimuth_rad) {
-    OrbitView view;
-    view.azimuth_rad = azimuth_rad;
-    return view;
-}
 
 Move three_keyframes() { return {{{0, looking(0)}, {2, looking(1)}, {5, looking(2)}}, false}; }
 

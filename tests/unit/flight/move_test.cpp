@@ -10,13 +10,12 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/flight/looking.h"
 
 namespace vantage {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
-OrbitView looking(double azimuth_rad, double distance_m = 4) {
+OrbitView looking_down(double azimuth_rad, double distance_m = 4) {
     OrbitView view;
     view.azimuth_rad = azimuth_rad;
     view.elevation_rad = 0.2;
@@ -27,7 +26,7 @@ OrbitView looking(double azimuth_rad, double distance_m = 4) {
 Move move_of(std::vector<double> azimuths, Easing easing, bool loop = false) {
     std::vector<MoveKeyframe> keyframes;
     for (const double azimuth : azimuths)
-        keyframes.push_back({static_cast<double>(keyframes.size()), looking(azimuth), easing});
+        keyframes.push_back({static_cast<double>(keyframes.size()), looking_down(azimuth), easing});
     return Move(keyframes, loop);
 }
 
@@ -62,7 +61,7 @@ TEST(Move, HasNoJerkOfSpeedAtASmoothKeyframe) {
 TEST(Move, ReproducesAParabolaAtUnevenTimes) {
     std::vector<MoveKeyframe> keyframes;
     for (const double t : {0.0, 0.7, 2.0, 2.5, 4.0})
-        keyframes.push_back({t, looking(0.1 * t * t), Easing::smooth});
+        keyframes.push_back({t, looking_down(0.1 * t * t), Easing::smooth});
     const Move move(keyframes, false);
     for (const double t : {0.7, 1.1, 1.9, 2.2, 2.5})  // between keyframes that have two neighbours
         EXPECT_NEAR(move.at(t).azimuth_rad, 0.1 * t * t, 1e-12);
@@ -89,8 +88,8 @@ TEST(Move, CutsAtTheNextKeyframe) {
 }
 
 TEST(Move, DolliesByEqualFactorsInEqualTimes) {
-    const Move move({{0, looking(0, 2), Easing::linear}, {1, looking(0, 8), Easing::linear}},
-                    false);
+    const Move move(
+        {{0, looking_down(0, 2), Easing::linear}, {1, looking_down(0, 8), Easing::linear}}, false);
     EXPECT_NEAR(move.at(0.5).distance_m, 4, 1e-12);
 }
 

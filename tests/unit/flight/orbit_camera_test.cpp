@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/flight/looking.h"
 #include "tests/unit/flight/ring_of_rigs.h"
 
 namespace vantage {
@@ -167,8 +168,6 @@ TEST(OrbitCamera, StandsStillWhileNoTimePasses) {
     camera.advance(0);
     EXPECT_EQ(camera.view().azimuth_rad, 0);
 }
-
-constexpr double deg = M_PI / 180;
 
 /// Turns it by a wheel that is turned on and on, and gives how far it came a step.
 std::vector<double> steps_of_a_turning_hand(OrbitCamera& camera, int steps, double turn_deg) {

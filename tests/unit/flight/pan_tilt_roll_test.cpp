@@ -1,15 +1,12 @@
 #include "host_app/flight/pan_tilt_roll.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "host_app/flight/orbit_view.h"
+#include "tests/unit/flight/looking.h"
 
 namespace vantage {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 TEST(PanTiltRoll, IsFoundAgainAlsoStraightUpAndDown) {
     for (const double tilt : {-90.0, -89.0, -20.0, 0.0, 45.0, 90.0})

@@ -14,10 +14,10 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 333, height_px = 217;
+constexpr int drawn_width_px = 333, drawn_height_px = 217;
 
 struct DrawnPicture {
-    Texture texture{TextureFormat::r32ui, width_px, height_px};
+    Texture texture{TextureFormat::r32ui, drawn_width_px, drawn_height_px};
     Fence drawn;
 };
 

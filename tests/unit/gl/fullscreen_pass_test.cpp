@@ -8,11 +8,11 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 21, height_px = 7;
+constexpr int pass_width_px = 21, pass_height_px = 7;
 constexpr uchar cleared = 0, first = 100, second = 200;
 
-struct Shaders : ShaderFolder {
-    Shaders() {
+struct PassShaders : ShaderFolder {
+    PassShaders() {
         write("thirds.frag",
               "void main() { gl_FragDepth = 0.2 + 0.3 * float(int(gl_FragCoord.x) % 3); }");
         write("tone.frag",
@@ -34,7 +34,8 @@ class FullscreenPassTest : public testing::Test {
         glClearBufferfv(GL_COLOR, 0, nothing);
     }
 
-    void draw_where(GLenum comparison, float depth, bool writes, uchar tone, int rows = height_px) {
+    void draw_where(GLenum comparison, float depth, bool writes, uchar tone,
+                    int rows = pass_height_px) {
         Program& program = pass_.use();
         program.set("tone", static_cast<float>(tone) / 255);
         program.set("rows", static_cast<float>(rows));
@@ -43,10 +44,10 @@ class FullscreenPassTest : public testing::Test {
     cv::Mat1b picture() const { return colour_.download(); }
 
     EglContext context_;
-    Shaders folder_;
+    PassShaders folder_;
     ShaderLibrary library_{folder_.path()};
-    Texture colour_{TextureFormat::r8, width_px, height_px};
-    Texture depth_{TextureFormat::depth24, width_px, height_px};
+    Texture colour_{TextureFormat::r8, pass_width_px, pass_height_px};
+    Texture depth_{TextureFormat::depth24, pass_width_px, pass_height_px};
     Framebuffer depth_only_ = Framebuffer({}, &depth_);
     Framebuffer target_ = Framebuffer({&colour_}, &depth_);
     FullscreenPass pass_{library_, "tone.frag"};
@@ -56,10 +57,10 @@ TEST_F(FullscreenPassTest, DrawsOnlyWhereTheDepthComparesAsAsked) {
     draw_where(GL_LESS, 0.65f, false, first);      // before those at 0.8
     draw_where(GL_GREATER, 0.35f, false, second);  // behind those at 0.2
     const cv::Mat1b drawn = picture();
-    for (int x = 0; x < width_px; ++x)
-        EXPECT_EQ(drawn(height_px / 2, x), x % 3 == 0   ? second
-                                           : x % 3 == 1 ? cleared
-                                                        : first)
+    for (int x = 0; x < pass_width_px; ++x)
+        EXPECT_EQ(drawn(pass_height_px / 2, x), x % 3 == 0   ? second
+                                                : x % 3 == 1 ? cleared
+                                                             : first)
             << "column " << x;
 }
 
@@ -68,7 +69,7 @@ TEST_F(FullscreenPassTest, TakesWhatItDrewOutOfLaterOnesWay) {
     draw_where(GL_GREATER, 0.4f, true, first, rows);
     draw_where(GL_GREATER, 0.3f, false, second);
     const cv::Mat1b drawn = picture();
-    for (int y = 0; y < height_px; ++y)
+    for (int y = 0; y < pass_height_px; ++y)
         EXPECT_EQ(drawn(y, 3), y < rows ? first : second) << "what was discarded is still there";
     EXPECT_EQ(drawn(0, 4), cleared);
 }

@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Shaders : ShaderFolder {
-    Shaders() {
+struct PatternShaders : ShaderFolder {
+    PatternShaders() {
         // Every pixel another one, by floating point and by whole numbers; some are left out.
         write("pattern.frag",
               "uniform float phase;\n"
@@ -58,7 +58,7 @@ class SlicedDrawingTest : public testing::TestWithParam<std::chrono::nanoseconds
     }
 
     EglContext context_;
-    Shaders folder_;
+    PatternShaders folder_;
     ShaderLibrary library_{folder_.path()};
     FullscreenPass pattern_{library_, "pattern.frag"}, flat_{library_, "flat.frag"};
 };

@@ -6,7 +6,7 @@ namespace vantage {
 namespace {
 
 using Gains = Eigen::Vector3d;
-constexpr double dt_s = ColourHarmoniser::look_period_s;
+constexpr double look_s = ColourHarmoniser::look_period_s;
 
 /// A patterned wall at z = 4 m, seen from (x, 0, 0) along z by a rig whose picture comes out with
 /// its own gains in linear light.
@@ -58,11 +58,11 @@ class HarmonisedRigs : public testing::Test {
 
 TEST_F(HarmonisedRigs, BecomeOfOneColourWithoutOvershootAndWithoutDrift) {
     const std::vector<DepthView> views = this->views();
-    harmoniser_.see(views, dt_s);
+    harmoniser_.see(views, look_s);
     double before = difference(harmoniser_, distorted_);
     EXPECT_GT(before, 0.15);
     for (int look = 0; look < 150; ++look) {
-        harmoniser_.see(views, dt_s);
+        harmoniser_.see(views, look_s);
         const double now = difference(harmoniser_, distorted_);
         EXPECT_LT(now, before + 0.002) << look;
         before = now;
@@ -81,7 +81,7 @@ TEST_F(HarmonisedRigs, AreCorrectedAfterTheirCalibration) {
     harmoniser_.apply(view);
     EXPECT_EQ(view.colour_correction.matrix, of_calibration) << "a rig never seen";
     const std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 20; ++look) harmoniser_.see(views, dt_s);
+    for (int look = 0; look < 20; ++look) harmoniser_.see(views, look_s);
     harmoniser_.apply(view);
     const Gains gain = harmoniser_.rigs().at("west").gain();
     EXPECT_LT(gain[0], 0.98) << "it is too red";
@@ -93,10 +93,10 @@ TEST_F(HarmonisedRigs, NeverChangeFasterThanTheEyeForgives) {
     const std::vector<DepthView> views = this->views();
     for (int look = 0; look < 30; ++look) {
         const auto before = harmoniser_.rigs();
-        harmoniser_.see(views, dt_s);
+        harmoniser_.see(views, look_s);
         for (const auto& [name, rig] : before)
             ASSERT_LE((harmoniser_.rigs().at(name).log_gain - rig.log_gain).cwiseAbs().maxCoeff(),
-                      ColourHarmoniser::slew_per_s * dt_s + 1e-12);
+                      ColourHarmoniser::slew_per_s * look_s + 1e-12);
     }
 }
 
@@ -111,7 +111,7 @@ TEST_F(HarmonisedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
             const cv::Rect thing(2 * look % 80, 0, 40, 91);
             views[1].colour(thing).setTo(cv::Scalar(240, 235, 230, 255));
             if (has_depth) views[1].depth_m(thing).setTo(2.5f);
-            harmoniser.see(views, dt_s);
+            harmoniser.see(views, look_s);
             for (const auto& [name, rig] : harmoniser.rigs())
                 ASSERT_LT(rig.log_gain.cwiseAbs().maxCoeff(), 0.01)
                     << name << ", look " << look << ", has_depth " << has_depth;
@@ -121,21 +121,21 @@ TEST_F(HarmonisedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
 
 TEST_F(HarmonisedRigs, GoOnFromTheirLastGainsWhenTheyComeBack) {
     std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 100; ++look) harmoniser_.see(views, dt_s);
+    for (int look = 0; look < 100; ++look) harmoniser_.see(views, look_s);
     const Gains last = harmoniser_.rigs().at("east").log_gain;
     EXPECT_GT(last.norm(), 0.05);
     const DepthView east = views.back();
     views.pop_back();
-    for (int look = 0; look < 50; ++look) harmoniser_.see(views, dt_s);
+    for (int look = 0; look < 50; ++look) harmoniser_.see(views, look_s);
     EXPECT_EQ(harmoniser_.rigs().at("east").log_gain, last);
     views.push_back(east);
-    harmoniser_.see(views, dt_s);
+    harmoniser_.see(views, look_s);
     EXPECT_LT((harmoniser_.rigs().at("east").log_gain - last).norm(), 0.01);
 }
 
 TEST_F(HarmonisedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
     const DepthView apart[] = {wall("west", -10, {1.2, 1, 1}), wall("east", 10, {1, 1, 1})};
-    for (int look = 0; look < 10; ++look) harmoniser_.see(apart, dt_s);
+    for (int look = 0; look < 10; ++look) harmoniser_.see(apart, look_s);
     for (const auto& [name, rig] : harmoniser_.rigs()) {
         EXPECT_EQ(rig.log_gain, Gains(Gains::Zero())) << name;
         EXPECT_EQ(rig.samples, 0);
@@ -143,7 +143,7 @@ TEST_F(HarmonisedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
     DepthView without_depth = wall("middle", 0, {1, 1, 1});
     without_depth.depth_m.release();
     const DepthView blind[] = {without_depth, wall("east", 0.1, {1, 1, 1})};
-    harmoniser_.see(blind, dt_s);
+    harmoniser_.see(blind, look_s);
     EXPECT_EQ(harmoniser_.rigs().count("middle"), 0u);
 }
 
@@ -151,9 +151,9 @@ TEST_F(HarmonisedRigs, AreLookedAtAFewTimesASecondOnly) {
     const std::vector<DepthView> views = this->views();
     harmoniser_.see(views, 0);
     const Gains first = harmoniser_.rigs().at("west").log_gain;
-    harmoniser_.see(views, 0.5 * dt_s);
+    harmoniser_.see(views, 0.5 * look_s);
     EXPECT_EQ(harmoniser_.rigs().at("west").log_gain, first);
-    harmoniser_.see(views, 0.5 * dt_s);
+    harmoniser_.see(views, 0.5 * look_s);
     EXPECT_NE(harmoniser_.rigs().at("west").log_gain, first);
 }
 

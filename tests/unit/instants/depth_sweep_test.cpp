@@ -1,16 +1,16 @@
-#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/egl_context.h"
 #include "host_app/instants/rig_consensus.h"
+#include "host_app/instants/rig_roster.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
 namespace {
 
-constexpr int width_px = 129, height_px = 95;
+constexpr int sweep_width_px = 129, sweep_height_px = 95;
 constexpr float wall_m = 4;
 /// Seen by all rigs, away from the pictures' borders.
 const cv::Rect middle(35, 25, 60, 45);
@@ -19,8 +19,8 @@ const cv::Rect middle(35, 25, 60, 45);
 class DepthSweepTest : public testing::Test {
   protected:
     static DepthView film(double x_m, bool is_patterned) {
-        DepthView view =
-            wall_and_square(x_m, width_px, height_px, {.square_x_m = 100, .waves = is_patterned});
+        DepthView view = wall_and_square(x_m, sweep_width_px, sweep_height_px,
+                                         {.square_x_m = 100, .waves = is_patterned});
         view.baseline_m = 0.05;
         if (!is_patterned) view.colour.setTo(cv::Scalar(90, 120, 150, 255));
         return view;
@@ -29,12 +29,10 @@ class DepthSweepTest : public testing::Test {
         std::vector<DepthView> rigs{film(0, is_patterned), film(-1, is_patterned),
                                     film(1, is_patterned)};
         rigs[0].depth_m *= 1 + error;
-        std::vector<std::unique_ptr<RigHistory>> views;
-        for (const DepthView& rig : rigs) {
-            views.push_back(std::make_unique<RigHistory>());
-            views.back()->upload(rig);
-        }
-        return DepthImage(consensus_.better(compared(*views[0]), compared(views)).download())(
+        RigRoster views;
+        views.upload(rigs, nominal_dt_s);
+        return DepthImage(
+            consensus_.better(compared(*views.shown()[0]), compared(views.shown())).download())(
             middle);
     }
     /// Mean, relative.

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 65, height_px = 49;
+constexpr int blocks_width_px = 65, blocks_height_px = 49;
 constexpr float spread = 0.005f;
 
 class FlatBlocksTest : public testing::Test {
@@ -21,9 +21,9 @@ class FlatBlocksTest : public testing::Test {
     using Triangle = std::array<cv::Point, 3>;
 
     void fill(const std::function<float(int, int)>& depth_m) {
-        cv::Mat1f map(height_px, width_px);
-        for (int y = 0; y < height_px; ++y)
-            for (int x = 0; x < width_px; ++x) map(y, x) = depth_m(x, y);
+        cv::Mat1f map(blocks_height_px, blocks_width_px);
+        for (int y = 0; y < blocks_height_px; ++y)
+            for (int x = 0; x < blocks_width_px; ++x) map(y, x) = depth_m(x, y);
         map_.upload(map);
     }
 
@@ -43,8 +43,8 @@ class FlatBlocksTest : public testing::Test {
         triangles_.indices.read(0, std::as_writable_bytes(std::span(indices)));
         std::vector<Triangle> triangles;
         const auto pixel = [](std::uint32_t index) {
-            return cv::Point(static_cast<int>(index) % width_px,
-                             static_cast<int>(index) / width_px);
+            return cv::Point(static_cast<int>(index) % blocks_width_px,
+                             static_cast<int>(index) / blocks_width_px);
         };
         for (std::size_t i = 0; i < indices.size(); i += 3)
             triangles.push_back({pixel(indices[i]), pixel(indices[i + 1]), pixel(indices[i + 2])});
@@ -56,8 +56,8 @@ class FlatBlocksTest : public testing::Test {
     EglContext context_;
     ShaderLibrary shaders_;
     TriangleBuilder builder_{shaders_};
-    Texture map_{TextureFormat::r32f, width_px, height_px};
-    IndirectTriangles triangles_{triangle_indices({width_px, height_px})};
+    Texture map_{TextureFormat::r32f, blocks_width_px, blocks_height_px};
+    IndirectTriangles triangles_{triangle_indices({blocks_width_px, blocks_height_px})};
 };
 
 TEST_F(FlatBlocksTest, AreTwoTriangles) {
@@ -70,25 +70,25 @@ TEST_F(FlatBlocksTest, AreTwoTriangles) {
     EXPECT_EQ(built().size(), 2u * blocks);
     double area = 0;
     for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
-    EXPECT_GE(area, (width_px - 1) * (height_px - 1));
+    EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
 }
 
 TEST_F(FlatBlocksTest, SpanNoBend) {
     // A ridge down the picture: half of all blocks touch it or their neighbours do.
     fill([](int x, int) {
-        return 1 / (0.4f - 0.004f * static_cast<float>(std::abs(x - width_px / 2)));
+        return 1 / (0.4f - 0.004f * static_cast<float>(std::abs(x - blocks_width_px / 2)));
     });
     builder_.build(grid(QuadGrid::coarse));
     for (const Triangle& triangle : built()) {
         const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-        EXPECT_FALSE(left < width_px / 2 - 1 && right > width_px / 2 + 1)
+        EXPECT_FALSE(left < blocks_width_px / 2 - 1 && right > blocks_width_px / 2 + 1)
             << left << " to " << right;
     }
 }
 
 TEST_F(FlatBlocksTest, AreBuiltOnlyWhereATileSaysSo) {
     fill([](int, int) { return 2.0f; });
-    const cv::Size picture(width_px, height_px), count = TilePass::tiles_of(picture);
+    const cv::Size picture(blocks_width_px, blocks_height_px), count = TilePass::tiles_of(picture);
     cv::Mat1b tiles = cv::Mat1b::zeros(count);
     tiles(1, 2) = 255;
     Texture on(TextureFormat::r8, count.width, count.height);

@@ -22,7 +22,7 @@ struct Orders {
     std::atomic<bool> fails_to_take = false;
     std::atomic<bool> fails_to_prepare = false;
     std::atomic<bool> draws_next_until_released = false, is_released = false;
-    std::atomic<int> made = 0, taken = 0, prepared = 0, forgot = 0, rank = 0;
+    std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
     std::atomic<double> dt_s = 0;
 };
 
@@ -50,7 +50,7 @@ class OrderedPreparer final : public InstantPreparer {
         ++orders_->prepared;
         return std::make_shared<Instant>();
     }
-    void forget() override { ++orders_->forgot; }
+    void cut() override { ++orders_->cuts; }
 
   private:
     std::shared_ptr<Orders> orders_;
@@ -145,17 +145,17 @@ TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) 
 TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
-    const int forgot = orders_->forgot;
+    const int cuts = orders_->cuts;
     push(7);
     ASSERT_TRUE(wait_for_pulse(7));
     EXPECT_NEAR(orders_->dt_s, 0.3, 1e-9);
-    EXPECT_EQ(orders_->forgot, forgot);
+    EXPECT_EQ(orders_->cuts, cuts);
     push(100);
     ASSERT_TRUE(wait_for_pulse(100));
-    EXPECT_EQ(orders_->forgot, forgot + 1) << "after nine seconds nothing follows";
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "after nine seconds nothing follows";
     push(2);
     ASSERT_TRUE(wait_for_pulse(2));
-    EXPECT_EQ(orders_->forgot, forgot + 2) << "the stage began anew";
+    EXPECT_EQ(orders_->cuts, cuts + 2) << "the stage began anew";
 }
 
 TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
@@ -250,6 +250,25 @@ TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
     EXPECT_GE(orders_->made, 3);
+}
+
+TEST_F(InstantThreadTest, KeepsThePreparerOfASynthesiserThatAnotherTookOverFrom) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const auto change_to = [&](const std::string& synthesiser, std::shared_ptr<Orders> orders) {
+        thread_->prepare_for(synthesiser, [orders](const ShaderLibrary&) {
+            return std::make_unique<OrderedPreparer>(orders);
+        });
+        return wait_for([&] { return thread_->newest()->synthesiser == synthesiser; });
+    };
+    const auto others = std::make_shared<Orders>();
+    ASSERT_TRUE(change_to("other", others));
+    const int cuts = orders_->cuts;
+    ASSERT_TRUE(change_to("ordered", orders_));
+    ASSERT_TRUE(change_to("other", others));
+    EXPECT_EQ(orders_->made, 1);
+    EXPECT_EQ(others->made, 1);
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "what moved meanwhile was not seen";
 }
 
 TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {

@@ -65,7 +65,8 @@ class PaintedRig {
                                 {.width_px = size.width,
                                  .height_px = size.height,
                                  .disparities = 16,
-                                 .preset = MatchPreset::fast})),
+                                 .preset = MatchPreset::fast,
+                                 .of_stream = true})),
           steady_(library, size.width, size.height) {}
 
     inline static const cv::Size size{160, 120};

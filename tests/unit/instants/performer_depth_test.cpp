@@ -1,6 +1,7 @@
 #include "host_app/instants/performer_depth.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,15 +14,15 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 97, height_px = 73;
+constexpr int performer_width_px = 97, performer_height_px = 73;
 constexpr float square_m = 2;
 
 /// Rigs before a wall that they have learnt, when a square comes to stand before it.
 class PerformerDepthTest : public testing::Test {
   protected:
     static DepthView film(double x_m, bool has_square) {
-        DepthView view =
-            wall_and_square(x_m, width_px, height_px, {.square_x_m = has_square ? 0.0 : 100.0});
+        DepthView view = wall_and_square(x_m, performer_width_px, performer_height_px,
+                                         {.square_x_m = has_square ? 0.0 : 100.0});
         view.baseline_m = 0.2;
         return view;
     }
@@ -36,8 +37,12 @@ class PerformerDepthTest : public testing::Test {
         }
         std::vector<RigHistory*> all;
         for (const auto& rig : rigs_) all.push_back(rig.get());
-        performers_.find(*rigs_[0], all);
-        return rigs_[0]->performer_depth().texture().download();
+        return found(*rigs_[0], all);
+    }
+    DepthImage found(RigHistory& rig, std::span<RigHistory* const> all) {
+        rig.performer_depth().resize(rig.depth().size());
+        performers_.find(rig, all, rig.performer_depth().target());
+        return rig.performer_depth().texture().download();
     }
     void see(RigHistory& rig, const DepthView& view) {
         rig.upload(view, 0.2);
@@ -48,9 +53,9 @@ class PerformerDepthTest : public testing::Test {
         const cv::Mat1b inside = film(0, true).depth_m < 3;
         return inside;
     }
-    static cv::Mat1b away() {
+    static cv::Mat1b away(int by_px = 3) {
         cv::Mat1b wide;
-        cv::dilate(square(), wide, cv::Mat1b::ones(7, 7));
+        cv::dilate(square(), wide, cv::Mat1b::ones(2 * by_px + 1, 2 * by_px + 1));
         return ~wide;
     }
 
@@ -65,7 +70,18 @@ TEST_F(PerformerDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
     const DepthImage depth_m = found(film(0, true), {0.4});
     EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square()),
               1e-4);
-    EXPECT_EQ(cv::norm(depth_m, cv::NORM_INF, away()), 0);
+    EXPECT_LE(cv::norm(cv::max(depth_m, 0), cv::NORM_INF, away()), 0);
+}
+
+/// A matte ends a performer, not the depth.
+TEST_F(PerformerDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
+    const DepthImage depth_m = found(film(0, true), {0.4});
+    const cv::Mat1b beside = away(1) & ~away(3);
+    EXPECT_LT(
+        cv::norm(cv::abs(depth_m), DepthImage(depth_m.size(), square_m), cv::NORM_INF, beside),
+        1e-4);
+    EXPECT_LT(cv::mean(depth_m, away(3) & ~away(5))[0], 0);
+    EXPECT_EQ(cv::norm(depth_m, cv::NORM_INF, away(9)), 0);
 }
 
 /// A place that another rig sees to be empty: at 3 m the square's left part would show beside its
@@ -83,6 +99,18 @@ TEST_F(PerformerDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
         << carved(strip);
     // The one on the other side sees the place before the square.
     EXPECT_GT(cv::mean(found(wrong, {0.4})(strip))[0], 2.9);
+}
+
+/// Of one instant a rig tells no performers apart, which does not mean that there are none.
+TEST_F(PerformerDepthTest, IsWhereverARigIsThatHasJustCome) {
+    (void)found(film(0, true), {0.4});
+    RigHistory& other = *rigs_[1];
+    other.forget();
+    see(other, film(0.4, true));
+    RigHistory* const all[] = {rigs_[0].get(), &other};
+    const DepthImage depth_m = found(*rigs_[0], all);
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square()),
+              1e-4);
 }
 
 TEST_F(PerformerDepthTest, IsThatOfLikeColourAroundWhereNothingWasMeasured) {

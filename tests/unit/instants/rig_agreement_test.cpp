@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 61, height_px = 43;
+constexpr int agreement_width_px = 61, agreement_height_px = 43;
 constexpr float exact = 0.01f, same_place = 0.05f;
 
 struct Agreement {
@@ -28,7 +28,7 @@ class RigAgreementTest : public testing::Test {
     };
 
     RigAgreementTest() {
-        others_[0] = {cv::Mat1f(height_px, width_px), 31.3f, 7.7f, 0.02f};
+        others_[0] = {cv::Mat1f(agreement_height_px, agreement_width_px), 31.3f, 7.7f, 0.02f};
         others_[1] = {cv::Mat1f(39, 57), -23.9f, -5.1f, -0.03f};
         cv::RNG random(11);
         // About one surface, with pixels that are a little off, far off, or unknown.
@@ -77,7 +77,7 @@ class RigAgreementTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    cv::Mat1f own_ = cv::Mat1f(height_px, width_px);
+    cv::Mat1f own_ = cv::Mat1f(agreement_height_px, agreement_width_px);
     std::array<Other, 2> others_;
 };
 
@@ -86,7 +86,7 @@ TEST_F(RigAgreementTest, IsTheReferences) {
     const Texture depth = texture_of(TextureFormat::r32f, own_);
     const std::array maps{texture_of(TextureFormat::r32f, others_[0].depth_m),
                           texture_of(TextureFormat::r32f, others_[1].depth_m)};
-    const cv::Size half((width_px + 1) / 2, (height_px + 1) / 2);
+    const cv::Size half((agreement_width_px + 1) / 2, (agreement_height_px + 1) / 2);
     const Texture target(TextureFormat::rgba16f, half.width, half.height);
     Program& program = pass.use();
     program.set("depth_map", 0);
@@ -110,7 +110,8 @@ TEST_F(RigAgreementTest, IsTheReferences) {
     int judged = 0;
     for (int y = 0; y < half.height; ++y)
         for (int x = 0; x < half.width; ++x) {
-            const int u = std::min(2 * x, width_px - 1), v = std::min(2 * y, height_px - 1);
+            const int u = std::min(2 * x, agreement_width_px - 1),
+                      v = std::min(2 * y, agreement_height_px - 1);
             Agreement found;
             if (own_(v, u) > 0) {
                 const bool first = look(others_[0], u, v, found);

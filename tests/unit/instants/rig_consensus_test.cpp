@@ -7,15 +7,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
-#include "host_app/instants/rig_presence.h"
+#include "host_app/instants/rig_roster.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
 namespace {
 
-constexpr int width_px = 161, height_px = 107;
+constexpr int consensus_width_px = 161, consensus_height_px = 107;
 constexpr double f_px = 400, baseline_m = 0.5;
-constexpr float wall_m = 4;
+constexpr float far_wall_m = 4;
 /// In both cameras' pictures, apart from each other, on the wall and as what is put there moves.
 const cv::Rect behind(120, 60, 20, 16);
 
@@ -23,11 +23,13 @@ const cv::Rect behind(120, 60, 20, 16);
 DepthView wall(double x_m) {
     DepthView view;
     view.name = std::to_string(x_m);
-    view.K << f_px, 0, 0.5 * (width_px - 1), 0, f_px, 0.5 * (height_px - 1), 0, 0, 1;
+    view.K << f_px, 0, 0.5 * (consensus_width_px - 1), 0, f_px, 0.5 * (consensus_height_px - 1), 0,
+        0, 1;
     view.world_from_camera.translation().x() = x_m;
     view.baseline_m = baseline_m;
-    view.colour = ColourImage(height_px, width_px, cv::Vec4b(90, 120, 150, 255));
-    view.depth_m = DepthImage(height_px, width_px, wall_m);
+    view.colour =
+        ColourImage(consensus_height_px, consensus_width_px, cv::Vec4b(90, 120, 150, 255));
+    view.depth_m = DepthImage(consensus_height_px, consensus_width_px, far_wall_m);
     return view;
 }
 
@@ -36,12 +38,9 @@ class FaultyPairTest : public testing::Test {
   protected:
     DepthImage bettered(const DepthView& own, const DepthView& other) {
         const DepthView pair[] = {own, other};
-        std::vector<std::unique_ptr<RigHistory>> views;
-        for (const DepthView& view : pair) {
-            views.push_back(std::make_unique<RigHistory>());
-            views.back()->upload(view);
-        }
-        return consensus_.better(compared(*views[0]), compared(views)).download();
+        RigRoster views;
+        views.upload(pair, nominal_dt_s);
+        return consensus_.better(compared(*views.shown()[0]), compared(views.shown())).download();
     }
 
     EglContext context_;
@@ -51,33 +50,33 @@ class FaultyPairTest : public testing::Test {
 
 TEST_F(FaultyPairTest, KeepsWhatTheOtherCannotConfirmWhereThePairHardlyErrs) {
     DepthView own = wall(0);
-    own.depth_m(behind) = 1.5f * wall_m;
+    own.depth_m(behind) = 1.5f * far_wall_m;
     const DepthImage kept = bettered(own, wall(baseline_m));
     EXPECT_EQ(cv::norm(kept, own.depth_m, cv::NORM_INF), 0);
 }
 
 TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) {
     DepthView own = wall(0);
-    own.depth_m(behind) = 1.5f * wall_m;
+    own.depth_m(behind) = 1.5f * far_wall_m;
     // A tenth of the map is before the wall, and the other camera sees the wall through it.
     const cv::Rect before(130, 5, 30, 40);
-    own.depth_m(before) = 0.9f * wall_m;
+    own.depth_m(before) = 0.9f * far_wall_m;
     const DepthImage left = bettered(own, wall(baseline_m));
     EXPECT_EQ(cv::countNonZero(left(before)), 0);
-    EXPECT_EQ(cv::countNonZero(left(behind) != -1.5f * wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(behind) != -1.5f * far_wall_m), 0);
     // What it does confirm, and what is outside its picture, stays.
-    EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != wall_m), 0);
-    EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, height_px)) != wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, consensus_height_px)) != far_wall_m), 0);
 }
 
 /// Both matchers may be wrong in the same way: then the surfaces meet and the colours do not.
 TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
     DepthView own = wall(0);
-    own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.9f * wall_m;
+    own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.9f * far_wall_m;
     own.colour(behind).setTo(cv::Scalar(200, 20, 20, 255));
     const DepthImage left = bettered(own, wall(baseline_m));
-    EXPECT_EQ(cv::countNonZero(left(behind) != -wall_m), 0);
-    EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(behind) != -far_wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
 }
 
 /// From farther away than a rig's own baseline the same tells nothing of what is merely
@@ -85,8 +84,8 @@ TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
 TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
     DepthView own = wall(0);
     own.baseline_m = baseline_m / 5;
-    own.depth_m(behind) = 1.5f * wall_m;
-    own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.7f * wall_m;
+    own.depth_m(behind) = 1.5f * far_wall_m;
+    own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.7f * far_wall_m;
     DepthView other = wall(baseline_m);
     other.baseline_m = own.baseline_m;
     EXPECT_EQ(cv::countNonZero(bettered(own, other)(behind)), behind.area());
@@ -96,21 +95,23 @@ TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
 /// the wall beside the square for the square.
 class DoubtedStripTest : public testing::Test {
   protected:
-    static constexpr int width_px = 161, height_px = 119;
-    static constexpr float wall_m = 4, square_m = 2;
+    static constexpr int consensus_width_px = 161, consensus_height_px = 119;
+    static constexpr float far_wall_m = 4, square_m = 2;
     static const cv::Rect strip;
 
     static DepthView film(double x_m) {
-        DepthView view = wall_and_square(x_m, width_px, height_px, {.waves = true});
+        DepthView view =
+            wall_and_square(x_m, consensus_width_px, consensus_height_px, {.waves = true});
         view.baseline_m = 0.05;
         return view;
     }
 
     DepthImage bettered_strip(const DepthView& own) {
         const DepthView rigs[] = {own, film(-0.4), film(0.4)};
-        std::vector<std::unique_ptr<RigHistory>> views;
-        upload_with_fades(rigs, nominal_dt_s, views);
-        return consensus_.better(compared(*views[0]), compared(views)).download()(strip);
+        RigRoster views;
+        views.upload(rigs, nominal_dt_s);
+        return consensus_.better(compared(*views.shown()[0]), compared(views.shown()))
+            .download()(strip);
     }
 
     EglContext context_;
@@ -122,11 +123,11 @@ const cv::Rect DoubtedStripTest::strip(42, 40, 6, 40);
 
 TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
     DepthView own = film(0);
-    ASSERT_EQ(cv::countNonZero(own.depth_m(strip) != wall_m), 0);
+    ASSERT_EQ(cv::countNonZero(own.depth_m(strip) != far_wall_m), 0);
     ASSERT_EQ(own.depth_m(60, 50), square_m);
     own.depth_m(strip) = square_m;
     const DepthImage mended = bettered_strip(own);
-    const int right = cv::countNonZero(cv::abs(mended - wall_m) < 0.03 * wall_m);
+    const int right = cv::countNonZero(cv::abs(mended - far_wall_m) < 0.03 * far_wall_m);
     EXPECT_GE(right, 0.9 * strip.area()) << mended;
 }
 
@@ -134,7 +135,7 @@ TEST_F(DoubtedStripTest, KeepsItsDepthInAMapThatErrsNowhereElseAndHardlyHere) {
     DepthView own = film(0);
     // Fewer pixels than what is measured, not matched, has wrong.
     const cv::Rect few(strip.x, strip.y, 3, 12);
-    own.depth_m(few) = 1.3f * wall_m;
+    own.depth_m(few) = 1.3f * far_wall_m;
     const DepthImage kept = bettered_strip(own);
     EXPECT_EQ(cv::norm(kept, own.depth_m(strip), cv::NORM_INF), 0);
 }

@@ -1,5 +1,6 @@
 #include "host_app/instants/rig_demand.h"
 
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -40,7 +41,7 @@ class RigDemandTest : public testing::Test {
 
     std::map<std::string, bool> update(double azimuth_deg, std::chrono::nanoseconds after) {
         std::map<std::string, bool> changes;
-        for (const auto& change : demand_.update(view_at(azimuth_deg), start_ + after))
+        for (const auto& change : demand_.update(std::array{view_at(azimuth_deg)}, start_ + after))
             changes[change.rig] = change.streaming;
         return changes;
     }
@@ -72,11 +73,26 @@ TEST_F(RigDemandTest, AsksAtOnceForARigThatBecomesUseful) {
     for (const auto& [rig, streaming] : changes) EXPECT_TRUE(streaming) << rig;
 }
 
+TEST_F(RigDemandTest, OfTwoViewsTheRigsOfBothGoOn) {
+    const std::array views{view_at(-80), view_at(80)};
+    demand_.update(views, start_);
+    std::map<std::string, bool> changes;
+    for (const auto& change : demand_.update(views, start_ + 4s))
+        changes[change.rig] = change.streaming;
+    for (const char* needed : {"-80", "-60", "-40", "40", "60", "80"})
+        EXPECT_FALSE(changes.contains(needed)) << needed;
+    demand_.update(std::array{views[0]}, start_ + 5s);
+    for (const auto& change : demand_.update(std::array{views[0]}, start_ + 9s))
+        changes[change.rig] = change.streaming;
+    ASSERT_TRUE(changes.contains("80")) << "nobody looks there any more";
+    EXPECT_FALSE(changes["80"]);
+}
+
 TEST_F(RigDemandTest, LeavesASmallStageAlone) {
     RigDemand demand;
     demand.see(std::span(rigs_).first(4));
-    EXPECT_TRUE(demand.update(view_at(0), start_).empty());
-    EXPECT_TRUE(demand.update(view_at(0), start_ + 60s).empty());
+    EXPECT_TRUE(demand.update(std::array{view_at(0)}, start_).empty());
+    EXPECT_TRUE(demand.update(std::array{view_at(0)}, start_ + 60s).empty());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "common/gl/egl_context.h"
 #include "host_app/instants/rig_consensus.h"
-#include "host_app/instants/rig_presence.h"
+#include "host_app/instants/rig_roster.h"
 
 namespace vantage {
 namespace {
@@ -44,9 +44,10 @@ class RigFloorTest : public testing::Test {
         own.colour(strip) = strip_colour;
         const DepthView rigs[] = {own, film_of_floor(-0.4, eye_height_m),
                                   film_of_floor(0.4, eye_height_m)};
-        std::vector<std::unique_ptr<RigHistory>> views;
-        upload_with_fades(rigs, nominal_dt_s, views);
-        return DepthImage(consensus_.better_set(compared(*views[0]), compared(views)).download())(
+        RigRoster views;
+        views.upload(rigs, nominal_dt_s);
+        return DepthImage(
+            consensus_.better_set(compared(*views.shown()[0]), compared(views.shown())).download())(
             strip);
     }
     int like(const DepthImage& depth_m, const DepthImage& map_m) const {

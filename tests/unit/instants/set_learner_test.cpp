@@ -174,11 +174,11 @@ TEST_F(SetLearnerTest, TakesAShadowForTheSet) {
     EXPECT_LT(unlike(learnt.colour(within), shaded.colour(within)), 8);
 }
 
-TEST_F(SetLearnerTest, KnowsNoPastOfARigThatWasNotLearntOf) {
+TEST_F(SetLearnerTest, KnowsThePastOfARigThatOneInstantWasNotLearntOf) {
     for (int i = 0; i < 12; ++i) (void)next(filmed_with_noise());
     rig_.upload(film(), dt_s);  // and nothing is made of it
     const DepthView view = filmed_with_noise();
-    EXPECT_EQ(unlike(next(view).colour, view.colour), 0);
+    EXPECT_GT(unlike(next(view).colour, view.colour), 0) << "a mean";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 53, height_px = 37;
+constexpr int memory_width_px = 53, memory_height_px = 37;
 // The kinds of set_kinds.glsl.
 constexpr uchar lit_set = 64, untold = 112, new_set = 152, before_set = 255;
 
@@ -17,8 +17,8 @@ constexpr uchar lit_set = 64, untold = 112, new_set = 152, before_set = 255;
 class SetMemoryTest : public testing::Test {
   protected:
     SetMemoryTest() {
-        for (int v = 0; v < height_px; ++v)
-            for (int u = 0; u < width_px; ++u) {
+        for (int v = 0; v < memory_height_px; ++v)
+            for (int u = 0; u < memory_width_px; ++u) {
                 const uchar kinds[] = {0, lit_set, untold, new_set, 192, before_set};
                 seen_(v, u) = {kinds[random_.uniform(0, 6)],
                                static_cast<uchar>(random_.uniform(0, 9)), 0, 255};
@@ -35,8 +35,8 @@ class SetMemoryTest : public testing::Test {
     EglContext context_;
     ShaderLibrary shaders_;
     cv::RNG random_{5};
-    cv::Mat4b seen_ = cv::Mat4b(height_px, width_px);
-    cv::Mat1b matte_ = cv::Mat1b(height_px, width_px);
+    cv::Mat4b seen_ = cv::Mat4b(memory_height_px, memory_width_px);
+    cv::Mat1b matte_ = cv::Mat1b(memory_height_px, memory_width_px);
 };
 
 /// set_learn.frag and depth_votes.glsl.
@@ -74,10 +74,10 @@ struct DepthMemory {
 };
 
 TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
-    cv::Mat1f depth(height_px, width_px);
-    cv::Mat4f before(height_px, width_px);
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
+    cv::Mat1f depth(memory_height_px, memory_width_px);
+    cv::Mat4f before(memory_height_px, memory_width_px);
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u) {
             const float z = random_.uniform(0, 6) == 0 ? 0 : random_.uniform(2.0f, 6.0f);
             depth(v, u) = z;
             const int instants = random_.uniform(1, 21), misses = random_.uniform(0, 6);
@@ -92,7 +92,7 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
     const Texture set_before = texture_of(TextureFormat::rgba32f, before);
     const Texture seen = texture_of(TextureFormat::rgba8, seen_);
     const Texture matte = texture_of(TextureFormat::r8, matte_);
-    const Texture target(TextureFormat::rgba32f, width_px, height_px);
+    const Texture target(TextureFormat::rgba32f, memory_width_px, memory_height_px);
     Program& program = pass.use();
     program.set("depth_map", 0);
     program.set("set_before", 1);
@@ -110,8 +110,8 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
     matte.bind(3);
     const cv::Mat4f learnt = drawn_by(pass, target);
     int moved = 0;
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u) {
             const cv::Vec4f expected =
                 memory.next(before(v, u), depth(v, u), seen_(v, u)[0], matte_(v, u));
             moved += expected[0] != before(v, u)[0] ? 1 : 0;
@@ -119,22 +119,22 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
                 ASSERT_NEAR(learnt(v, u)[c], expected[c], 1e-5 * std::max(1.0f, expected[c]))
                     << u << ' ' << v << " channel " << c;
         }
-    EXPECT_GT(moved, width_px * height_px / 10);
-    EXPECT_LT(moved, width_px * height_px * 9 / 10);
+    EXPECT_GT(moved, memory_width_px * memory_height_px / 10);
+    EXPECT_LT(moved, memory_width_px * memory_height_px * 9 / 10);
 
     pass.use().set("has_before", 0.0f);
     const cv::Mat4f first = drawn_by(pass, target);
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u)
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u)
             ASSERT_EQ(first(v, u), cv::Vec4f(depth(v, u), 1, 0, 0)) << u << ' ' << v;
 }
 
 TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
     constexpr float most_instants = 12;
-    cv::Mat4b picture(height_px, width_px);
-    cv::Mat4f past(height_px, width_px);
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
+    cv::Mat4b picture(memory_height_px, memory_width_px);
+    cv::Mat4f past(memory_height_px, memory_width_px);
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u) {
             const int off = random_.uniform(0, 3) == 0 ? 40 : 3;
             for (int c = 0; c < 3; ++c) {
                 picture(v, u)[c] = static_cast<uchar>(random_.uniform(50, 200));
@@ -145,8 +145,8 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
             past(v, u)[3] = static_cast<float>(random_.uniform(-4, 13));
         }
     // Performers are whole patches, so that much of the set is clear of them.
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) matte_(v, u) = (u / 9 + v / 8) % 3 == 0 ? 200 : 0;
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u) matte_(v, u) = (u / 9 + v / 8) % 3 == 0 ? 200 : 0;
     cv::Mat past_halves;
     past.convertTo(past_halves, CV_16F);
     past_halves.convertTo(past, CV_32F);
@@ -156,8 +156,8 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
     const Texture before = texture_of(TextureFormat::rgba16f, past_halves);
     const Texture seen = texture_of(TextureFormat::rgba8, seen_);
     const Texture matte = texture_of(TextureFormat::r8, matte_, Filter::linear);
-    const Texture shown(TextureFormat::rgba8, width_px, height_px);
-    const Texture mean(TextureFormat::rgba16f, width_px, height_px);
+    const Texture shown(TextureFormat::rgba8, memory_width_px, memory_height_px);
+    const Texture mean(TextureFormat::rgba16f, memory_width_px, memory_height_px);
     Program& program = pass.use();
     program.set("picture", 0);
     program.set("before", 1);
@@ -174,8 +174,8 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
     cv::Mat4f mean_now;
     mean.download().convertTo(mean_now, CV_32F);
     int hidden_pixels = 0;
-    for (int v = 0; v < height_px; ++v)
-        for (int u = 0; u < width_px; ++u) {
+    for (int v = 0; v < memory_height_px; ++v)
+        for (int u = 0; u < memory_width_px; ++u) {
             bool is_hidden = false;
             for (int y : {-2, -1, 1, 2})
                 for (int x : {-2, -1, 1, 2})
@@ -209,8 +209,8 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
                 ASSERT_NEAR(shown_now(v, u)[c], 255 * expected[c], 0.6) << u << ' ' << v;
             ASSERT_EQ(shown_now(v, u)[3], is_hidden ? 64 : 255) << u << ' ' << v;
         }
-    EXPECT_GT(hidden_pixels, width_px * height_px / 5);
-    EXPECT_LT(hidden_pixels, width_px * height_px * 4 / 5);
+    EXPECT_GT(hidden_pixels, memory_width_px * memory_height_px / 5);
+    EXPECT_LT(hidden_pixels, memory_width_px * memory_height_px * 4 / 5);
 }
 
 }  // namespace

@@ -2,13 +2,10 @@
 
 #include "common/gl/egl_context.h"
 #include "host_app/instants/set_learner.h"
+#include "tests/unit/instants/set_kinds.h"
 
 namespace vantage {
 namespace {
-
-// The kinds of set_kinds.glsl.
-constexpr int the_set = 0, lit_set = 64, untold = 112, new_set = 152, uncovered = 192,
-              before_set = 255;
 
 /// A patch in the middle of a grey wall at 4 m that stood still for some instants.
 class SetSeeTest : public testing::Test {

@@ -1,5 +1,6 @@
 #include "host_app/instants/staged_preparer.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,23 +12,24 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 97, height_px = 73;
-constexpr float wall_m = 4, square_m = 2;
+constexpr int staged_width_px = 97, staged_height_px = 73;
+constexpr float stage_wall_m = 4, stage_square_m = 2;
 
 /// One rig before a wall, which a square stands before at times.
 class StagedPreparerTest : public testing::Test {
   protected:
     static DepthView film(bool has_square) {
-        DepthView view =
-            wall_and_square(0, width_px, height_px, {.square_x_m = has_square ? 0.0 : 100.0});
+        DepthView view = wall_and_square(0, staged_width_px, staged_height_px,
+                                         {.square_x_m = has_square ? 0.0 : 100.0});
         view.name = "only";
         view.baseline_m = 0.2;
         return view;
     }
     std::shared_ptr<const Instant> prepared(const DepthView& view) {
         preparer_.take({&view, 1}, 0.2);
-        return preparer_.prepare({width_px, height_px, view.K, view.world_from_camera},
-                                 prepare_levels().front());
+        return preparer_.prepare(
+            {staged_width_px, staged_height_px, view.K, view.world_from_camera},
+            prepare_levels().front());
     }
     static cv::Mat1b square(int margin_px) {
         cv::Mat1b inside = film(true).depth_m < 3;
@@ -46,6 +48,12 @@ class StagedPreparerTest : public testing::Test {
         return cv::norm(part & cv::Scalar(255, 255, 255, 0), cv::NORM_INF);
     }
 
+    /// How far what a rig has learnt is from the empty stage at worst, metres.
+    double learnt_off_m(std::size_t rig = 0) {
+        const DepthImage depth_m = preparer_.set_memory()->learnt().rigs.at(rig).depth_m;
+        return cv::norm(depth_m, DepthImage(depth_m.size(), stage_wall_m), cv::NORM_INF);
+    }
+
     EglContext context_;
     ShaderLibrary shaders_;
     StagedPreparer preparer_{shaders_};
@@ -56,48 +64,78 @@ TEST_F(StagedPreparerTest, PutsPerformersBeforeTheSet) {
     const DepthView with = film(true);
     const std::shared_ptr<const Instant> instant = prepared(with);
     ASSERT_EQ(instant->rigs.size(), 1u);
-    const RigSurface& surface = *instant->rigs[0].surface;
-    const DepthImage depth_m = surface.depth().download();
+    ASSERT_NE(instant->rigs[0].boundary, nullptr);
+    const RigSurface& performers = *instant->rigs[0].boundary;
+    const DepthImage depth_m = performers.depth().download();
     // A matte's edge is soft by a pixel.
-    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square(-1)),
-              0.01);
-    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), wall_m), cv::NORM_INF, ~square(1)),
-              0.02);
-    EXPECT_LE(
-        unlike(surface.colour().download(), with.colour, cv::Mat1b(with.colour.size(), uchar{255})),
-        1);
+    EXPECT_LT(
+        cv::norm(depth_m, DepthImage(depth_m.size(), stage_square_m), cv::NORM_INF, square(-1)),
+        0.01);
+    const ColourImage colour = performers.colour().download();
+    cv::Mat1b share;
+    cv::extractChannel(colour, share, 3);
+    EXPECT_EQ(cv::countNonZero((share < 255) & square(-1)), 0);
+    EXPECT_EQ(cv::countNonZero(share & ~square(1)), 0);
+    EXPECT_LE(unlike(colour, with.colour, square(-1)), 1);
+    EXPECT_EQ(cv::norm(colour, cv::NORM_INF, ~square(1)), 0);
 }
 
-TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformersAsAPlate) {
+/// What a pixel at a performer's edge shows of the set is taken from its colour.
+TEST_F(StagedPreparerTest, TakesTheSetOutOfTheColoursOfPerformersEdges) {
+    for (int i = 0; i < 5; ++i) (void)prepared(film(false));
+    DepthView with = film(true);
+    const ColourImage behind = film(false).colour;
+    const cv::Mat1b edge = square(0) & ~square(-1);
+    for (int y = 0; y < edge.rows; ++y)
+        for (int x = 0; x < edge.cols; ++x)
+            if (edge(y, x)) with.colour(y, x) = 0.5 * with.colour(y, x) + 0.5 * behind(y, x);
+    const ColourImage colour = prepared(with)->rigs.at(0).boundary->colour().download();
+    int edges = 0;
+    for (int y = 0; y < edge.rows; ++y)
+        for (int x = 0; x < edge.cols; ++x) {
+            if (!edge(y, x)) continue;
+            ++edges;
+            const cv::Vec4b& seen = colour(y, x);
+            ASSERT_NEAR(seen[3], 128, 30) << x << ' ' << y;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(255.0 * seen[c] / seen[3], film(true).colour(y, x)[c], 25)
+                    << x << ' ' << y << " channel " << c;
+        }
+    EXPECT_GT(edges, 100);
+}
+
+TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
     const DepthView empty = film(false);
-    EXPECT_EQ(prepared(empty)->rigs.at(0).surface->plate(), nullptr) << "nothing to remember yet";
     for (int i = 0; i < 5; ++i) (void)prepared(empty);
     const std::shared_ptr<const Instant> instant = prepared(film(true));
-    const RigPlate* plate = instant->rigs.at(0).surface->plate();
-    ASSERT_NE(plate, nullptr);
-    const DepthImage depth_m = plate->picture().depth_m().download();
-    const ColourImage colour = plate->picture().colour().download();
-    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), wall_m), cv::NORM_INF), 0.02);
+    const RigSurface& set = *instant->rigs.at(0).surface;
+    const DepthImage depth_m = set.depth().download();
+    const ColourImage colour = set.colour().download();
+    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), stage_wall_m), cv::NORM_INF), 0.02);
     EXPECT_LE(unlike(colour, empty.colour, cv::Mat1b(colour.size(), uchar{255})), 3);
-    cv::Mat1b alpha;
-    cv::extractChannel(colour, alpha, 3);
-    EXPECT_EQ(cv::countNonZero(alpha != 255), 0) << "all of it was seen";
+    cv::Mat1b trust;
+    cv::extractChannel(colour, trust, 3);
+    const auto remembered = static_cast<uchar>(std::lround(255 * RigSurface::remembered_trust));
+    EXPECT_EQ(cv::countNonZero((trust != remembered) & square(0)), 0) << "it is not seen now";
+    EXPECT_EQ(cv::countNonZero((trust != 255) & ~square(4)), 0) << "it is";
 }
 
 /// Depth that was closed but never measured is nothing to remember.
 TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
     DepthView torn = film(false);
-    const cv::Rect hole(30, 20, 8, 8);
+    const cv::Rect hole(44, 30, 8, 8);
     torn.depth_m(hole) = 0.0f;
+    const auto set_m = [](const Instant& instant) {
+        return DepthImage(instant.rigs.at(0).surface->depth().download());
+    };
     for (int i = 0; i < 5; ++i) (void)prepared(torn);
-    const std::shared_ptr<const Instant> instant = prepared(torn);
-    cv::Mat1b alpha;
-    cv::extractChannel(instant->rigs.at(0).surface->plate()->picture().colour().download(), alpha,
-                       3);
-    EXPECT_EQ(cv::countNonZero(alpha(hole)), 0);
-    EXPECT_EQ(cv::countNonZero(alpha != 255), hole.area());
-    const DepthImage guessed = DepthImage(instant->rigs[0].surface->depth().download())(hole);
-    EXPECT_LT(cv::norm(guessed, DepthImage(hole.size(), -wall_m), cv::NORM_INF), 0.01);
+    const DepthImage guessed = set_m(*prepared(torn))(hole);
+    EXPECT_LT(cv::norm(guessed, DepthImage(hole.size(), -stage_wall_m), cv::NORM_INF), 0.01);
+    DepthView with = film(true);
+    with.depth_m(hole) = 0.0f;
+    const DepthImage hidden = set_m(*prepared(with));
+    EXPECT_EQ(cv::countNonZero(hidden(hole)), 0);
+    EXPECT_EQ(cv::countNonZero(hidden == 0), hole.area());
 }
 
 /// What was learnt goes on in another preparer: the set behind a square that stands there from its
@@ -118,18 +156,15 @@ TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
     EXPECT_EQ(state.known, 1);
     EXPECT_TRUE(state.is_loaded);
     EXPECT_EQ(state.misfit, "");
-    const std::shared_ptr<const Instant> instant =
-        next.prepare({width_px, height_px, with.K, with.world_from_camera}, prepare_levels()[2]);
-    const RigSurface& surface = *instant->rigs.at(0).surface;
-    EXPECT_LT(cv::norm(DepthImage(surface.depth().download()),
-                       DepthImage(with.depth_m.size(), square_m), cv::NORM_INF, square(-1)),
+    const std::shared_ptr<const Instant> instant = next.prepare(
+        {staged_width_px, staged_height_px, with.K, with.world_from_camera}, prepare_levels()[2]);
+    const DepthImage square_m(with.depth_m.size(), stage_square_m);
+    EXPECT_LT(cv::norm(DepthImage(instant->rigs.at(0).boundary->depth().download()), square_m,
+                       cv::NORM_INF, square(-1)),
               0.01);
-    ASSERT_NE(surface.plate(), nullptr);
-    const ColourImage plate = surface.plate()->picture().colour().download();
-    EXPECT_LE(unlike(plate, empty.colour, square(0)), 3);
-    cv::Mat1b alpha;
-    cv::extractChannel(plate, alpha, 3);
-    EXPECT_EQ(cv::countNonZero(alpha != 255), 0);
+    const RigSurface& set = *instant->rigs[0].surface;
+    EXPECT_LE(unlike(set.colour().download(), empty.colour, square(0)), 3);
+    EXPECT_EQ(cv::countNonZero(DepthImage(set.depth().download()) <= 0), 0);
 }
 
 TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
@@ -168,8 +203,9 @@ TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
     EXPECT_EQ(preparer_.set_memory()->states().at(0).known, 1);
     EXPECT_FALSE(preparer_.set_memory()->states()[0].is_loaded);
     const LearntRigSet set = preparer_.set_memory()->learnt().rigs.at(0);
-    EXPECT_LT(cv::norm(set.depth_m, DepthImage(set.depth_m.size(), wall_m), cv::NORM_INF), 0.02);
-    preparer_.forget();
+    EXPECT_LT(cv::norm(set.depth_m, DepthImage(set.depth_m.size(), stage_wall_m), cv::NORM_INF),
+              0.02);
+    preparer_.cut();
     (void)prepared(film(false));
     EXPECT_FALSE(preparer_.set_memory()->states().at(0).is_loaded);
 }
@@ -178,26 +214,68 @@ TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
 TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
     std::vector<DepthView> views{film(false), film(false)};
     views[1].name = "other";
-    const VirtualView target{width_px, height_px, views[0].K, views[0].world_from_camera};
+    const VirtualView target{staged_width_px, staged_height_px, views[0].K,
+                             views[0].world_from_camera};
     const PrepareLevel one_rig{3, 1, false, false};
     const auto learnt = [&] { return preparer_.set_memory()->learnt().rigs.size(); };
     const auto show = [&](const PrepareLevel& level) {
         return preparer_.prepare(target, level)->rigs.size();
     };
-    preparer_.take(views, 0.2);
-    EXPECT_EQ(learnt(), 2u) << "no cut";
-    preparer_.forget();
+    preparer_.cut();
     preparer_.take(views, 0.2);
     EXPECT_EQ(learnt(), 0u);
     EXPECT_EQ(show(one_rig), 1u);
     EXPECT_EQ(learnt(), 1u);
     EXPECT_EQ(show(prepare_levels().front()), 2u) << "bettered, all are needed";
     EXPECT_EQ(learnt(), 2u);
-    preparer_.forget();
+    for (DepthView& view : views) view.world_from_camera.translation().y() += 0.1;
+    preparer_.take(views, 0.2);
+    EXPECT_EQ(learnt(), 2u) << "no cut, other places";
+    for (DepthView& view : views) view.world_from_camera.translation().y() += 0.1;
+    preparer_.cut();
     preparer_.take(views, 0.2);
     (void)show(one_rig);
+    EXPECT_EQ(learnt(), 1u);
     preparer_.take(views, 0.2);
     EXPECT_EQ(learnt(), 2u) << "nobody is left out for ever";
+}
+
+/// A freeze or a jump in time moves performers, not the set.
+TEST_F(StagedPreparerTest, KeepsTheSetOverACut) {
+    for (int i = 0; i < 8; ++i) (void)prepared(film(false));
+    ASSERT_LT(learnt_off_m(), 0.02);
+    preparer_.cut();
+    (void)prepared(film(true));
+    EXPECT_LT(learnt_off_m(), 0.02) << "what stands before it is no part of it";
+}
+
+TEST_F(StagedPreparerTest, LearnsNothingOfARehearsal) {
+    for (int i = 0; i < 8; ++i) (void)prepared(film(false));
+    const auto learnt = std::make_shared<const LearntSet>(preparer_.set_memory()->learnt());
+    StagedPreparer next(shaders_);
+    next.set_memory()->begin_with(learnt);
+    const DepthView view = film(true);
+    next.rehearse({&view, 1}, {staged_width_px, staged_height_px, view.K, view.world_from_camera});
+    EXPECT_TRUE(next.set_memory()->learnt().rigs.empty());
+    next.take({&view, 1}, 0.2);
+    EXPECT_TRUE(next.set_memory()->states().at(0).is_loaded);
+    EXPECT_EQ(cv::norm(next.set_memory()->learnt().rigs.at(0).depth_m, learnt->rigs[0].depth_m,
+                       cv::NORM_INF, square(-1)),
+              0)
+        << "the square stands before it";
+}
+
+TEST_F(StagedPreparerTest, KeepsTheSetOfARigThatWasAway) {
+    std::vector<DepthView> views{film(false), film(false)};
+    views[1].name = "other";
+    for (int i = 0; i < 8; ++i) preparer_.take(views, 0.2);
+    for (int i = 0; i < 8; ++i) preparer_.take({views.data(), 1}, 0.2);
+    EXPECT_EQ(prepared(views[0])->rigs.size(), 1u) << "it is not shown";
+    EXPECT_EQ(preparer_.set_memory()->learnt().rigs.size(), 2u) << "it can be saved";
+    views[1] = film(true);
+    views[1].name = "other";
+    preparer_.take(views, 0.2);
+    EXPECT_LT(learnt_off_m(1), 0.02);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace vantage {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-constexpr int width_px = 9, height_px = 7;
+constexpr int grid_width_px = 9, grid_height_px = 7;
 
-int column(std::uint32_t pixel) { return static_cast<int>(pixel) % width_px; }
-int row(std::uint32_t pixel) { return static_cast<int>(pixel) / width_px; }
+int column(std::uint32_t pixel) { return static_cast<int>(pixel) % grid_width_px; }
+int row(std::uint32_t pixel) { return static_cast<int>(pixel) / grid_width_px; }
 
 class TriangleBuilderTest : public testing::Test {
   protected:
@@ -74,12 +74,12 @@ class TriangleBuilderTest : public testing::Test {
 };
 
 TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) {
-    DepthImage slanted(height_px, width_px);
-    for (int y = 0; y < height_px; ++y)
-        for (int x = 0; x < width_px; ++x)
+    DepthImage slanted(grid_height_px, grid_width_px);
+    for (int y = 0; y < grid_height_px; ++y)
+        for (int x = 0; x < grid_width_px; ++x)
             slanted(y, x) =
                 1 / (1 + 0.011f * static_cast<float>(x) + 0.003f * static_cast<float>(y));
-    for (const DepthImage& depth_m : {DepthImage(height_px, width_px, 3.0f), slanted})
+    for (const DepthImage& depth_m : {DepthImage(grid_height_px, grid_width_px, 3.0f), slanted})
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse}) {
             look_at(depth_m);
             EXPECT_EQ(covered(built(grid)), 2 * 8 * 6) << static_cast<int>(grid);
@@ -87,23 +87,24 @@ TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) 
 }
 
 TEST_F(TriangleBuilderTest, LeavesOutWhatIsSteeperThanAnySurface) {
-    DepthImage steep(height_px, width_px);
-    for (int y = 0; y < height_px; ++y)
-        for (int x = 0; x < width_px; ++x) steep(y, x) = 1 / (1 + 0.04f * static_cast<float>(x));
+    DepthImage steep(grid_height_px, grid_width_px);
+    for (int y = 0; y < grid_height_px; ++y)
+        for (int x = 0; x < grid_width_px; ++x)
+            steep(y, x) = 1 / (1 + 0.04f * static_cast<float>(x));
     look_at(steep);
     EXPECT_EQ(covered(built(QuadGrid::fine)), 0);
 }
 
 TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
     // The near corner takes 4 x 3 pixels: 5 quads are cut, and of a sixth one corner.
-    DepthImage corner(height_px, width_px, 4.0f);
+    DepthImage corner(grid_height_px, grid_width_px, 4.0f);
     corner(cv::Rect(0, 0, 4, 3)) = 2.0f;
     look_at(corner);
     const std::vector<Triangle> around = built(QuadGrid::fine);
     EXPECT_EQ(covered(around), 2 * (8 * 6 - 6) + 1);
     for (const Triangle& t : around) EXPECT_FALSE(mixes(corner, t));
     // A pixel without depth takes a half of each of its four quads away; guessed depth is depth.
-    DepthImage hole(height_px, width_px, -4.0f);
+    DepthImage hole(grid_height_px, grid_width_px, -4.0f);
     hole(3, 5) = 0.0f;
     look_at(hole);
     const std::vector<Triangle> beside = built(QuadGrid::fine);
@@ -113,7 +114,7 @@ TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
 
 /// A rim's vertices are nine a pixel, its middle the fifth; its triangles are a quarter of a quad.
 TEST_F(TriangleBuilderTest, RimsASurfaceOnTheSideThatIsCut) {
-    DepthImage left(height_px, width_px, 4.0f);
+    DepthImage left(grid_height_px, grid_width_px, 4.0f);
     left.colRange(0, 4) = 2.0f;
     look_at(left);
     const std::vector<Triangle> rims = built_rims();
@@ -127,7 +128,7 @@ TEST_F(TriangleBuilderTest, RimsASurfaceOnTheSideThatIsCut) {
 }
 
 TEST_F(TriangleBuilderTest, RimsAPostOfOnePixelOnBothSides) {
-    DepthImage post(height_px, width_px, 4.0f);
+    DepthImage post(grid_height_px, grid_width_px, 4.0f);
     post.col(4) = 2.0f;
     look_at(post);
     const std::vector<Triangle> rims = built_rims();
@@ -143,7 +144,7 @@ TEST_F(TriangleBuilderTest, RimsAPostOfOnePixelOnBothSides) {
 }
 
 TEST_F(TriangleBuilderTest, RimsNothingOfAnUnbrokenSurface) {
-    look_at(DepthImage(height_px, width_px, 3.0f));
+    look_at(DepthImage(grid_height_px, grid_width_px, 3.0f));
     EXPECT_TRUE(built_rims().empty());
 }
 

@@ -18,6 +18,7 @@
 #include "common/wire/link_message.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
 
@@ -29,15 +30,6 @@ using testing::HasSubstr;
 
 /// Far beyond what any of this takes; a test that waits so long has failed.
 constexpr auto patience = 60s;
-
-bool eventually(const std::function<bool()>& condition) {
-    const MonotonicTime end = MonotonicClock::now() + patience;
-    while (MonotonicClock::now() < end) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(2ms);
-    }
-    return false;
-}
 
 class LinkTest : public testing::Test {
   protected:
@@ -129,6 +121,28 @@ TEST_F(LinkTest, FramesCrossTheSecuredLinkBitExact) {
     EXPECT_EQ(status.in_sets, frames);
     EXPECT_EQ(status.lost, 0u);
     EXPECT_EQ(status.undecodable, 0u);
+}
+
+TEST_F(LinkTest, WhatNobodyLooksAtIsKeptAsItCameAndNotDecoded) {
+    Publisher rig(open_stream(), "rig-a");
+    StageReceiver host(stage_of(rig));
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    const auto next = [&](std::uint64_t k) {
+        const auto sent = rig.publish(make_frame(k));
+        const std::optional<FrameSet> set = host.next(patience);
+        EXPECT_TRUE(set && set->present() == 1);
+        EXPECT_EQ(set->slots[0].frame->packed->colour, sent->colour);
+        EXPECT_EQ(set->slots[0].frame->trigger_index, k);
+        return *set->slots[0].frame;
+    };
+    EXPECT_TRUE(next(1000).has_pictures());
+    host.look_at("rig-a", false);
+    EXPECT_FALSE(next(1001).has_pictures());
+    EXPECT_EQ(next(1002).geometry.width_px, 61) << "all but the pictures is known";
+    host.look_at("rig-a", true);
+    EXPECT_TRUE(same_pixels(next(1003).colour, make_frame(1003).colour));
+    EXPECT_EQ(host.status().rigs[0].in_sets, 4u);
+    EXPECT_THROW(host.look_at("rig-b", true), Error);
 }
 
 TEST_F(LinkTest, AnUnknownHostIsToldWhatToDoAndIsLetInOnceItIsListed) {

@@ -42,6 +42,17 @@ TEST(Control, OfOthersSteersAShowWhoseLampsTheySee) {
     EXPECT_TRUE(summary["time"]["in"].is_number()) << summary["time"];
 }
 
+/// Where there is no sequencer the show says so before it starts, and what would mend it.
+TEST(Control, ByMidiIsRefusedWhereThereIsNoSequencer) {
+    if (access("/dev/snd/seq", F_OK) == 0) GTEST_SKIP() << "SKIPPED: this computer has one";
+    const ProgramResult end =
+        run_to_end(VANTAGE_PROGRAM,
+                   {"play", (source_folder() / "tests/takes/version_1.mkv").string(), "--headless",
+                    "--size", "96x72", "--seconds", "1", "--control", "midi://all"});
+    EXPECT_EQ(end.status, 1) << end.err;
+    EXPECT_NE(end.err.find("modprobe snd-seq"), std::string::npos) << end.err;
+}
+
 /// A flight by hand over a take becomes a flight file, which is flown and filmed.
 TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
     const TemporaryFolder folder;

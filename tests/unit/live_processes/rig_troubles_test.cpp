@@ -107,6 +107,18 @@ TEST_F(RigTroubles, WithKeysSayWhoseKeyIsWrong) {
     EXPECT_THAT(result.err, HasSubstr("does not hold the key"));
 }
 
+TEST_F(RigTroubles, AreNotThatRigsAreArmedAndWaitForAHost) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const std::string armed = "[trigger]\nrole = \"lead\"\npretended = true\n";
+    const auto north = start_rig("north", ports_.first, 5, armed);
+    const auto south = start_rig("south", ports_.second, 5, armed);
+    const ProgramResult result = status(60, true);
+    EXPECT_EQ(result.status, 0) << result.err;
+    const nlohmann::json told = nlohmann::json::parse(result.out);
+    EXPECT_EQ(told["signal"], "no_signal");
+    EXPECT_THAT(told["rigs"][1]["silence"].get<std::string>(), HasSubstr("vantage live"));
+}
+
 TEST_F(RigTroubles, NameARigAtAnotherRate) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 2);

@@ -1,41 +1,13 @@
 #include "host_app/motion/rig_motion.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "host_app/motion/frame_between.h"
+#include "tests/unit/motion/moving_square.h"
+
 namespace vantage {
 namespace {
-
-constexpr int width = 160, height = 120, square = 40;
-constexpr std::uint16_t far_steps = 10 * 32, near_steps = 20 * 32;
-
-/// Noise that is smooth enough to be followed.
-cv::Mat texture(int columns, int rows, std::uint64_t seed) {
-    cv::Mat noise(rows, columns, CV_8UC3);
-    cv::RNG random(seed);
-    random.fill(noise, cv::RNG::UNIFORM, 0, 256);
-    cv::GaussianBlur(noise, noise, {}, 2);
-    cv::normalize(noise, noise, 20, 235, cv::NORM_MINMAX);
-    cv::Mat colour;
-    cv::cvtColor(noise, colour, cv::COLOR_BGR2RGBA);
-    return colour;
-}
-
-/// A textured square before a textured wall, at x.
-RigFrame frame_at(int x, std::int64_t exposure_ns) {
-    RigFrame frame;
-    frame.rig = "north";
-    frame.trigger_index = 7;
-    frame.exposure = tai_from_ns(exposure_ns);
-    frame.colour = ColourImage(texture(width, height, 1));
-    frame.disparity = DisparityImage(height, width, far_steps);
-    const cv::Rect place(x, (height - square) / 2, square, square);
-    texture(square, square, 2).copyTo(frame.colour(place));
-    frame.disparity(place) = near_steps;
-    return frame;
-}
 
 double mean_error(const cv::Mat& a, const cv::Mat& b, const cv::Rect& where) {
     cv::Mat difference;
@@ -63,6 +35,13 @@ TEST(RigMotionTest, WhatMovesIsHalfWayAtHalfTheTimeWithItsDepth) {
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) wrong += between.disparity(y, x) != truth.disparity(y, x);
     EXPECT_LT(wrong, 4 * square * 2) << "but for its rims";
+}
+
+TEST(RigMotionTest, ASurfaceIsAsWideBetweenAsItIs) {
+    const RigFrame first = frame_at(50, 0), second = frame_at(57, 1000);
+    const RigFrame between = frame_between(first, second, motion_between(first, second), 0.5);
+    for (int y = height / 2 - 10; y < height / 2 + 10; ++y)
+        EXPECT_NEAR(cv::countNonZero(between.disparity.row(y) == near_steps), square, 1) << y;
 }
 
 TEST(RigMotionTest, WhatStandsStillStays) {

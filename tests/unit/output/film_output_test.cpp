@@ -6,6 +6,7 @@
 #include "host_app/output/output_desk.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/full_disk.h"
+#include "tests/unit/output/files_in.h"
 #include "tests/unit/output/given_pictures.h"
 #include "tests/unit/output/probed_film.h"
 
@@ -15,10 +16,6 @@ namespace {
 /// 2026-10-02T12:34:56Z, in seconds of UTC.
 constexpr std::int64_t noon_s = 1'790'944'496;
 constexpr int tai_offset_s = 37;
-
-std::size_t files_in(const std::filesystem::path& folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
-}
 
 std::string content_of(const std::filesystem::path& path) {
     std::string text;

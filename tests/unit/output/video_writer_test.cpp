@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/output/files_in.h"
 #include "tests/unit/output/probed_film.h"
 
 namespace vantage {
@@ -19,10 +20,6 @@ ColourImage grey_picture(int width_px, int height_px, int level) {
         height_px, width_px,
         cv::Vec4b(static_cast<unsigned char>(level), static_cast<unsigned char>(level),
                   static_cast<unsigned char>(level), 255));
-}
-
-std::size_t files_in(const std::filesystem::path& folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
 class VideoWriterTest : public testing::TestWithParam<const char*> {

@@ -29,7 +29,8 @@ class BenchTest : public testing::Test {
     TrackedCamera tracked_;
     Tally tally_;
     LampBoard lamps_;
-    ControlBench bench_{hands_, tracked_, tally_, lamps_};
+    LtcBoard ltc_;
+    ControlBench bench_{hands_, tracked_, tally_, lamps_, ltc_};
     LocalSocket peer_;
 };
 

@@ -33,8 +33,9 @@ class ScriptedPilot final : public Pilot {
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;
         next_.view.azimuth_rad += turn_rad_;
+        if (next_.preview) next_.preview->azimuth_rad += preview_turn_rad_;
         PilotStep step = next_;
-        next_ = {.view = step.view};
+        next_ = {.view = step.view, .preview = step.preview};
         return step;
     }
 
@@ -55,6 +56,10 @@ class ScriptedPilot final : public Pilot {
         const std::lock_guard lock(mutex_);
         turn_rad_ = rad;
     }
+    void turn_preview(double rad) {
+        const std::lock_guard lock(mutex_);
+        preview_turn_rad_ = rad;
+    }
     void fail_with(std::string sentence) {
         const std::lock_guard lock(mutex_);
         failure_ = std::move(sentence);
@@ -72,7 +77,7 @@ class ScriptedPilot final : public Pilot {
   private:
     mutable std::mutex mutex_;
     PilotStep next_;
-    double turn_rad_ = 0;
+    double turn_rad_ = 0, preview_turn_rad_ = 0;
     int steps_ = 0, shot_ = 0;
     std::string failure_;
 };
@@ -160,6 +165,23 @@ class ProgrammeTest : public testing::Test {
     /// Ready to be started, with a sink that notes what it is given.
     Programme& make() {
         instants_.emplace(instants_settings_, feed_.feed(), contexts_);
+        return make_programme();
+    }
+    /// Instants come of a preparer that sleeps as long as `sleep_ms_` says.
+    Programme& make_with_slow_preparer() {
+        instants_.emplace(instants_settings_, feed_.feed(), contexts_);
+        const auto entry = find_synthesiser(settings_.synthesiser);
+        const auto is_made = std::make_shared<std::atomic<bool>>(false);
+        // A synthesiser's preparer is made once.
+        instants_->prepare_for(
+            entry.name, [entry, is_made, sleep = sleep_ms_](const ShaderLibrary& shaders) {
+                *is_made = true;
+                return std::make_unique<SlowPreparer>(entry.make_preparer(shaders), sleep);
+            });
+        EXPECT_TRUE(wait_for([&] { return is_made->load(); }));
+        return make_programme();
+    }
+    Programme& make_programme() {
         programme_.emplace(settings_, *instants_, pilot_);
         programme_->add(std::make_unique<NotingSink>(seen_));
         return *programme_;
@@ -189,22 +211,6 @@ class ProgrammeTest : public testing::Test {
     bool wait_for_ticks(std::size_t ticks) {
         const std::size_t before = seen_->count();
         return wait_for([&] { return seen_->count() >= before + ticks; });
-    }
-    /// Instants come of a preparer that sleeps as long as `sleep_ms_` says.
-    void slow_down_preparing() {
-        const auto entry = find_synthesiser(settings_.synthesiser);
-        // A preparer is made when the name changes.
-        instants_->prepare_for("another", entry.make_preparer);
-        push(1);
-        ASSERT_TRUE(wait_for([&] {
-            const auto newest = instants_->newest();
-            return newest && newest->synthesiser == "another";
-        }));
-        instants_->prepare_for(
-            entry.name, [entry, sleep = sleep_ms_](const ShaderLibrary& shaders) {
-                return std::make_unique<SlowPreparer>(entry.make_preparer(shaders), sleep);
-            });
-        ASSERT_TRUE(wait_for([&] { return instants_->newest()->synthesiser == entry.name; }));
     }
     void expect_every_tick_once() {
         const std::lock_guard lock(seen_->mutex);
@@ -278,10 +284,10 @@ TEST_F(ProgrammeTest, FliesOnWhileNoInstantComes) {
 }
 
 TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
-    make();
-    ASSERT_NO_FATAL_FAILURE(slow_down_preparing());
+    make_with_slow_preparer();
     pilot_.turn(0.002);
     start();
+    push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     *sleep_ms_ = 2000;
     const std::size_t ticks_before = seen_->count();
@@ -298,6 +304,80 @@ TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
     EXPECT_LE(instants_->books().prepared, 4u) << "it did sleep";
     programme_->stop();
     expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, MakesNoPictureOfAPreviewThatNobodyAskedFor) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.01);
+    ASSERT_TRUE(wait_for_ticks(20));
+    EXPECT_FALSE(programme_->state().preview.view);
+    EXPECT_EQ(programme_->books().preview_pictures, 0u);
+}
+
+TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    const CameraState stands = programme_->state().picture->job.camera;
+    pilot_.turn_preview(0.002);
+    pilot_.next([](PilotStep& step) { step.preview = step.view; });
+    ASSERT_TRUE(wait_for([&] { return programme_->books().preview_pictures >= 10; }));
+    const ProgrammeState state = programme_->state();
+    ASSERT_TRUE(state.preview.picture);
+    EXPECT_EQ(state.preview.picture->picture.size(), cv::Size(32, 24)) << "half of 64x48";
+    EXPECT_FALSE(is_same_view(state.preview.picture->job.camera, stands));
+    EXPECT_EQ(state.preview.picture->job.instant->set->trigger_index, 1u)
+        << "of the instant that is there";
+    EXPECT_TRUE(is_same_view(state.picture->job.camera, stands));
+    pilot_.next([](PilotStep& step) { step.preview.reset(); });
+    ASSERT_TRUE(wait_for([&] { return !programme_->state().preview.picture; }));
+    programme_->stop();
+    expect_every_tick_once();
+    EXPECT_EQ(programme_->books().ticks, seen_->count());
+    EXPECT_GT(programme_->books().preview_ms.count, 0u);
+}
+
+TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.002);
+    pilot_.turn_preview(0.003);
+    pilot_.next([](PilotStep& step) { step.preview = step.view; });
+    ASSERT_TRUE(wait_for([&] { return programme_->books().preview_pictures >= 10; }));
+    programme_->stop();
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_EQ(books.ticks, seen_->count());
+    EXPECT_GE(books.pictures, books.preview_pictures) << "the programme goes first";
+    expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, APreviewGoesOnAfterAResetOfTheGpuAndWithAnotherSynthesiser) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn_preview(0.002);
+    pilot_.next([](PilotStep& step) { step.preview = step.view; });
+    const auto more_come = [&] {
+        const std::uint64_t before = programme_->books().preview_pictures;
+        return wait_for([&] { return programme_->books().preview_pictures > before + 3; });
+    };
+    ASSERT_TRUE(more_come());
+    reset_gpu();
+    ASSERT_TRUE(wait_for([&] { return instants_->newest()->generation == 2; }));
+    EXPECT_TRUE(more_come());
+    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    ASSERT_TRUE(wait_for([&] { return programme_->state().synthesiser != "mesh"; }));
+    EXPECT_TRUE(wait_for([&] {
+        const auto picture = programme_->state().preview.picture;
+        return picture && picture->job.instant->synthesiser == programme_->state().synthesiser;
+    }));
 }
 
 TEST_F(ProgrammeTest, CountsWhatItRepeats) {
@@ -376,8 +456,7 @@ TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
 }
 
 TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
-    make();
-    ASSERT_NO_FATAL_FAILURE(slow_down_preparing());
+    make_with_slow_preparer();
     start();
     // Instants that come at the stage's rate and take longer than that are prepared worse.
     *sleep_ms_ = 45;
@@ -395,6 +474,8 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
         const auto picture = programme_->state().picture;
         return picture->job.instant->instant->level == 0 && picture->job.level.rank == 0;
     })) << "what stands still is shown as well as can be";
+    EXPECT_EQ(programme_->books().rest_ms.count, 1u);
+    EXPECT_GT(programme_->books().rest_ms.max, 0);
     const std::uint64_t held = shown_pulse();
     push(pulse + 10);
     const std::uint64_t before = programme_->books().pictures;
@@ -548,10 +629,17 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     push(2, 20);
     ASSERT_TRUE(wait_for_pulse(2));
     ASSERT_TRUE(wait_for_ticks(3));
+    // And back, and to it again: nothing of when it was last in use is shown.
+    const std::string after = programme_->state().synthesiser;
+    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    ASSERT_TRUE(wait_for([&] { return programme_->state().synthesiser != after; }));
+    push(3, 120);
+    ASSERT_TRUE(wait_for_pulse(3));
+    ASSERT_TRUE(wait_for_ticks(3));
     programme_->stop();
     expect_every_tick_once();
     EXPECT_EQ(programme_->books().faults, 0);
-    EXPECT_NEAR(seen_->last_middle[0], 20, 2);
+    EXPECT_NEAR(seen_->last_middle[0], 120, 2);
 }
 
 TEST_F(ProgrammeTest, ShowsTheSourceMapWhileThatIsAskedFor) {

@@ -15,13 +15,13 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr auto period = 40ms;
+constexpr auto pulse_period = 40ms;
 constexpr auto budget = 200ms;
 
 /// A stage whose frames arrive as the test says, on a clock of the test's own.
 class Stage {
   public:
-    explicit Stage(std::size_t rigs) : assembler_(names(rigs), {period, budget}) {
+    explicit Stage(std::size_t rigs) : assembler_(names(rigs), {pulse_period, budget}) {
         for (std::size_t rig = 0; rig < rigs; ++rig) assembler_.set_connected(rig, true);
     }
 
@@ -38,7 +38,8 @@ class Stage {
 
     /// Moves the clock to when pulse `index` is fired, plus `latency`.
     void at(std::uint64_t index, std::chrono::nanoseconds latency) {
-        now_ = monotonic_from_ns(0) + 1h + static_cast<std::int64_t>(index) * period + latency;
+        now_ =
+            monotonic_from_ns(0) + 1h + static_cast<std::int64_t>(index) * pulse_period + latency;
     }
     void pass(std::chrono::nanoseconds time) { now_ += time; }
 
@@ -266,7 +267,7 @@ TEST(FrameSetAssembler, ASilentRigIsWaitedForALatencyBudgetAndTwoPeriods) {
         stage.closed();
         stage.frame(0, k);
         const bool waited_for = !stage.assembler().take_closed(stage.now()).size();
-        EXPECT_EQ(waited_for, stage.now() - silent_since <= budget + 2 * period) << k;
+        EXPECT_EQ(waited_for, stage.now() - silent_since <= budget + 2 * pulse_period) << k;
     }
 }
 
@@ -304,7 +305,7 @@ TEST(FrameSetAssembler, JitterWithinTheBudgetCostsNoFrame) {
     constexpr std::uint64_t pulses = 300;
     for (std::uint64_t k = 1; k <= pulses; ++k)
         for (std::size_t rig = 0; rig < 4; ++rig) {
-            const std::chrono::nanoseconds arrival = static_cast<std::int64_t>(k) * period +
+            const std::chrono::nanoseconds arrival = static_cast<std::int64_t>(k) * pulse_period +
                                                      std::chrono::milliseconds(jitter_ms(random));
             newest[rig] = std::max(newest[rig], arrival);
             arrivals.push_back({newest[rig], rig, k});

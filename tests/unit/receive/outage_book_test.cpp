@@ -7,36 +7,36 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const MonotonicTime start = monotonic_from_ns(0) + 1h;
+const MonotonicTime host_start = monotonic_from_ns(0) + 1h;
 
 TEST(OutageBook, ARigThatHasNotComeYetIsNoOutage) {
     OutageBook book;
     book.note(false, std::nullopt);
     EXPECT_EQ(book.outages(), 0u);
-    EXPECT_EQ(book.length(start), 0s);
+    EXPECT_EQ(book.length(host_start), 0s);
 }
 
 TEST(OutageBook, CountsFromTheLastWordToTheNext) {
     OutageBook book;
-    book.note(true, start);
-    book.note(false, start + 1s);
+    book.note(true, host_start);
+    book.note(false, host_start + 1s);
     EXPECT_EQ(book.outages(), 1u);
-    EXPECT_EQ(book.length(start + 4s), 3s) << "it lasts";
-    book.note(false, start + 1s);
-    book.note(true, start + 10s);
+    EXPECT_EQ(book.length(host_start + 4s), 3s) << "it lasts";
+    book.note(false, host_start + 1s);
+    book.note(true, host_start + 10s);
     EXPECT_EQ(book.outages(), 1u);
-    EXPECT_EQ(book.length(start + 20s), 9s);
+    EXPECT_EQ(book.length(host_start + 20s), 9s);
 }
 
 TEST(OutageBook, AddsOutagesUp) {
     OutageBook book;
     for (const auto at : {0s, 10s}) {
-        book.note(true, start + at);
-        book.note(false, start + at);
-        book.note(true, start + at + 2s);
+        book.note(true, host_start + at);
+        book.note(false, host_start + at);
+        book.note(true, host_start + at + 2s);
     }
     EXPECT_EQ(book.outages(), 2u);
-    EXPECT_EQ(book.length(start + 60s), 4s);
+    EXPECT_EQ(book.length(host_start + 60s), 4s);
 }
 
 }  // namespace

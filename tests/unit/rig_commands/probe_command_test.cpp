@@ -10,7 +10,7 @@ TEST(ProbeCommand, LooksAtAnyComputerAndSaysWhatIsUnfit) {
     const ProgramResult result = run_to_end(VANTAGE_RIG, {"probe"});
     EXPECT_EQ(result.status, 0) << result.err;
     for (const char* title : {"Cameras of libcamera:", "Cameras of V4L2:", "GPIO chips:", "GPU:",
-                              "Clocks:", "What is unfit for a rig here:"})
+                              "Clocks:", "Board and kernel:", "What is unfit for a rig here:"})
         EXPECT_NE(result.out.find(title), std::string::npos) << title;
     EXPECT_EQ(result.err, "");
 }
@@ -25,6 +25,7 @@ TEST(ProbeCommand, GivesMachinesTheSame) {
     EXPECT_TRUE(json.at("gpu").at("is_software").is_boolean());
     EXPECT_GE(json.at("gpu").at("limits").at("texture_side_px").get<int>(), 4096);
     EXPECT_TRUE(json.at("clocks").at("tai_offset_s").is_number_integer());
+    EXPECT_FALSE(json.at("known").at("kernel").get<std::string>().empty());
     for (const auto& sentence : json.at("unfit"))
         EXPECT_EQ(sentence.get<std::string>().find('\n'), std::string::npos);
     if (json["cameras"]["libcamera"].empty() && json["cameras"]["v4l2"].empty()) {

@@ -9,14 +9,14 @@
 namespace vantage {
 namespace {
 
-constexpr unsigned short wall = 320, board = 1280;  // 10 and 40 px
+constexpr unsigned short back_wall = 320, board = 1280;  // 10 and 40 px
 
 /// A dark board before a light wall. The 30 px of the wall left of the board only one camera sees.
-struct Scene {
+struct FillScene {
     StereoPlanes picture{GreyImage(40, 120, 200), GreyImage(40, 120, 128)};
-    DisparityImage disparity = DisparityImage(40, 120, wall);
+    DisparityImage disparity = DisparityImage(40, 120, back_wall);
 
-    Scene() {
+    FillScene() {
         picture.luma.colRange(70, 120) = 50;
         disparity.colRange(70, 120) = board;
         disparity.colRange(40, 70) = 0;
@@ -24,49 +24,50 @@ struct Scene {
 };
 
 TEST(FilledAlongPaths, GivesWhatIsHiddenTheDepthThatItsColourLeadsTo) {
-    Scene scene;
+    FillScene scene;
     // A ledge at 20 px, of another colour, goes on into what is hidden.
     scene.disparity(cv::Rect(0, 10, 50, 10)) = 640;
     scene.picture.luma(cv::Rect(0, 10, 70, 10)) = 120;
     for (const FillCell cell : {FillCell::one_px, FillCell::two_px}) {
         const DisparityImage filled = filled_along_paths(scene.disparity, scene.picture, cell);
-        EXPECT_EQ(filled(5, 60), wall);
+        EXPECT_EQ(filled(5, 60), back_wall);
         EXPECT_EQ(filled(14, 65), 640);
-        EXPECT_EQ(filled(30, 60), wall);
+        EXPECT_EQ(filled(30, 60), back_wall);
         EXPECT_EQ(filled(30, 100), board);
     }
 }
 
 TEST(FilledAlongPaths, NeverTakesADepthThatTheOtherCameraWouldSee) {
-    Scene scene;
+    FillScene scene;
     // As dark as the board: by colour alone it were the board's.
     scene.picture.luma.colRange(40, 120) = 50;
     const DisparityImage filled =
         filled_along_paths(scene.disparity, scene.picture, FillCell::two_px);
-    EXPECT_EQ(cv::countNonZero(filled.colRange(40, 70) == wall), 30 * 40);
+    EXPECT_EQ(cv::countNonZero(filled.colRange(40, 70) == back_wall), 30 * 40);
 }
 
 TEST(FilledAlongPaths, DoesNotSpreadSmallIslandsAndReplacesThoseThatAreHidden) {
-    Scene scene;
+    FillScene scene;
     scene.disparity(cv::Rect(50, 20, 4, 4)) = 64;
     scene.disparity(cv::Rect(10, 20, 4, 4)) = 64;
     const DisparityImage filled =
         filled_along_paths(scene.disparity, scene.picture, FillCell::two_px);
-    EXPECT_EQ(filled(21, 51), wall) << "something nearer hides it: it cannot have been matched";
-    EXPECT_EQ(filled(21, 58), wall) << "not spread";
+    EXPECT_EQ(filled(21, 51), back_wall)
+        << "something nearer hides it: it cannot have been matched";
+    EXPECT_EQ(filled(21, 58), back_wall) << "not spread";
     EXPECT_EQ(filled(21, 11), 64) << "nothing hides it: what is known stays";
 }
 
 TEST(FilledAlongPaths, FillsWhatLiesBeyondTheOtherCamerasBorder) {
-    Scene scene;
+    FillScene scene;
     scene.disparity.colRange(0, 10) = 0;
     const DisparityImage filled =
         filled_along_paths(scene.disparity, scene.picture, FillCell::two_px);
-    EXPECT_EQ(cv::countNonZero(filled.colRange(0, 10) == wall), 10 * 40);
+    EXPECT_EQ(cv::countNonZero(filled.colRange(0, 10) == back_wall), 10 * 40);
 }
 
 TEST(FilledAlongPaths, TakesTheBackgroundOfTheRowWhereNothingHides) {
-    Scene scene;
+    FillScene scene;
     scene.disparity.colRange(90, 100) = 0;
     scene.disparity.colRange(100, 120) = board + 160;
     const DisparityImage filled =
@@ -75,7 +76,7 @@ TEST(FilledAlongPaths, TakesTheBackgroundOfTheRowWhereNothingHides) {
 }
 
 TEST(FilledAlongPaths, TakesWhatThereIsInARowThatHasNothingBetter) {
-    Scene scene;
+    FillScene scene;
     scene.disparity = 0;
     scene.disparity(4, 7) = 64;
     scene.disparity(4, 8) = 64;

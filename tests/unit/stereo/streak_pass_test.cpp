@@ -12,12 +12,12 @@ constexpr int wall_px = 5, bar_px = 12;
 constexpr unsigned short wall = wall_px * 32, bar = bar_px * 32;
 
 /// A wall with a bar of another disparity across it, which alone costs nothing there.
-struct Scene {
+struct StreakScene {
     DisparityImage disparity = DisparityImage(40, 60, wall);
     std::vector<cv::Mat1b> costs;
 
     /// wall_cost: what the wall's disparity costs where the bar is.
-    Scene(int first_row, int rows, unsigned char wall_cost) {
+    StreakScene(int first_row, int rows, unsigned char wall_cost) {
         const cv::Rect place(10, first_row, 30, rows);
         disparity(place) = bar;
         for (int d = 0; d < 16; ++d) costs.emplace_back(disparity.size(), 60);
@@ -29,15 +29,15 @@ struct Scene {
 };
 
 TEST(WithoutStreaks, MakesABarUnknownWhereTheWallLooksHardlyWorse) {
-    const Scene scene(10, most_streak_rows, most_streak_gain);
+    const StreakScene scene(10, most_streak_rows, most_streak_gain);
     const DisparityImage result = without_streaks(scene.disparity, scene.costs);
     EXPECT_EQ(cv::countNonZero(result == 0), 30 * most_streak_rows);
     EXPECT_EQ(cv::countNonZero(result == wall), 40 * 60 - 30 * most_streak_rows);
 }
 
 TEST(WithoutStreaks, LeavesWhatIsThinAndTrulyBeforeTheWall) {
-    EXPECT_EQ(Scene(20, 3, most_streak_gain + 1).left_of_bar(), 30 * 3);
-    Scene bare(20, 3, most_streak_gain);
+    EXPECT_EQ(StreakScene(20, 3, most_streak_gain + 1).left_of_bar(), 30 * 3);
+    StreakScene bare(20, 3, most_streak_gain);
     bare.costs[wall_px + 3] = most_streak_gain + least_streak_valley - 1;
     EXPECT_EQ(bare.left_of_bar(), 30 * 3) << "the wall is no match of its own there";
     bare.costs[wall_px + 3] = most_streak_gain + least_streak_valley;
@@ -45,16 +45,16 @@ TEST(WithoutStreaks, LeavesWhatIsThinAndTrulyBeforeTheWall) {
 }
 
 TEST(WithoutStreaks, LeavesWhatIsHigherOrHasNotOneSurfaceAboveAndBelow) {
-    EXPECT_EQ(Scene(10, most_streak_rows + 1, 0).left_of_bar(), 30 * (most_streak_rows + 1));
-    EXPECT_EQ(Scene(0, 4, 0).left_of_bar(), 30 * 4) << "at the picture's edge";
-    EXPECT_EQ(Scene(36, 4, 0).left_of_bar(), 30 * 4);
-    Scene step(20, 4, 0);
+    EXPECT_EQ(StreakScene(10, most_streak_rows + 1, 0).left_of_bar(), 30 * (most_streak_rows + 1));
+    EXPECT_EQ(StreakScene(0, 4, 0).left_of_bar(), 30 * 4) << "at the picture's edge";
+    EXPECT_EQ(StreakScene(36, 4, 0).left_of_bar(), 30 * 4);
+    StreakScene step(20, 4, 0);
     step.disparity.rowRange(24, 40) = wall + 64;
     EXPECT_EQ(step.left_of_bar(), 30 * 4);
 }
 
 TEST(WithoutStreaks, LooksPastWhatIsUnknown) {
-    Scene scene(20, 4, 0);
+    StreakScene scene(20, 4, 0);
     scene.disparity.row(19) = 0;
     scene.disparity.row(22) = 0;
     scene.disparity.row(24) = 0;

@@ -1,6 +1,7 @@
 #include "rig_firmware/stereo/passes/temporal_pass.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -53,6 +54,53 @@ TEST_F(TemporalPassTest, AgreesWithItsCpuFormBitForBit) {
             for (int x = 0; x < 61; ++x)
                 ASSERT_EQ(found(y, x), expected(y, x)) << x << ", " << y << ", frame " << frame;
     }
+}
+
+/// What comes of one still pixel whose disparity is found to be this, frame after frame, in px.
+std::vector<float> steadied_px(const std::vector<int>& found_px) {
+    TemporalReference reference;
+    std::vector<float> steadied;
+    for (const int px : found_px) {
+        const auto d = static_cast<unsigned short>(px * disparity_steps_per_px);
+        const DisparityImage result = reference.run(DisparityImage(1, 1, d), GreyImage(1, 1, 90));
+        steadied.push_back(static_cast<float>(result(0, 0)) / disparity_steps_per_px);
+    }
+    return steadied;
+}
+
+TEST(TemporalReference, HoldsAgainstWhatComesLessOftenAndGivesWayToWhatStays) {
+    std::vector<int> found;
+    for (int i = 0; i < 60; ++i) found.push_back(i % 3 == 2 ? 30 : 10);
+    for (int i = 0; i < 40; ++i) found.push_back(30);
+    const std::vector<float> steadied = steadied_px(found);
+    for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(steadied[i], 10) << "frame " << i;
+    EXPECT_EQ(steadied.back(), 30);
+}
+
+TEST(TemporalReference, ChangesSeldomWhereNoDisparityPrevails) {
+    std::vector<int> found;
+    cv::RNG random(3);
+    for (int i = 0; i < 400; ++i) found.push_back(random.uniform(5, 45));
+    const std::vector<float> steadied = steadied_px(found);
+    int jumps = 0;
+    for (std::size_t i = 1; i < steadied.size(); ++i)
+        jumps += std::abs(steadied[i] - steadied[i - 1]) > 1;
+    EXPECT_LE(jumps, 100) << "found ones jump nearly 400 times";
+}
+
+TEST(TemporalReference, HoldsOverALeapOfTheExposure) {
+    TemporalReference reference;
+    const cv::Size size(64, 48);
+    cv::RNG random(6);
+    GreyImage luma(size);
+    random.fill(luma, cv::RNG::UNIFORM, 60, 200);
+    const DisparityImage usual(size, 320), other(size, 960);
+    for (int frame = 0; frame < 10; ++frame) reference.run(usual, luma);
+    GreyImage brighter;
+    luma.convertTo(brighter, -1, 1.1);
+    EXPECT_EQ(cv::countNonZero(reference.run(other, brighter) == 320), size.area());
+    EXPECT_EQ(cv::countNonZero(reference.run(other, 255 - brighter) == 960), size.area())
+        << "another picture";
 }
 
 /// Sums over frames, for the variance of every pixel.

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-const cv::Size size_px(49, 37);
+const cv::Size wall_size_px(49, 37);
 constexpr float wall_m = 2;
 const cv::Vec4b red(200, 20, 20, 255), blue(20, 20, 200, 255), green(20, 200, 20, 255);
 const cv::Point middle(24, 18);
@@ -35,10 +35,10 @@ double furthest(const cv::Vec4b& a, const cv::Vec4b& b) {
 /// Rigs along x before a wall, and a virtual camera at 0 that knows the depth of its pixels.
 class FusedColourTest : public testing::Test {
   protected:
-    FusedColourTest() : found_m_(size_px, wall_m) {}
+    FusedColourTest() : found_m_(wall_size_px, wall_m) {}
 
     DepthView& add(double x_m, const cv::Vec4b& colour) {
-        return views_.emplace_back(plain_wall(x_m, size_px, wall_m, colour));
+        return views_.emplace_back(plain_wall(x_m, wall_size_px, wall_m, colour));
     }
     struct Drawn {
         ColourImage colour;
@@ -50,14 +50,14 @@ class FusedColourTest : public testing::Test {
         for (const DepthView& view : views_) surfaces.add(view);
         std::vector<DrawnLayer> drawn = surfaces.layers();
         drawn[0].presence = first_presence;
-        layers_.draw(drawn, camera_of(plain_wall(0, size_px, wall_m, {})));
+        layers_.draw(drawn, camera_of(plain_wall(0, wall_size_px, wall_m, {})));
         const Texture found = filled_texture(TextureFormat::r32f, found_m_);
         DepthPicture picture;
         if (plainly) {
-            picture.resize(size_px, true);
+            picture.resize(wall_size_px, true);
             fused_.draw_plainly(layers_, found, picture, true);
         } else {
-            picture.resize(size_px, true, &fused_.sort(found));
+            picture.resize(wall_size_px, true, &fused_.sort(found));
             fused_.draw(layers_, found, picture, true);
         }
         return {picture.colour().download(), picture.depth_m().download(),
@@ -147,8 +147,8 @@ TEST_F(FusedColourTest, KeepsBothSurfacesApartAtADepthEdge) {
     only.colour(square) = red;
     only.depth_m.copyTo(found_m_);
     const Drawn drawn = draw();
-    for (int y = 4; y < size_px.height - 4; ++y)
-        for (int x = 4; x < size_px.width - 4; ++x) {
+    for (int y = 4; y < wall_size_px.height - 4; ++y)
+        for (int x = 4; x < wall_size_px.width - 4; ++x) {
             const bool is_red = square.contains({x, y});
             const cv::Vec4b& c = drawn.colour(y, x);
             // 3 of 255: cubic interpolation of 8 bits.
@@ -162,7 +162,7 @@ TEST_F(FusedColourTest, SoftensADepthEdgeByAPixel) {
     found_m_.setTo(4.0f);
     found_m_.colRange(0, 20) = 2.0f;
     // So far aside that the near surface is two pixels from its place.
-    const double aside_m = 4.0 / size_px.width;
+    const double aside_m = 4.0 / wall_size_px.width;
     DepthView& sees_edge = add(-aside_m, blue);
     sees_edge.depth_m.setTo(4.0f);
     sees_edge.depth_m.colRange(0, 22) = 2.0f;

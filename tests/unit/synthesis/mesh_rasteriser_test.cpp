@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-const cv::Size size_px(33, 25);
+const cv::Size mesh_size_px(33, 25);
 constexpr double near_m = 0.05;
 const cv::Vec4b grey(128, 128, 128, 255);
 
@@ -48,9 +48,9 @@ class MeshRasteriserTest : public testing::Test {
 
 /// The plane x * slope + z = distance, as a camera at x sees it.
 DepthView slanted_plane(double slope, double distance_m) {
-    DepthView view = plain_wall(0, size_px, 1, grey);
-    for (int y = 0; y < size_px.height; ++y)
-        for (int x = 0; x < size_px.width; ++x)
+    DepthView view = plain_wall(0, mesh_size_px, 1, grey);
+    for (int y = 0; y < mesh_size_px.height; ++y)
+        for (int x = 0; x < mesh_size_px.width; ++x)
             view.depth_m(y, x) =
                 static_cast<float>(distance_m / (1 + slope * (x - view.K(0, 2)) / view.K(0, 0)));
     return view;
@@ -81,7 +81,7 @@ TEST_F(MeshRasteriserTest, DrawsAPlaneWhereTheRaysMeetIt) {
                     const Eigen::Vector3d pixel = view.K * (from + z * along);
                     const double u = pixel.x() / pixel.z(), v = pixel.y() / pixel.z();
                     const double in =
-                        std::min({u, v, size_px.width - 1 - u, size_px.height - 1 - v});
+                        std::min({u, v, mesh_size_px.width - 1 - u, mesh_size_px.height - 1 - v});
                     if (in > 0.05) {
                         // 24 bits of depth and floats.
                         EXPECT_NEAR(depth_m(y, x), z, 2e-4 * z) << x << ' ' << y;
@@ -98,12 +98,12 @@ TEST_F(MeshRasteriserTest, DrawsAPlaneWhereTheRaysMeetIt) {
 }
 
 TEST_F(MeshRasteriserTest, ShowsTheNearerOfTwoSurfacesAndNothingBetweenThem) {
-    DepthView view = plain_wall(0, size_px, 4, grey);
+    DepthView view = plain_wall(0, mesh_size_px, 4, grey);
     view.depth_m(cv::Rect(8, 6, 10, 10)) = 2.0f;
     const RigSurface& surface = surfaces_.add(view);
     VirtualView target = camera_of(view);
     // 8 px of parallax at 2 m, 4 at 4 m: the square moves over the wall to its left.
-    target.world_from_camera.translation().x() = 16.0 / size_px.width;
+    target.world_from_camera.translation().x() = 16.0 / mesh_size_px.width;
     const DepthImage depth_m = drawn(surface, target);
     EXPECT_NEAR(depth_m(10, 5), 2, 1e-3);
     EXPECT_NEAR(depth_m(10, 20), 4, 1e-3);
@@ -114,7 +114,7 @@ TEST_F(MeshRasteriserTest, ShowsTheNearerOfTwoSurfacesAndNothingBetweenThem) {
 }
 
 TEST_F(MeshRasteriserTest, LeavesOutWhatIsSeenFromBehind) {
-    const DepthView view = plain_wall(0, size_px, 2, grey);
+    const DepthView view = plain_wall(0, mesh_size_px, 2, grey);
     const RigSurface& surface = surfaces_.add(view);
     VirtualView behind = camera_of(view);
     behind.world_from_camera.translation().z() = 4;
@@ -125,7 +125,7 @@ TEST_F(MeshRasteriserTest, LeavesOutWhatIsSeenFromBehind) {
 /// A quad grid shows nothing of a post of one pixel; its rims are half a pixel on each side, four
 /// columns of a camera with four times the focal length.
 TEST_F(MeshRasteriserTest, DrawsRimsHalfAPixelWide) {
-    DepthView view = plain_wall(0, size_px, 4, grey);
+    DepthView view = plain_wall(0, mesh_size_px, 4, grey);
     view.depth_m.col(16) = 2.0f;
     VirtualView close = camera_of(view);
     close.width_px *= 4;
@@ -143,7 +143,7 @@ TEST_F(MeshRasteriserTest, DrawsRimsHalfAPixelWide) {
 
 /// From aside a body's outline is another one: the rims of 0.28 rad are a quarter as wide.
 TEST_F(MeshRasteriserTest, DrawsNarrowerRimsFromAside) {
-    DepthView view = plain_wall(0, size_px, 4, grey);
+    DepthView view = plain_wall(0, mesh_size_px, 4, grey);
     view.depth_m.col(16) = 2.0f;
     VirtualView aside = camera_of(view);
     aside.width_px *= 8;

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 61, height_px = 47;
+constexpr int overlay_width_px = 61, overlay_height_px = 47;
 
 /// A grey wall at z = 4 m, seen from (x, 0, 0) along z; depth is known from a row on.
 DepthView wall(const std::string& name, double x_m, int from_row = 0) {
@@ -16,9 +16,9 @@ DepthView wall(const std::string& name, double x_m, int from_row = 0) {
     view.name = name;
     view.K << 50, 0, 30, 0, 50, 23, 0, 0, 1;
     view.world_from_camera.translation().x() = x_m;
-    view.colour = ColourImage(height_px, width_px, cv::Vec4b(128, 128, 128, 255));
-    view.depth_m = DepthImage(height_px, width_px, 0.0f);
-    view.depth_m.rowRange(from_row, height_px).setTo(4.0f);
+    view.colour = ColourImage(overlay_height_px, overlay_width_px, cv::Vec4b(128, 128, 128, 255));
+    view.depth_m = DepthImage(overlay_height_px, overlay_width_px, 0.0f);
+    view.depth_m.rowRange(from_row, overlay_height_px).setTo(4.0f);
     return view;
 }
 
@@ -28,7 +28,7 @@ class NoveltyTest : public testing::TestWithParam<const char*> {
     ShaderLibrary shaders_;
     std::unique_ptr<Synthesiser> synthesiser_ = make_synthesiser(GetParam(), shaders_);
     NoveltyOverlay overlay_{shaders_};
-    const VirtualView target_{width_px, height_px, wall("", 0).K, Pose::Identity()};
+    const VirtualView target_{overlay_width_px, overlay_height_px, wall("", 0).K, Pose::Identity()};
 };
 
 TEST_P(NoveltyTest, GivesEveryPixelToTheRigsThatShowIt) {
@@ -51,8 +51,8 @@ TEST_P(NoveltyTest, GivesEveryPixelToTheRigsThatShowIt) {
     EXPECT_NEAR(of_east, 0.5, 0.1);
 
     const ColourImage overlaid = overlay_.lay(plain, *origins).download();
-    for (int y = 0; y < height_px; ++y)
-        for (int x = 0; x < width_px; ++x)
+    for (int y = 0; y < overlay_height_px; ++y)
+        for (int x = 0; x < overlay_width_px; ++x)
             ASSERT_EQ(overlaid(y, x)[3], picture(y, x)[3]) << "alpha still says what is known";
     const NoveltyShares sums = novelty_shares(picture, *origins);
     EXPECT_NEAR(sums.rigs.at("west") + sums.rigs.at("east") + sums.filled, 1, 1e-6);
@@ -85,7 +85,7 @@ TEST_P(NoveltyTest, PaintsARigsOwnPixelsInItsColourAndHatchesWhatNoneHasSeen) {
         hatched += overlaid(2, x)[0] == 255 && overlaid(2, x)[1] == 0;
     }
     EXPECT_EQ(hatched, 4);
-    EXPECT_GT(novelty_shares(picture, *synthesiser_->origins()).filled, 8.0 / height_px);
+    EXPECT_GT(novelty_shares(picture, *synthesiser_->origins()).filled, 8.0 / overlay_height_px);
 }
 
 TEST_P(NoveltyTest, LeavesThePictureAsItIs) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numbers>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -11,25 +10,16 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/instants/rig_presence.h"
+#include "host_app/instants/rig_roster.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/deviation_along_time.h"
+#include "tests/unit/synthesis/stage_camera_at.h"
 
 namespace vantage {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr auto stage_time = 2s;
-
-StageCamera camera_at(double azimuth_deg, int width_px, int height_px) {
-    const VirtualRigPlacement placement{.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
-                                        .width_px = width_px,
-                                        .height_px = height_px};
-    const StereoCalibration rig = ideal_virtual_rig(placement);
-    return {width_px, height_px, rig.left.K(), rig.world_from_left};
-}
 
 /// What an ideal rig knows: the picture of its left camera with exact depth.
 DepthView film(VirtualStage& stage, double azimuth_deg, int width_px = 320, int height_px = 240,

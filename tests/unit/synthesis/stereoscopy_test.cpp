@@ -1,30 +1,16 @@
 #include "host_app/synthesis/stereoscopy.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
-#include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/synthesis/stage_camera_at.h"
 
 namespace vantage {
 namespace {
-
-using namespace std::chrono_literals;
-
-constexpr auto stage_time = 2s;
-
-StageCamera camera_at(double azimuth_deg, int width_px, int height_px) {
-    const StereoCalibration rig =
-        ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
-                           .width_px = width_px,
-                           .height_px = height_px});
-    return {width_px, height_px, rig.left.K(), rig.world_from_left};
-}
 
 DepthView film(VirtualStage& stage, const StageCamera& camera) {
     StageRendering seen = stage.render(camera, stage_time);

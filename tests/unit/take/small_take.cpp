@@ -9,12 +9,12 @@
 
 namespace vantage {
 
-constexpr double rate_hz = 25;
+static constexpr double small_take_rate_hz = 25;
 
 PackedFrame sent_frame(const std::string& rig, std::uint64_t pulse, int jpeg_quality) {
     RigFrame frame = make_frame(pulse, 62, 46);
     frame.rig = rig;
-    frame.exposure = PulseGrid(rate_hz).time_of(pulse);
+    frame.exposure = PulseGrid(small_take_rate_hz).time_of(pulse);
     frame.counters.captured = pulse;
     frame.counters.published = pulse;
     return FrameEncoder(jpeg_quality).encode(frame);
@@ -22,8 +22,8 @@ PackedFrame sent_frame(const std::string& rig, std::uint64_t pulse, int jpeg_qua
 
 TakeFacts small_facts(const std::vector<std::string>& rigs, std::uint64_t first, int jpeg_quality) {
     TakeFacts facts;
-    facts.pulse_rate_hz = rate_hz;
-    facts.origin = PulseGrid(rate_hz).time_of(first);
+    facts.pulse_rate_hz = small_take_rate_hz;
+    facts.origin = PulseGrid(small_take_rate_hz).time_of(first);
     facts.program = "a test";
     facts.timecode = "10:00:00:00";
     facts.show = {{"timecode_zone", "UTC"}};

@@ -13,6 +13,7 @@
 #include "common/take/take_check.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -57,14 +58,6 @@ class TakeProcesses : public testing::Test {
         const ProgramResult result = run_to_end(VANTAGE_PROGRAM, arguments);
         EXPECT_EQ(result.status, 0) << result.err;
         return nlohmann::json::parse(result.out, nullptr, false);
-    }
-    template <class Condition>
-    static bool wait_for(Condition condition) {
-        for (int i = 0; i < 6000; ++i) {
-            if (condition()) return true;
-            usleep(10'000);
-        }
-        return false;
     }
 
     TemporaryFolder folder_;
@@ -135,7 +128,7 @@ TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
             return 0;
         }
     };
-    ASSERT_TRUE(wait_for([&] { return frames() >= 10; })) << host.err();
+    ASSERT_TRUE(eventually([&] { return frames() >= 10; })) << host.err();
     host.send_signal(SIGKILL);
     host.wait();
     const TakeReader take(file("take.mkv"));

@@ -20,17 +20,20 @@ class DeskPictures : public testing::TestWithParam<cv::Size> {
     void SetUp() override {
         if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
     }
-    static void expect_as_looked_at(const std::string& name, bool has_wheel_map);
+    static void expect_as_looked_at(const std::string& name, void (*change)(ExampleDesk&) = nullptr,
+                                    const DeskSwitches& switches = {});
 };
 
-void DeskPictures::expect_as_looked_at(const std::string& name, bool has_wheel_map) {
+void DeskPictures::expect_as_looked_at(const std::string& name, void (*change)(ExampleDesk&),
+                                       const DeskSwitches& switches) {
     const cv::Size size = GetParam();
     const VirtualScreen screen(size.width, size.height);
     setenv("DISPLAY", screen.display().c_str(), 1);
     unsetenv("WAYLAND_DISPLAY");
     OperatorWindow window("Vantage", size.width, size.height);
     ExampleDesk desk;
-    if (has_wheel_map) desk.open_wheel_map();
+    if (change) change(desk);
+    window.arrange({switches});
     window.show(desk.state);
     const ColourImage shown = window.screenshot();
     ASSERT_EQ(shown.size(), size);
@@ -50,16 +53,32 @@ void DeskPictures::expect_as_looked_at(const std::string& name, bool has_wheel_m
     EXPECT_LT(static_cast<double>(differing), most_differing * size.area());
 }
 
-TEST_P(DeskPictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk", false); }
+TEST_P(DeskPictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk"); }
 
-TEST_P(DeskPictures, OfAWheelsMapAreThoseThatWereLookedAt) { expect_as_looked_at("jog", true); }
+TEST_P(DeskPictures, OfAWheelsMapAreThoseThatWereLookedAt) {
+    expect_as_looked_at("jog", [](ExampleDesk& desk) { desk.open_wheel_map(); });
+}
 
+/// States in which the desk is laid out as in another one, but for a part.
+class DeskStatePictures : public DeskPictures {};
+
+TEST_P(DeskStatePictures, OfAPreviewAreThoseThatWereLookedAt) {
+    expect_as_looked_at("preview", [](ExampleDesk& desk) { desk.show_preview(); });
+}
+
+TEST_P(DeskStatePictures, OfTheStageFromOutsideAreThoseThatWereLookedAt) {
+    expect_as_looked_at("outside", [](ExampleDesk& desk) { desk.add_points(); }, {.outside = true});
+}
+
+std::string name_of_size(const testing::TestParamInfo<cv::Size>& size) {
+    return fmt::format("{}x{}", size.param.width, size.param.height);
+}
 INSTANTIATE_TEST_SUITE_P(Sizes, DeskPictures,
                          testing::Values(cv::Size(640, 360), cv::Size(1280, 720),
                                          cv::Size(1920, 1080)),
-                         [](const auto& size) {
-                             return fmt::format("{}x{}", size.param.width, size.param.height);
-                         });
+                         name_of_size);
+INSTANTIATE_TEST_SUITE_P(Sizes, DeskStatePictures,
+                         testing::Values(cv::Size(640, 360), cv::Size(1280, 720)), name_of_size);
 
 }  // namespace
 }  // namespace vantage

@@ -77,6 +77,25 @@ TEST_F(OperatorHands, ADragBetweenTwoPicturesIsWholeAndNothingElseIs) {
     EXPECT_EQ(input.orbit_elevation_rad, 0);
 }
 
+TEST_F(OperatorHands, OfTwoPicturesHandsFlyThePreviews) {
+    state_.preview.emplace();
+    look(0);
+    ASSERT_TRUE(window_->drawn().preview);
+    const auto drag_in = [&](const DeskRect& picture) {
+        after(move_into(picture));
+        after({"mousedown", "1"});
+        const FlightInput input = after({"mousemove_relative", "--", "32", "0"});
+        after({"mouseup", "1"});
+        return input.orbit_azimuth_rad;
+    };
+    EXPECT_NEAR(drag_in(*window_->drawn().preview), -32 * pi / window_->drawn().preview->width,
+                1e-4);
+    EXPECT_EQ(drag_in(window_->drawn().picture), 0) << "what is on air is not touched";
+    EXPECT_TRUE(after({"key", "slash"}).toggle_preview);
+    EXPECT_TRUE(after({"key", "semicolon"}).cut);
+    EXPECT_TRUE(after({"key", "apostrophe"}).fly_to_preview);
+}
+
 TEST_F(OperatorHands, RightAndMiddleDragShift) {
     for (const char* button : {"3", "2"}) {
         after({"mousedown", button});
@@ -222,6 +241,57 @@ TEST_F(OperatorHands, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
     EXPECT_EQ(after({"click", "4"}).past_steps, 1) << "a notch is a frame";
     after(move_into(spots.live));
     EXPECT_TRUE(after({"click", "1"}).to_live);
+}
+
+TEST_F(OperatorHands, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
+    show_the_desk();
+    state_.plan.emplace();
+    after({"key", "ctrl+Tab"});
+    const DeskRect part = window_->drawn().spots.outside;
+    ASSERT_FALSE(part.is_empty());
+    const OutsideEye before = window_->arrangement().switches.eye;
+    after(move_into(part));
+    after({"mousedown", "1"});
+    EXPECT_FALSE(after({"mousemove_relative", "--", "20", "0"}).steers());
+    after({"mouseup", "1"});
+    EXPECT_NEAR(window_->arrangement().switches.eye.azimuth_rad,
+                before.azimuth_rad - 20 * pi / part.width, 1e-4);
+    EXPECT_FALSE(after({"click", "4"}).steers());
+    EXPECT_NEAR(window_->arrangement().switches.eye.nearness, 0.12, 1e-6);
+    after({"keydown", "Control_L", "keydown", "Up"});
+    EXPECT_FALSE(look(0.5).steers());
+    EXPECT_NEAR(window_->arrangement().switches.eye.elevation_rad, before.elevation_rad + 0.45,
+                1e-6);
+    after({"keyup", "Up", "keyup", "Control_L"});
+    after({"key", "ctrl+Tab"});
+    EXPECT_TRUE(window_->drawn().spots.outside.is_empty());
+    EXPECT_TRUE(window_->arrangement().switches.panels) << "Tab alone is another key";
+}
+
+TEST_F(OperatorHands, ShiftAndTabPutTheRigsAway) {
+    show_the_desk();
+    EXPECT_TRUE(window_->arrangement().switches.rigs);
+    after({"key", "shift+Tab"});
+    EXPECT_FALSE(window_->arrangement().switches.rigs);
+    EXPECT_TRUE(window_->arrangement().switches.panels);
+}
+
+TEST_F(OperatorHands, TheDeskIsArrangedAsItWasLeft) {
+    DeskArrangement desk = window_->arrangement();
+    desk.switches = {.panels = true, .rigs = false, .outside = true, .eye = {1, 0.3, 0.1}};
+    desk.window = WindowPlace{30, 20, 500, 400};
+    window_->arrange(desk);
+    for (int i = 0; i < 100 && window_->arrangement() != desk; ++i) {
+        look(0, 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_EQ(window_->arrangement(), desk);
+    EXPECT_EQ(window_->screenshot().size(), cv::Size(500, 400));
+    // Where no monitor is any more it stays where it is.
+    desk.window->x = 5000;
+    window_->arrange(desk);
+    look(0);
+    EXPECT_EQ(window_->arrangement().window->x, 30);
 }
 
 TEST_F(OperatorHands, AClickOnAShotRecallsIt) {

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int width_px = 640, height_px = 480;
+constexpr int screen_width_px = 640, screen_height_px = 480;
 
 class ScreenWindowsTest : public testing::Test {
   protected:
@@ -21,7 +21,7 @@ class ScreenWindowsTest : public testing::Test {
         if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
         if (!std::filesystem::exists("/usr/bin/ffmpeg"))
             GTEST_SKIP() << "SKIPPED: ffmpeg is not installed";
-        screen_.emplace(width_px, height_px);
+        screen_.emplace(screen_width_px, screen_height_px);
         setenv("DISPLAY", screen_->display().c_str(), 1);
         unsetenv("WAYLAND_DISPLAY");
     }
@@ -30,9 +30,10 @@ class ScreenWindowsTest : public testing::Test {
     cv::Vec4b pixel_at(int x, int y) const {
         const std::string file = (folder_.path() / "shot.png").string();
         const ProgramResult shot =
-            run_to_end("/usr/bin/ffmpeg", {"-v", "error", "-y", "-f", "x11grab", "-draw_mouse", "0",
-                                           "-video_size", fmt::format("{}x{}", width_px, height_px),
-                                           "-i", screen_->display(), "-frames:v", "1", file});
+            run_to_end("/usr/bin/ffmpeg",
+                       {"-v", "error", "-y", "-f", "x11grab", "-draw_mouse", "0", "-video_size",
+                        fmt::format("{}x{}", screen_width_px, screen_height_px), "-i",
+                        screen_->display(), "-frames:v", "1", file});
         EXPECT_EQ(shot.status, 0) << shot.err;
         return read_colour_image(file)(y, x);
     }

@@ -1,8 +1,10 @@
+#include <limits>
 #include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
 #include "common/wire/colour_codec.h"
@@ -35,13 +37,16 @@ TEST_P(PictureCodecTest, NoiseInAllFourChannelsIsBitExactWithoutLoss) {
     EXPECT_TRUE(same_pixels(LosslessColourDecoder().decode(payload, width(), height()), colour));
 }
 
-TEST_P(PictureCodecTest, JpegComesBackCloseAndOpaque) {
+TEST_P(PictureCodecTest, JpegOfAnyChromaComesBackCloseAndOpaque) {
     const ColourImage colour(height(), width(), cv::Vec4b(200, 100, 50, 255));
-    const auto payload = JpegEncoder().encode(colour, 90);
-    const ColourImage back = JpegDecoder().decode(payload, width(), height());
-    ASSERT_EQ(back.size(), colour.size());
-    EXPECT_LE(cv::norm(back, colour, cv::NORM_INF), 3);
-    EXPECT_EQ(back(height() / 2, width() / 2)[3], 255);
+    for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter}) {
+        const auto payload = JpegEncoder().encode(colour, 90, chroma);
+        EXPECT_EQ(JpegDecoder().chroma_of(payload), chroma);
+        const ColourImage back = JpegDecoder().decode(payload, width(), height());
+        ASSERT_EQ(back.size(), colour.size());
+        EXPECT_LE(cv::norm(back, colour, cv::NORM_INF), 3) << name_of(chroma);
+        EXPECT_EQ(back(height() / 2, width() / 2)[3], 255);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PictureCodecTest,
@@ -57,8 +62,34 @@ TEST(PictureCodecs, TakePicturesWithPaddedRows) {
                             disparity));
     EXPECT_TRUE(same_pixels(
         LosslessColourDecoder().decode(LosslessColourEncoder().encode(colour), 31, 17), colour));
-    EXPECT_EQ(JpegDecoder().decode(JpegEncoder().encode(colour, 100), 31, 17).size(),
-              colour.size());
+    EXPECT_EQ(
+        JpegDecoder().decode(JpegEncoder().encode(colour, 100, Chroma::quarter), 31, 17).size(),
+        colour.size());
+}
+
+TEST(PictureCodecs, CoarserChromaIsSmallerAndLeavesBrightnessAlone) {
+    // Stripes of red and blue that are as bright as each other.
+    ColourImage stripes(64, 64);
+    for (int y = 0; y < stripes.rows; ++y)
+        for (int x = 0; x < stripes.cols; ++x)
+            stripes(y, x) = x % 2 == 0 ? cv::Vec4b(200, 60, 60, 255) : cv::Vec4b(60, 108, 187, 255);
+    std::size_t bytes = std::numeric_limits<std::size_t>::max();
+    for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter}) {
+        const auto payload = JpegEncoder().encode(stripes, 95, chroma);
+        EXPECT_LT(payload.size(), bytes) << name_of(chroma);
+        bytes = payload.size();
+        cv::Mat1b sent, came;
+        cv::cvtColor(stripes, sent, cv::COLOR_RGBA2GRAY);
+        cv::cvtColor(JpegDecoder().decode(payload, 64, 64), came, cv::COLOR_RGBA2GRAY);
+        EXPECT_LE(cv::norm(sent, came, cv::NORM_INF), 6) << name_of(chroma);
+    }
+}
+
+TEST(PictureCodecs, ChromaIsKnownByNameAndNoOtherIsTaken) {
+    for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
+        EXPECT_EQ(parse_chroma(name_of(chroma)), chroma);
+    EXPECT_EQ(thrown_sentence([] { parse_chroma("4:1:1"); }),
+              "chroma '4:1:1' is none of 4:4:4, 4:2:2 and 4:2:0");
 }
 
 TEST(PictureCodecs, SmoothDisparityShrinksManyTimes) {
@@ -75,7 +106,7 @@ TEST(PictureCodecs, EveryTruncationIsRefused) {
     const int height = frame.colour.rows;
     const auto disparity = DisparityEncoder().encode(frame.disparity);
     const auto lossless = LosslessColourEncoder().encode(frame.colour);
-    const auto jpeg = JpegEncoder().encode(frame.colour, 85);
+    const auto jpeg = JpegEncoder().encode(frame.colour, 85, Chroma::quarter);
     for (const double part : {0.0, 0.01, 0.1, 0.5, 0.9, 0.99}) {
         const auto cut = [&](const std::vector<std::byte>& payload) {
             return std::span(payload).first(
@@ -97,7 +128,8 @@ TEST(PictureCodecs, PicturesOfAnotherSizeAreRefused) {
     EXPECT_THROW(LosslessColourDecoder().decode(LosslessColourEncoder().encode(frame.colour),
                                                 width - 1, height),
                  Error);
-    EXPECT_THROW(JpegDecoder().decode(JpegEncoder().encode(frame.colour, 85), height, width),
+    EXPECT_THROW(JpegDecoder().decode(JpegEncoder().encode(frame.colour, 85, Chroma::quarter),
+                                      height, width),
                  Error);
 }
 

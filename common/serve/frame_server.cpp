@@ -1,0 +1,199 @@
+#include "common/serve/frame_server.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+#include <zmq_addon.hpp>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/config/endpoint.h"
+#include "common/wire/curve_keys.h"
+#include "common/wire/limits.h"
+#include "common/wire/zmq_helpers.h"
+
+namespace vantage {
+namespace {
+
+/// Credit bounds the frames on a connection; this only has to be above it with its heartbeats.
+constexpr int send_high_water_mark = 4 * static_cast<int>(max_credit_window);
+constexpr int receive_high_water_mark = 64;
+/// A host that talks without end does not keep frames from leaving.
+constexpr int messages_per_turn = 64;
+constexpr std::chrono::seconds handshake_limit{5};
+/// Between lines about messages that are no host's.
+constexpr std::chrono::seconds complaint_period{10};
+
+/// The key a message came under, as HostAdmission let it in; empty without keys.
+std::string host_key_of(zmq::message_t& part) { return property_of(part, "User-Id"); }
+
+std::string address_of(zmq::message_t& part) {
+    const std::string address = property_of(part, "Peer-Address");
+    return address.empty() ? "an unknown address" : address;
+}
+
+}  // namespace
+
+FrameServer::FrameServer(const Settings& settings, std::string rig, std::uint64_t session)
+    : rig_(std::move(rig)),
+      links_(rig_, session, static_cast<std::size_t>(std::max(settings.queue_frames, 1))),
+      complaints_(complaint_period),
+      router_(context_, zmq::socket_type::router) {
+    bind(settings);
+    thread_ = std::thread([this] { run(); });
+}
+
+FrameServer::~FrameServer() {
+    stopping_ = true;
+    wake_.notify();
+    thread_.join();
+}
+
+void FrameServer::check() const {
+    const std::lock_guard lock(mutex_);
+    if (!failure_.empty()) fail("publishing of rig {} came to an end: {}", rig_, failure_);
+}
+
+std::uint64_t FrameServer::malformed() const {
+    const std::lock_guard lock(mutex_);
+    return malformed_;
+}
+
+void FrameServer::bind(const Settings& settings) {
+    const Endpoint wanted = parse_endpoint(settings.bind, settings.bind_option);
+    router_.set(zmq::sockopt::linger, 0);
+    router_.set(zmq::sockopt::router_mandatory, true);
+    router_.set(zmq::sockopt::sndhwm, send_high_water_mark);
+    router_.set(zmq::sockopt::rcvhwm, receive_high_water_mark);
+    router_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
+    router_.set(zmq::sockopt::handshake_ivl, option_ms(handshake_limit));
+    watch_for_dead_connections(router_);
+    router_.set(zmq::sockopt::ipv6, wanted.ipv6);
+    if (!settings.key_file.empty()) {
+        const CurveKeys keys = load_key_file(settings.key_file);
+        public_key_ = keys.public_key;
+        admission_.emplace(context_, settings.authorized_hosts);
+        router_.set(zmq::sockopt::zap_domain, "vantage");
+        router_.set(zmq::sockopt::curve_server, true);
+        router_.set(zmq::sockopt::curve_secretkey, keys.secret_key);
+    } else if (!wanted.loopback) {
+        fail("{} = \"{}\" can be reached from other computers, which needs keys",
+             settings.bind_option, settings.bind);
+    }
+    try {
+        router_.bind(wanted.text());
+    } catch (const zmq::error_t& error) {
+        if (error.num() == EADDRINUSE)
+            fail("port {} of {} is in use by another program; end it or choose another {}",
+                 wanted.port, wanted.host, settings.bind_option);
+        fail("{} = \"{}\" cannot be bound: {}", settings.bind_option, settings.bind, error.what());
+    }
+    endpoint_ = router_.get(zmq::sockopt::last_endpoint);
+}
+
+void FrameServer::run() {
+    try {
+        while (!stopping_) turn();
+    } catch (const std::exception& error) {
+        log_error("publishing of rig {} came to an end: {}", rig_, error.what());
+        const std::lock_guard lock(mutex_);
+        failure_ = error.what();
+    }
+}
+
+void FrameServer::turn() {
+    const MonotonicTime now = MonotonicClock::now();
+    if (now >= next_heartbeat_) {
+        next_heartbeat_ = now + heartbeat_period;
+        const std::lock_guard lock(mutex_);
+        links_.expire(now);
+        links_.ring();
+    }
+    send_all();
+    std::vector<zmq::pollitem_t> items{{nullptr, wake_.fd(), ZMQ_POLLIN, 0},
+                                       {router_.handle(), 0, ZMQ_POLLIN, 0}};
+    if (admission_) items.push_back({admission_->socket().handle(), 0, ZMQ_POLLIN, 0});
+    vantage::wait_for(items, next_heartbeat_ - MonotonicClock::now());
+    wake_.clear();
+    if (admission_) admission_->answer();
+    for (int i = 0; i < messages_per_turn && receive(); ++i) {
+    }
+}
+
+bool FrameServer::receive() {
+    std::vector<zmq::message_t> parts;
+    if (!zmq::recv_multipart(router_, std::back_inserter(parts), zmq::recv_flags::dontwait))
+        return false;
+    if (parts.empty()) return true;
+    const std::string route = parts.front().to_string();
+    const MonotonicTime now = MonotonicClock::now();
+    try {
+        if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
+        const HostMessage message = decode_host_message(bytes_of(parts[1]));
+        const std::lock_guard lock(mutex_);
+        links_.hear(route, host_key_of(parts[1]), message, now);
+        if (message.first_pulse != 0) announced_pulse_ = message.first_pulse;
+        if (message.fetch || message.report_id != 0) heard_.notify_all();
+    } catch (const Error& error) {
+        if (const auto times = complaints_.count(1, now))
+            log_warning("messages that are no host's were refused: {}; the last, from {}: {}",
+                        *times, address_of(parts.back()), error.what());
+        const std::lock_guard lock(mutex_);
+        ++malformed_;
+        links_.refuse(route, fmt::format("rig {}: {}", rig_, error.what()));
+    }
+    return true;
+}
+
+void FrameServer::send_all() {
+    std::vector<HostLinks::Outgoing> all;
+    {
+        const std::lock_guard lock(mutex_);
+        all = links_.take();
+    }
+    std::vector<std::string> gone;
+    for (const HostLinks::Outgoing& outgoing : all) {
+        const bool was_gone = std::find(gone.begin(), gone.end(), outgoing.route) != gone.end();
+        if (!was_gone && send(outgoing)) continue;
+        gone.push_back(outgoing.route);
+        const std::lock_guard lock(mutex_);
+        links_.undelivered(outgoing);
+    }
+}
+
+bool FrameServer::send(const HostLinks::Outgoing& outgoing) {
+    const std::vector<std::byte> message = encode(outgoing.message);
+    std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(outgoing.route)),
+                                                  message};
+    if (outgoing.frame) {
+        parts.emplace_back(outgoing.frame->header);
+        parts.emplace_back(outgoing.frame->colour);
+        parts.emplace_back(outgoing.frame->disparity);
+    }
+    if (outgoing.report) parts.push_back(std::as_bytes(std::span(*outgoing.report)));
+    if (outgoing.kept) {
+        parts.emplace_back(outgoing.kept->head);
+        parts.emplace_back(outgoing.kept->record);
+        parts.emplace_back(outgoing.kept->colour);
+        parts.emplace_back(outgoing.kept->depth);
+    }
+    try {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const auto more =
+                i + 1 < parts.size() ? zmq::send_flags::sndmore : zmq::send_flags::none;
+            if (!router_.send(zmq::buffer(parts[i].data(), parts[i].size()),
+                              more | zmq::send_flags::dontwait))
+                return false;
+        }
+        return true;
+    } catch (const zmq::error_t& error) {
+        if (error.num() == EHOSTUNREACH) return false;
+        throw;
+    }
+}
+
+}  // namespace vantage

@@ -1,0 +1,130 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/base/atomic_file.h"
+#include "common/base/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/stop_signal.h"
+#include "common/config/endpoint.h"
+#include "host_app/relay/rig_relay.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds look_period{200};
+
+struct Options {
+    std::string stage, rigs_file;
+    RigRelay::Settings relay;
+    bool json = false;
+};
+
+std::string host_name() {
+    char name[256] = "localhost";
+    return ::gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
+}
+
+/// The rigs as the stage files of this relay's hosts have them.
+std::string stage_entries(const std::vector<RigRelay::Rig>& rigs, const std::string& listen) {
+    std::string text;
+    for (const RigRelay::Rig& rig : rigs) {
+        Endpoint endpoint = parse_endpoint(rig.endpoint, "endpoint");
+        if (parse_endpoint(listen, "--listen").host == "*") endpoint.host = host_name();
+        text +=
+            fmt::format("[[rigs]]\nname = \"{}\"\nendpoint = \"{}\"\n", rig.name, endpoint.text());
+        if (!rig.public_key.empty()) text += fmt::format("public_key = \"{}\"\n", rig.public_key);
+        text += "\n";
+    }
+    return text;
+}
+
+nlohmann::ordered_json to_json(const RigRelay::Rig& rig) {
+    nlohmann::ordered_json json{{"name", rig.name},           {"endpoint", rig.endpoint},
+                                {"connected", rig.connected}, {"trouble", rig.trouble},
+                                {"frames", rig.frames},       {"bytes", rig.bytes},
+                                {"dropped", rig.dropped},     {"undecodable", rig.undecodable}};
+    json["hosts"] = nlohmann::ordered_json::array();
+    for (const HostLinks::HostStatus& host : rig.hosts)
+        json["hosts"].push_back({{"key", host.host_key},
+                                 {"attached", host.attached},
+                                 {"offered", host.counters.offered},
+                                 {"sent", host.counters.sent},
+                                 {"send_dropped", host.counters.send_dropped},
+                                 {"thinned", host.counters.thinned}});
+    return json;
+}
+
+void print(const std::vector<RigRelay::Rig>& rigs) {
+    for (const RigRelay::Rig& rig : rigs) {
+        std::cout << fmt::format("{}: {} frames, {:.1f} MB, {} dropped on the way here\n", rig.name,
+                                 rig.frames, static_cast<double>(rig.bytes) / 1e6, rig.dropped);
+        for (const HostLinks::HostStatus& host : rig.hosts)
+            std::cout << fmt::format("    {}: {} of {} sent, {} dropped, {} not asked for\n",
+                                     host.host_key.empty() ? "a host without key" : host.host_key,
+                                     host.counters.sent, host.counters.offered,
+                                     host.counters.send_dropped, host.counters.thinned);
+    }
+}
+
+void run(const Options& options) {
+    // Before the relay's threads, so that they leave the signals to it.
+    StopSignal stop;
+    const RigRelay relay(load_stage_config(options.stage), options.relay);
+    const std::vector<RigRelay::Rig> rigs = relay.status();
+    const std::string entries = stage_entries(rigs, options.relay.listen);
+    if (options.rigs_file.empty())
+        log_info("the rigs for the stage files of this relay's hosts:\n{}", entries);
+    else
+        write_text_atomically(options.rigs_file, entries);
+    while (!stop.wait_for(look_period)) (void)relay.status();
+    const std::vector<RigRelay::Rig> ended = relay.status();
+    if (!options.json) {
+        print(ended);
+        return;
+    }
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const RigRelay::Rig& rig : ended) all.push_back(to_json(rig));
+    std::cout << nlohmann::ordered_json{{"rigs", all}}.dump() << '\n';
+}
+
+}  // namespace
+
+CommandEntry relay_command_entry() {
+    return {[](CLI::App& program) {
+        auto options = std::make_shared<Options>();
+        CLI::App* relay = program.add_subcommand(
+            "relay",
+            "Takes the rigs' frames once and serves them to several hosts, as they came, until it "
+            "is ended; hosts have it in their stage files in place of the rigs");
+        relay->add_option("--stage", options->stage, "stage.toml of the rigs themselves")
+            ->required();
+        relay
+            ->add_option(
+                "--listen", options->relay.listen,
+                "Where hosts reach the first rig, such as tcp://*:5700; the next rigs have "
+                "the ports that follow")
+            ->required();
+        relay->add_option("--authorized-hosts", options->relay.authorized_hosts,
+                          "Public keys of the hosts that are served, one a line; needed beyond "
+                          "loopback");
+        relay
+            ->add_option("--queue-frames", options->relay.queue_frames,
+                         "Frames of a rig that may wait for one host; beyond that its oldest are "
+                         "dropped and counted")
+            ->check(CLI::Range(1, 1000))
+            ->capture_default_str();
+        relay->add_option("--rigs-file", options->rigs_file,
+                          "Write the [[rigs]] for the hosts' stage files there (default: log)");
+        relay->add_flag("--json", options->json, "At the end: what came and went, as JSON");
+        relay->callback([options] { run(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "common/base/time.h"
+
+namespace vantage {
+
+/// For people: "3 frames ahead of the house's time code".
+inline std::string words_of_ltc(std::int64_t frames_ahead) {
+    if (frames_ahead == 0) return "in step with the house's time code";
+    const std::int64_t frames = std::abs(frames_ahead);
+    return std::to_string(frames) + (frames == 1 ? " frame " : " frames ") +
+           (frames_ahead > 0 ? "ahead of" : "behind") + " the house's time code";
+}
+
+/// The linear time code that comes in.
+class LtcBoard {
+  public:
+    struct State {
+        std::string code;               ///< empty: there is none now
+        std::int64_t frames_ahead = 0;  ///< of the house's time of day
+    };
+    void put(State state) {
+        const std::lock_guard lock(mutex_);
+        state_ = std::move(state);
+        heard_ = MonotonicClock::now();
+    }
+    /// What was heard in the last half a second.
+    State state() const {
+        const std::lock_guard lock(mutex_);
+        constexpr std::chrono::milliseconds patience{500};
+        return MonotonicClock::now() - heard_ > patience ? State() : state_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    State state_;
+    MonotonicTime heard_{};
+};
+
+}  // namespace vantage

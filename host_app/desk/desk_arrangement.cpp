@@ -1,0 +1,75 @@
+#include "host_app/desk/desk_arrangement.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "common/config/toml_reader.h"
+#include "common/gl/limits.h"
+
+namespace vantage {
+namespace {
+
+constexpr int desk_file_version = 1;
+constexpr double deg = std::numbers::pi / 180;
+/// Of all the monitors that one computer has.
+constexpr int farthest_px = 100'000;
+
+void read_eye(TomlTable& table, OutsideEye& eye) {
+    OutsideEye read;
+    double azimuth_deg = read.azimuth_rad / deg, elevation_deg = read.elevation_rad / deg;
+    double nearness = 0;
+    table.read("azimuth_deg", azimuth_deg, {-360, 360});
+    table.read("elevation_deg", elevation_deg, {0, 90});
+    table.read("nearness", nearness, {-10, 10});
+    eye = {azimuth_deg * deg, 0, 0};
+    // Within its own bounds.
+    eye.turn(0, elevation_deg * deg);
+    eye.go_nearer(nearness);
+}
+
+void read_window(TomlTable& table, WindowPlace& window) {
+    constexpr int least_width_px = 320, least_height_px = 240;
+    for (const char* key : {"x", "y", "width", "height"}) table.require(key);
+    table.read("x", window.x, {-farthest_px, farthest_px});
+    table.read("y", window.y, {-farthest_px, farthest_px});
+    table.read("width", window.width, {least_width_px, PiLimits::max_image_side_px});
+    table.read("height", window.height, {least_height_px, PiLimits::max_image_side_px});
+    table.read("maximised", window.is_maximised);
+}
+
+}  // namespace
+
+DeskArrangement load_desk(const std::filesystem::path& path) {
+    DeskArrangement desk;
+    DeskSwitches& switches = desk.switches;
+    read_toml_file(path, desk_file_version, [&](TomlTable& top) {
+        top.read("panels", switches.panels);
+        top.read("rigs", switches.rigs);
+        top.read("outside", switches.outside);
+        top.read_table("eye", [&](TomlTable& table) { read_eye(table, switches.eye); });
+        top.read_table("window",
+                       [&](TomlTable& table) { read_window(table, desk.window.emplace()); });
+    });
+    return desk;
+}
+
+std::string to_toml(const DeskArrangement& desk) {
+    const DeskSwitches& switches = desk.switches;
+    std::string text = fmt::format(
+        "# How the desk of Vantage is arranged; docs/desk.md explains the keys.\nversion = {}\n"
+        "panels = {}\nrigs = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
+        "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
+        desk_file_version, switches.panels, switches.rigs, switches.outside,
+        std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / deg,
+        switches.eye.elevation_rad / deg, switches.eye.nearness);
+    if (!desk.window) return text;
+    const WindowPlace& window = *desk.window;
+    return text + fmt::format(
+                      "\n[window]\nx = {}\ny = {}\nwidth = {}\nheight = {}\n"
+                      "maximised = {}\n",
+                      window.x, window.y, window.width, window.height, window.is_maximised);
+}
+
+}  // namespace vantage

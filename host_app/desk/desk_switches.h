@@ -1,0 +1,17 @@
+#pragma once
+
+#include "host_app/desk/outside_eye.h"
+
+namespace vantage {
+
+/// What of the desk the operator has switched on.
+struct DeskSwitches {
+    bool panels = true;  ///< else the picture alone
+    bool help = false;
+    bool rigs = true;      ///< pictures and state of each, in a row below
+    bool outside = false;  ///< the stage is seen from outside, not from above
+    OutsideEye eye = {};   ///< from there
+    bool operator==(const DeskSwitches&) const = default;
+};
+
+}  // namespace vantage

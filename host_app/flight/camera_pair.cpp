@@ -1,0 +1,71 @@
+#include "host_app/flight/camera_pair.h"
+
+#include <cassert>
+#include <utility>
+
+namespace vantage {
+
+CameraPair::Camera* CameraPair::find(std::uint64_t id) {
+    if (programme_.id == id) return &programme_;
+    return preview_ && preview_->id == id ? &*preview_ : nullptr;
+}
+
+void CameraPair::toggle_preview() {
+    if (preview_) {
+        programme_.helm.set_wheel_mode(preview_->helm.wheel_mode());
+        preview_.reset();
+        share_move();
+        return;
+    }
+    preview_.emplace(Camera{++last_id_, programme_.helm});
+    preview_->helm.halt();
+}
+
+void CameraPair::cut() {
+    assert(preview_);
+    const WheelMode mode = preview_->helm.wheel_mode();
+    // One that was under way to what is on air now stays where it was cut away.
+    if (std::exchange(flies_to_preview_, false)) programme_.helm.halt();
+    std::swap(programme_, *preview_);
+    share_move();
+    preview_->helm.set_wheel_mode(mode);
+}
+
+void CameraPair::fly_to_preview(double duration_s) {
+    assert(preview_);
+    programme_.follows_performer = false;
+    programme_.helm.fly_over_to(preview_->helm, duration_s);
+    flies_to_preview_ = programme_.helm.flight_progress().has_value();
+}
+
+std::optional<double> CameraPair::fly_progress() const {
+    return flies_to_preview_ ? programme_.helm.flight_progress() : std::nullopt;
+}
+
+void CameraPair::advance(double dt_s) {
+    for_each_helm([&](Helm& helm) { helm.advance(dt_s); });
+    if (!programme_.helm.flight_progress()) flies_to_preview_ = false;
+    share_move();
+}
+
+std::optional<Helm::Change> CameraPair::take_change() {
+    std::optional<Helm::Change> change = in_hand().helm.take_change();
+    if (!change || !preview_) return change;
+    programme_.helm.share({change->book, false});
+    if (change->is_of_move || move_lacking_id_) {
+        move_lacking_id_ = programme_.id;
+        newest_ = change->book;
+        share_move();
+    }
+    return change;
+}
+
+void CameraPair::share_move() {
+    if (!move_lacking_id_) return;
+    Camera* lacking = find(*move_lacking_id_);
+    if (lacking && lacking != &in_hand() && lacking->helm.move_progress()) return;
+    if (lacking) lacking->helm.share({newest_, true});
+    move_lacking_id_.reset();
+}
+
+}  // namespace vantage

@@ -1,0 +1,89 @@
+#include "host_app/ltc/ltc_reader.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <ltc.h>
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+/// A frame of the slowest rate and a bit, by which libltc begins to look for bits.
+constexpr int first_guess_samples = sound_rate_hz / 25;
+constexpr int queue_frames = 32;
+/// Tapes and generators wander; 24 to 30 a second with a tenth on either side.
+constexpr double least_rate_hz = 21.5, most_rate_hz = 33;
+
+std::optional<LtcReading> reading_of(const LTCFrameExt& frame) {
+    // Bits that are no decimal digits are no code.
+    const LTCFrame& bits = frame.ltc;
+    const unsigned digits[] = {bits.frame_units, bits.secs_units, bits.mins_units,
+                               bits.hours_units};
+    for (const unsigned digit : digits)
+        if (digit > 9) return std::nullopt;
+    LtcReading reading;
+    reading.code = {static_cast<int>(10 * bits.hours_tens + bits.hours_units),
+                    static_cast<int>(10 * bits.mins_tens + bits.mins_units),
+                    static_cast<int>(10 * bits.secs_tens + bits.secs_units),
+                    static_cast<int>(10 * bits.frame_tens + bits.frame_units), bits.dfbit != 0};
+    reading.first = frame.off_start;
+    const double length = static_cast<double>(frame.off_end - frame.off_start + 1);
+    reading.frames_a_second = length > 0 ? sound_rate_hz / length : 0;
+    const bool is_code = frame.reverse == 0 && reading.frames_a_second > least_rate_hz &&
+                         reading.frames_a_second < most_rate_hz && reading.code.hours < 24 &&
+                         reading.code.minutes < 60 && reading.code.seconds < 60 &&
+                         count_of(reading).frame_of(reading.code);
+    return is_code ? std::optional(reading) : std::nullopt;
+}
+
+}  // namespace
+
+void LtcReader::Deleter::operator()(LTCDecoder* decoder) const { ltc_decoder_free(decoder); }
+
+LtcReader::LtcReader() : decoder_(ltc_decoder_create(first_guess_samples, queue_frames)) {
+    if (!decoder_) fail("linear time code cannot be read: memory is short");
+}
+
+std::vector<LtcReading> LtcReader::hear(const SoundBlock& sound) {
+    std::vector<float> left;
+    for (std::size_t i = 0; i < sound.samples.size(); i += sound_channels)
+        left.push_back(std::isfinite(sound.samples[i]) ? std::clamp(sound.samples[i], -1.0F, 1.0F)
+                                                       : 0.0F);
+    std::vector<LtcReading> readings;
+    // libltc takes a thousand at a time and keeps so many frames.
+    constexpr std::size_t at_once = 1024;
+    for (std::size_t at = 0; at < left.size(); at += at_once) {
+        ltc_decoder_write_float(decoder_.get(), left.data() + at,
+                                std::min(at_once, left.size() - at),
+                                sound.first + static_cast<std::int64_t>(at));
+        LTCFrameExt frame{};
+        while (ltc_decoder_read(decoder_.get(), &frame) > 0) {
+            const std::optional<LtcReading> reading = reading_of(frame);
+            const std::optional<LtcReading> before = std::exchange(last_, reading);
+            if (!reading) {
+                ++malformed_;
+                continue;
+            }
+            const SmpteCount count = count_of(*reading);
+            const bool follows =
+                before && before->code.is_drop_frame == reading->code.is_drop_frame &&
+                count.frame_of(before->code) &&
+                count.between(*count.frame_of(reading->code), *count.frame_of(before->code)) == 1;
+            if (follows)
+                readings.push_back(*reading);
+            else if (before)
+                ++malformed_;
+        }
+    }
+    return readings;
+}
+
+SmpteCount count_of(const LtcReading& reading) {
+    if (reading.code.is_drop_frame || reading.frames_a_second > 27.5)
+        return {30, reading.code.is_drop_frame};
+    return {reading.frames_a_second > 24.5 ? 25 : 24, false};
+}
+
+}  // namespace vantage

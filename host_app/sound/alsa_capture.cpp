@@ -1,0 +1,147 @@
+#include "host_app/sound/alsa_capture.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstring>
+
+// Of its error handlers the header leaves the linkage to C++.
+extern "C" {
+#include <alsa/asoundlib.h>
+}
+
+#include "common/base/error.h"
+
+namespace vantage {
+namespace {
+
+constexpr unsigned buffer_us = 500'000, period_us = 10'000;
+constexpr std::size_t most_at_once = 4800;
+
+/// The finest first.
+constexpr std::array formats{SND_PCM_FORMAT_S32_LE, SND_PCM_FORMAT_FLOAT_LE, SND_PCM_FORMAT_S24_LE,
+                             SND_PCM_FORMAT_S24_3LE, SND_PCM_FORMAT_S16_LE};
+
+float value_of(const std::uint8_t* bytes, int format) {
+    constexpr float whole = 1.0F / 2147483648.0F;
+    const auto left_aligned = [&](int count) {
+        std::uint32_t value = 0;
+        for (int i = 0; i < count; ++i) value |= std::uint32_t{bytes[i]} << (32 - 8 * (count - i));
+        return whole * static_cast<float>(static_cast<std::int32_t>(value));
+    };
+    switch (format) {
+        case SND_PCM_FORMAT_FLOAT_LE: {
+            float value = 0;
+            std::memcpy(&value, bytes, sizeof value);
+            return value;
+        }
+        case SND_PCM_FORMAT_S16_LE:
+            return left_aligned(2);
+        case SND_PCM_FORMAT_S24_LE:
+        case SND_PCM_FORMAT_S24_3LE:
+            return left_aligned(3);
+        default:
+            return left_aligned(4);
+    }
+}
+
+}  // namespace
+
+void AlsaCapture::Closer::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
+
+AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right) : name_(name) {
+    // ALSA would print it too.
+    snd_lib_error_set_local([](const char*, int, const char*, int, const char*, va_list) {});
+    snd_pcm_t* device = nullptr;
+    if (const int code =
+            snd_pcm_open(&device, name.c_str(), SND_PCM_STREAM_CAPTURE, SND_PCM_NONBLOCK);
+        code < 0)
+        refuse("it cannot be opened", code);
+    device_.reset(device);
+    choose_format();
+    if (std::max(left, right) > channels_)
+        fail("the sound device {} has {} channels, and no channel {}", name, channels_,
+             std::max(left, right));
+    left_ = left == 0 ? 0 : left - 1;
+    right_ = right == 0 ? std::min(channels_, 2U) - 1 : right - 1;
+    AVChannelLayout stereo{};
+    av_channel_layout_default(&stereo, static_cast<int>(sound_channels));
+    if (rate_hz_ != sound_rate_hz)
+        converter_.emplace(stereo, AV_SAMPLE_FMT_FLT, static_cast<int>(rate_hz_));
+    raw_.resize(most_at_once * channels_ *
+                static_cast<std::size_t>(
+                    snd_pcm_format_physical_width(static_cast<snd_pcm_format_t>(format_)) / 8));
+    if (const int code = snd_pcm_start(device); code < 0) refuse("it does not start", code);
+}
+
+AlsaCapture::~AlsaCapture() = default;
+
+void AlsaCapture::choose_format() {
+    snd_pcm_t* device = device_.get();
+    snd_pcm_hw_params_t* wish = nullptr;
+    snd_pcm_hw_params_alloca(&wish);
+    int code = snd_pcm_hw_params_any(device, wish);
+    if (code >= 0) code = snd_pcm_hw_params_set_access(device, wish, SND_PCM_ACCESS_RW_INTERLEAVED);
+    if (code < 0) refuse("it has no way to be read", code);
+    const auto format = std::find_if(formats.begin(), formats.end(), [&](snd_pcm_format_t each) {
+        return snd_pcm_hw_params_set_format(device, wish, each) == 0;
+    });
+    if (format == formats.end())
+        fail("the sound device {} has samples of 16, 24 or 32 bits in no form that is known",
+             name_);
+    format_ = *format;
+    rate_hz_ = sound_rate_hz;
+    channels_ = sound_channels;
+    unsigned buffer = buffer_us, period = period_us;
+    snd_pcm_hw_params_set_rate_near(device, wish, &rate_hz_, nullptr);
+    snd_pcm_hw_params_set_channels_near(device, wish, &channels_);
+    snd_pcm_hw_params_set_buffer_time_near(device, wish, &buffer, nullptr);
+    snd_pcm_hw_params_set_period_time_near(device, wish, &period, nullptr);
+    if (code = snd_pcm_hw_params(device, wish); code < 0) refuse("it takes no settings", code);
+}
+
+AlsaCapture::Piece AlsaCapture::read(std::chrono::milliseconds most) {
+    snd_pcm_t* device = device_.get();
+    if (const int code = snd_pcm_wait(device, static_cast<int>(most.count())); code <= 0) {
+        if (code < 0) recover(code);
+        return {};
+    }
+    const snd_pcm_sframes_t frames = snd_pcm_readi(device, raw_.data(), most_at_once);
+    if (frames == -EAGAIN || frames == 0) return {};
+    if (frames < 0) {
+        recover(static_cast<int>(frames));
+        return {};
+    }
+    snd_pcm_sframes_t unread = 0;
+    const TaiTime now = TaiClock::now();
+    if (snd_pcm_delay(device, &unread) < 0) unread = 0;
+    const auto width = static_cast<std::size_t>(
+        snd_pcm_format_physical_width(static_cast<snd_pcm_format_t>(format_)) / 8);
+    Piece piece;
+    piece.heard_until = now - from_s(static_cast<double>(unread) / rate_hz_);
+    const auto count = static_cast<std::size_t>(frames);
+    piece.samples.resize(count * sound_channels);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* frame = raw_.data() + i * channels_ * width;
+        piece.samples[2 * i] = value_of(frame + left_ * width, format_);
+        piece.samples[2 * i + 1] = value_of(frame + right_ * width, format_);
+    }
+    if (converter_) {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(piece.samples.data());
+        piece.samples = converter_->convert(&bytes, static_cast<int>(frames));
+    }
+    return piece;
+}
+
+void AlsaCapture::recover(int code) {
+    if (code == -EPIPE || code == -ESTRPIPE || code == -EINTR)
+        code = snd_pcm_recover(device_.get(), code, 1);
+    if (code >= 0) code = snd_pcm_start(device_.get());
+    if (code < 0 && code != -EBADFD) refuse("it is gone", code);
+}
+
+void AlsaCapture::refuse(const char* what, int code) const {
+    fail("the sound device {}: {} ({})", name_, what, snd_strerror(code));
+}
+
+}  // namespace vantage

@@ -1,0 +1,77 @@
+#include "host_app/sound/sound_decoder.h"
+
+#include <algorithm>
+
+#include "common/av/av_log.h"
+#include "common/base/error.h"
+
+namespace vantage {
+
+SoundDecoder::SoundDecoder(std::filesystem::path path)
+    : path_(std::move(path)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+    keep_av_log();
+    AVFormatContext* input = nullptr;
+    int code = avformat_open_input(&input, ("file:" + path_.string()).c_str(), nullptr, nullptr);
+    if (code < 0) refuse(code);
+    input_.reset(input);
+    code = avformat_find_stream_info(input, nullptr);
+    if (code < 0) refuse(code);
+    const AVCodec* codec = nullptr;
+    code = av_find_best_stream(input, AVMEDIA_TYPE_AUDIO, -1, -1, &codec, 0);
+    if (code < 0 || !codec) fail("{} has no sound that FFmpeg can decode", path_.string());
+    stream_ = input->streams[code];
+    decoder_.reset(avcodec_alloc_context3(codec));
+    code = avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
+    decoder_->pkt_timebase = stream_->time_base;
+    if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
+    if (code < 0) refuse(code);
+}
+
+std::vector<float> SoundDecoder::next(std::size_t count) {
+    const std::size_t values = count * sound_channels;
+    while (decoded_.size() < values && !is_at_end_) decode_some();
+    const auto end =
+        decoded_.begin() + static_cast<std::ptrdiff_t>(std::min(values, decoded_.size()));
+    std::vector<float> samples(decoded_.begin(), end);
+    decoded_.erase(decoded_.begin(), end);
+    return samples;
+}
+
+void SoundDecoder::decode_some() {
+    const int code = av_read_frame(input_.get(), packet_.get());
+    if (code == AVERROR_EOF) {
+        is_at_end_ = true;
+        avcodec_send_packet(decoder_.get(), nullptr);
+        take_frames();
+        if (!converter_) return;
+        const std::vector<float> rest = converter_->rest();
+        decoded_.insert(decoded_.end(), rest.begin(), rest.end());
+        return;
+    }
+    if (code < 0) refuse(code);
+    // A damaged packet is silence, and what follows is sound again.
+    if (packet_->stream_index == stream_->index) avcodec_send_packet(decoder_.get(), packet_.get());
+    av_packet_unref(packet_.get());
+    take_frames();
+}
+
+void SoundDecoder::take_frames() {
+    while (avcodec_receive_frame(decoder_.get(), frame_.get()) >= 0) {
+        if (!converter_) {
+            AVChannelLayout channels = frame_->ch_layout;
+            if (channels.order == AV_CHANNEL_ORDER_UNSPEC)
+                av_channel_layout_default(&channels, channels.nb_channels);
+            converter_.emplace(channels, static_cast<AVSampleFormat>(frame_->format),
+                               frame_->sample_rate);
+        }
+        const std::vector<float> samples =
+            converter_->convert(frame_->extended_data, frame_->nb_samples);
+        decoded_.insert(decoded_.end(), samples.begin(), samples.end());
+    }
+}
+
+void SoundDecoder::refuse(int code) const {
+    fail("the sound of {} cannot be read: {}", path_.string(), av_reason(code));
+}
+
+}  // namespace vantage

@@ -1,0 +1,81 @@
+#include "host_app/desk/desk_arrangement.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "host_app/desk/desk_store.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+class DeskFile : public testing::Test {
+  protected:
+    void write(const std::string& text) const { std::ofstream(file_) << text; }
+    void expect_refused(const std::string& text, const std::string& word) const {
+        write("version = 1\n" + text);
+        EXPECT_NE(thrown_sentence([&] { (void)load_desk(file_); }).find(word), std::string::npos)
+            << text;
+    }
+    static DeskArrangement example() {
+        DeskArrangement desk;
+        desk.switches.panels = false;
+        desk.switches.rigs = false;
+        desk.switches.outside = true;
+        desk.switches.eye = {-1, 0.8, 0.25};
+        desk.window = WindowPlace{-1920, 40, 1600, 900, true};
+        return desk;
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "stage.desk.toml";
+};
+
+TEST_F(DeskFile, IsReadAsItWasWritten) {
+    write(to_toml(example()));
+    DeskArrangement read = load_desk(file_);
+    EXPECT_NEAR(read.switches.eye.azimuth_rad, -1, 0.001);
+    EXPECT_NEAR(read.switches.eye.elevation_rad, 0.8, 0.001);
+    read.switches.eye = example().switches.eye;
+    EXPECT_EQ(read, example());
+    write("version = 1\n");
+    EXPECT_EQ(load_desk(file_), DeskArrangement()) << "what is left out is as it is at first";
+}
+
+TEST_F(DeskFile, RefusesWhatDoesNotFit) {
+    expect_refused("panels = 3\n", "panels");
+    expect_refused("multiview = true\n", "multiview");
+    expect_refused("[eye]\nelevation_deg = 100\n", "elevation_deg");
+    expect_refused("[window]\nx = 1\n", "is missing");
+    expect_refused("[window]\nx = 1\ny = 1\nwidth = 100\nheight = 500\n", "width");
+}
+
+TEST_F(DeskFile, IsKeptWhenHandsHaveArrangedTheDeskAndOnlyThen) {
+    EXPECT_EQ(desk_file_of("a/stage.toml"), "a/stage.desk.toml");
+    DeskStore store(file_);
+    DeskArrangement desk = store.desk();
+    desk.window = WindowPlace{10, 10, 1280, 720};
+    store.follow(desk, MonotonicClock::now());
+    store.finish();
+    EXPECT_FALSE(std::filesystem::exists(file_)) << "where it was opened";
+    desk.switches.rigs = false;
+    store.follow(desk, MonotonicClock::now());
+    EXPECT_FALSE(std::filesystem::exists(file_)) << "not yet";
+    store.follow(desk, MonotonicClock::now() + 1h);
+    EXPECT_EQ(load_desk(file_).window, desk.window);
+    EXPECT_FALSE(load_desk(file_).switches.rigs);
+    write("# of somebody else\n");
+    desk.window->x = 50;
+    store.follow(desk, MonotonicClock::now());
+    store.finish();
+    EXPECT_EQ(load_desk(file_).window->x, 50);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "stage.desk-2.toml"))
+        << "what another program wrote stays";
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <numbers>
+
+#include "host_app/flight/orbit_view.h"
+
+namespace vantage {
+
+inline constexpr double deg = std::numbers::pi / 180;
+
+/// Views that differ by where they stand alone.
+inline OrbitView looking(double azimuth_rad) {
+    OrbitView view;
+    view.azimuth_rad = azimuth_rad;
+    return view;
+}
+
+}  // namespace vantage
