@@ -126,6 +126,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
             rig_.endpoint, message.rig, rig_.name);
     if (!message.refusal.empty()) {
         view_.refused = message.refusal;
+        view_.refusal_passes = message.refusal_passes;
         gone_ = true;
         return false;
     }
@@ -184,6 +185,7 @@ void RigLink::watch(MonotonicTime now) {
         switch (event) {
             case ZMQ_EVENT_DISCONNECTED:
                 gone_ = true;
+                if (std::exchange(view_.refusal_passes, false)) view_.refused.clear();
                 view_.last_error = fmt::format("the connection to {} broke off", rig_.endpoint);
                 break;
             case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
@@ -217,6 +219,7 @@ void RigLink::watch(MonotonicTime now) {
 
 void RigLink::refuse(std::string sentence, MonotonicTime now) {
     view_.refused = std::move(sentence);
+    view_.refusal_passes = false;
     gone_ = true;
     if (!reopen_) reopen_ = now + refusal_retry_period;
 }

@@ -47,6 +47,7 @@ class RigLink {
         std::optional<MonotonicTime> heard;  ///< its last message
         std::uint64_t session = 0;           ///< of its daemon, as it said last
         std::string refused;
+        bool refusal_passes = false;  ///< it is for now: a relay does not reach the rig
         std::string last_error;
         std::uint64_t malformed = 0;  ///< messages that were no delivery, heartbeat or refusal
         std::uint64_t lost = 0;

@@ -98,6 +98,7 @@ struct StageReceiver::Impl {
 
         // Under Impl::mutex.
         RigStatus status;
+        bool relay_answers = false;  ///< and says why the rig does not
         std::uint64_t undecodable_frames = 0;
         RigLink::Wish wish;
         std::shared_ptr<const std::string> report;
@@ -233,14 +234,15 @@ struct StageReceiver::Impl {
     void probe(Rig& rig) {
         {
             const std::lock_guard lock(mutex);
-            if (rig.status.connected || !rig.status.refused.empty()) return;
+            if (rig.status.connected || !rig.status.refused.empty() || rig.relay_answers) return;
         }
         std::string reason = why_unreachable(rig.endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format("something at {} takes connections and does not speak as a rig",
                                  rig.endpoint.text());
         const std::lock_guard lock(mutex);
-        if (!rig.status.connected) rig.status.unreachable = std::move(reason);
+        if (!rig.status.connected && !rig.relay_answers)
+            rig.status.unreachable = std::move(reason);
     }
 
     void hand_over(Rig& rig, RigLink::Delivery delivery) {
@@ -334,11 +336,16 @@ struct StageReceiver::Impl {
     static void show(Rig& rig, RigLink::View view, MonotonicTime now) {
         RigStatus& status = rig.status;
         const bool goes_on = status.connected && view.restarts == status.restarts;
-        if (!view.refused.empty() && view.refused != status.refused)
-            log_warning("{}", view.refused);
         if (view.connected != status.connected)
             log_info("rig {} is {}", rig.name, view.connected ? "connected" : "gone");
+        rig.relay_answers = view.refusal_passes && !view.refused.empty();
         if (view.connected) status.unreachable.clear();
+        if (rig.relay_answers) {
+            if (view.refused != status.unreachable) log_info("{}", view.refused);
+            status.unreachable = std::exchange(view.refused, {});
+        }
+        if (!view.refused.empty() && view.refused != status.refused)
+            log_warning("{}", view.refused);
         rig.outages.note(view.connected, view.heard);
         status.outages = rig.outages.outages();
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();

@@ -119,7 +119,7 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
     else
         link->heartbeat_due = true;
     hear_fetch(*link, message.fetch);
-    if (!away_.empty()) refuse(route, away_);
+    if (!away_.empty()) refuse(route, away_, true);
     link->report_asked = message.report_id;
 }
 
@@ -191,13 +191,14 @@ void HostLinks::fetched(const FetchJob& job, std::shared_ptr<const KeptParts> ke
     }
 }
 
-void HostLinks::refuse(const Route& route, std::string sentence) {
+void HostLinks::refuse(const Route& route, std::string sentence, bool passes) {
     if (refusals_.size() == max_refusals) return;
     RigMessage message;
     message.rig = rig_;
     message.session = session_;
     message.rig_counters = rig_counters();
     message.refusal = std::move(sentence);
+    message.refusal_passes = passes;
     refusals_.push_back({route, std::move(message), nullptr});
 }
 

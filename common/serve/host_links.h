@@ -114,7 +114,7 @@ class HostLinks {
               MonotonicTime now);
 
     /// Answers a message that was refused before it got here.
-    void refuse(const Route& route, std::string sentence);
+    void refuse(const Route& route, std::string sentence, bool passes = false);
 
     /// Lets go of hosts that were silent for too long.
     void expire(MonotonicTime now);

@@ -139,6 +139,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
     }
     out.set_report_id(message.report_id);
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
+    out.set_refusal_passes(message.refusal_passes);
     return serialise(out);
 }
 
@@ -163,6 +164,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     if (in.has_fetched()) message.fetch = from_wire(in.fetched());
     message.report_id = in.report_id();
     message.refusal = in.refusal();
+    message.refusal_passes = in.refusal_passes();
     return message;
 }
 

@@ -73,6 +73,7 @@ struct RigMessage {
     std::optional<FetchState> fetch;
     std::uint64_t report_id = 0;  ///< that the report which follows answers; 0: none follows
     std::string refusal;          ///< a sentence, when the rig does not serve this host; else empty
+    bool refusal_passes = false;  ///< it is for now: a relay does not reach the rig
 };
 
 /// Decoders take nothing on trust: they throw Error with one sentence for what is truncated,

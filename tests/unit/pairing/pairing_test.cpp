@@ -72,7 +72,7 @@ TEST(Pairing, ShowsDifferentCodesWhereSomebodyStandsBetween) {
                   std::string::npos);
         EXPECT_FALSE(rig.is_agreed());
     }
-    EXPECT_EQ(same, 0) << "by chance once in fifty thousand runs of this test";
+    EXPECT_LE(same, 1) << "two are the same by chance once in five billion runs of this test";
 }
 
 /// Without the commitment it could try nonces until the codes meet.

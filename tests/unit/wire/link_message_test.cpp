@@ -71,6 +71,9 @@ TEST(LinkMessage, ARefusalNeedsNoLinkAndIsCutToItsLimit) {
     sent.rig = "rig-a";
     sent.refusal = std::string(2000, 'x');
     EXPECT_EQ(decode_rig_message(encode(sent)).refusal, std::string(512, 'x'));
+    EXPECT_FALSE(decode_rig_message(encode(sent)).refusal_passes);
+    sent.refusal_passes = true;
+    EXPECT_TRUE(decode_rig_message(encode(sent)).refusal_passes);
 }
 
 TEST(LinkMessage, HostileHostMessagesAreRefused) {

@@ -67,10 +67,8 @@ TEST_F(RelayProcesses, TwoHostsRecordOneRigWhoseFramesCrossItsUplinkOnce) {
                fmt::format("tcp://127.0.0.1:{}", ports_.second), "--authorized-hosts",
                file("relay.hosts"), "--rigs-file", file("rigs.toml"), "--json"},
               "relay");
-    ASSERT_TRUE(eventually([&] {
-        return std::filesystem::exists(file("rigs.toml")) &&
-               relay->err().find("rig north is connected") != std::string::npos;
-    })) << relay->err();
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file("rigs.toml")); }))
+        << relay->err();
     std::ifstream entries(file("rigs.toml"));
     const std::string rigs{std::istreambuf_iterator<char>(entries), {}};
     for (const char* host : {"first", "second"})
