@@ -241,8 +241,7 @@ struct StageReceiver::Impl {
             reason = fmt::format("something at {} takes connections and does not speak as a rig",
                                  rig.endpoint.text());
         const std::lock_guard lock(mutex);
-        if (!rig.status.connected && !rig.relay_answers)
-            rig.status.unreachable = std::move(reason);
+        if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
 
     void hand_over(Rig& rig, RigLink::Delivery delivery) {
