@@ -1,5 +1,6 @@
 #include "common/wire/link_message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -34,6 +35,23 @@ TEST(LinkMessage, HostMessageComesBackWhole) {
     sent.fetch = {21, 22, 23, 24};
     sent.report_id = 25;
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
+}
+
+/// Protobuf itself writes a line for each name that is no UTF-8, however many a peer sends.
+TEST(LinkMessage, NamesThatAreNoTextAreRefusedAndNothingIsWrittenToTheLog) {
+    RigMessage sent;
+    sent.rig = "rig-a";
+    sent.link = 2;
+    std::vector<std::byte> bytes = encode(sent);
+    const std::string name = sent.rig;
+    const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end(),
+                                [](std::byte a, char b) { return a == std::byte(b); });
+    ASSERT_NE(at, bytes.end());
+    std::fill_n(at, name.size(), std::byte{0xff});
+    testing::internal::CaptureStderr();
+    const std::string refusal = refusal_of(decode_rig_message, bytes);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_NE(refusal, "");
 }
 
 TEST(LinkMessage, RigMessageComesBackWhole) {
