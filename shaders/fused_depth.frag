@@ -76,7 +76,12 @@ void main() {
 #endif
     if (by_the_first < nothing) measured = by_the_first;
 #endif
-    bool is_voted_for = measured == nothing || is_there(pixel, measured);
+    bool is_voted_for = measured == nothing;
+#if LAYERS == 2
+    // Both have it: nobody is left to see through it.
+    is_voted_for = is_voted_for || abs(candidates[0] - candidates[1]) < (softness + spread[0] * measured) * measured;
+#endif
+    if (!is_voted_for) is_voted_for = is_there(pixel, measured);
     float next = measured;
     for (int k = 1; k < LAYERS && !is_voted_for; ++k) {
         float before = next * (1.0 + 2.0 * softness);

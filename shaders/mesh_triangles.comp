@@ -1,6 +1,7 @@
 // The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces; an invocation a block
-// of quads. Quads of several pixels become quads of one where they are cut, and a block in which inverse depth is linear
-// in the picture, as on a plane, two triangles. They are written one after the other, as many as there are.
+// of quads. Quads of several pixels become quads of one where they are cut, and a block, or a quarter of one, in which
+// inverse depth is linear in the picture, as on a plane, two triangles. They are written one after the other, as many as
+// there are.
 #ifndef STEP
 #define STEP 1    // px of the depth map that a quad spans
 #endif
@@ -71,11 +72,11 @@ void write_quads(ivec2 at, ivec2 size) {
 }
 
 #if ACROSS > 1
-// Whether a block is flat, by samples at every second pixel, and then its triangles. It takes a pixel more on all sides,
+// Whether a block of `side` pixels is flat, by samples at every second pixel, and then its triangles. It takes a pixel more on all sides,
 // so that no gap shows beside a block that is not flat.
-bool write_if_flat(ivec2 at, ivec2 size) {
-    const int samples = (ACROSS * STEP + 2) / 2;
-    ivec2 low = max(at - 1, 0), high = min(at + ACROSS * STEP + 1, size - 1);
+bool write_if_flat(ivec2 at, int side, ivec2 size) {
+    int samples = (side + 2) / 2;
+    ivec2 low = max(at - 1, 0), high = min(at + side + 1, size - 1);
     float a = inverse_depth(low, size), b = inverse_depth(ivec2(high.x, low.y), size);
     float c = inverse_depth(ivec2(low.x, high.y), size), d = inverse_depth(high, size);
     if (min(min(a, b), min(c, d)) <= 0.0) return false;
@@ -103,11 +104,17 @@ void main() {
     if (texelFetch(tiles, ivec2(middle / tile_share), 0).r == 0.0) return;
 #endif
 #if ACROSS > 1
-    if (write_if_flat(at, size)) return;
-#endif
-    for (int j = 0; j < ACROSS; ++j)
-        for (int i = 0; i < ACROSS; ++i) {
-            ivec2 quad = at + STEP * ivec2(i, j);
+    if (write_if_flat(at, ACROSS * STEP, size)) return;
+    const int half_across = ACROSS / 2;
+    for (int part = 0; part < 4; ++part) {
+        ivec2 quarter = at + half_across * STEP * ivec2(part & 1, part >> 1);
+        if (quarter.x >= end.x || quarter.y >= end.y || write_if_flat(quarter, half_across * STEP, size)) continue;
+        for (int k = 0; k < half_across * half_across; ++k) {
+            ivec2 quad = quarter + STEP * ivec2(k % half_across, k / half_across);
             if (quad.x < end.x && quad.y < end.y) write_quads(quad, size);
         }
+    }
+#else
+    write_quads(at, size);
+#endif
 }

@@ -23,14 +23,20 @@ ivec2 aside(int tap) {
     return ring == 0 ? ivec2(0) : ivec2(round(step_px * float(ring) * vec2(cos(angle), sin(angle))));
 }
 
-// The nearest depth of the nearest ring that has any.
-float depth_around(ivec2 at, ivec2 last) {
+float depth_in_ring(ivec2 at, ivec2 last, int ring) {
     float nearest = 0.0;
-    for (int k = 1; k < taps; ++k) {
-        if ((k & 7) == 1 && nearest > 0.0) break;
+    for (int k = 8 * ring - 7; k <= 8 * ring; ++k) {
         float z = texelFetch(depth_map, clamp(at + aside(k), ivec2(0), last), 0).r;
         if (z > 0.0 && (nearest == 0.0 || z < nearest)) nearest = z;
     }
+    return nearest;
+}
+
+// The nearest depth of the nearest ring that has any.
+float depth_around(ivec2 at, ivec2 last) {
+    float nearest = depth_in_ring(at, last, 1);
+    if (nearest == 0.0) nearest = depth_in_ring(at, last, 2);
+    if (nearest == 0.0) nearest = depth_in_ring(at, last, 3);
     return nearest;
 }
 
@@ -46,25 +52,25 @@ void main() {
     vec3 own = textureLod(picture, uv, 0.0).rgb;
     float z = is_measured(at) ? texelFetch(depth_map, at, 0).r : 0.0;
     float best = 0.0;
+    // Of constant size and index, so that they stay in registers.
     float depths[taps], weights[taps];
-    int count = 0;
     for (int k = 0; k < taps; ++k) {
         ivec2 there = clamp(at + aside(k), ivec2(0), last);
-        if (!is_measured(there)) continue;
+        float measured = texelFetch(depth_map, there, 0).r;
         vec3 off = abs(textureLod(picture, (vec2(there) + 0.5) * texel, 0.0).rgb - own);
         int ring = (k + 7) / 8;
         float far = float(ring * ring);
         float w = exp(-(off.r + off.g + off.b) / (3.0 * like_colour)) / (1.0 + 0.5 * far) + 1e-5;
-        depths[count] = texelFetch(depth_map, there, 0).r;
-        weights[count] = w * exp(-0.5 * far / (smooth_steps * smooth_steps));
-        ++count;
-        if (z == 0.0 && w > best) best = w, performer_m = depths[count - 1];
+        if (measured <= 0.0) w = 0.0;
+        depths[k] = measured;
+        weights[k] = w * exp(-0.5 * far / (smooth_steps * smooth_steps));
+        if (z == 0.0 && w > best) best = w, performer_m = measured;
     }
     if (z > 0.0) performer_m = z;
     if (performer_m == 0.0) return;
     float sum = 0.0, all = 0.0;
-    for (int k = 0; k < count; ++k) {
-        if (max(depths[k], performer_m) > min(depths[k], performer_m) * edge_ratio) continue;
+    for (int k = 0; k < taps; ++k) {
+        if (weights[k] == 0.0 || max(depths[k], performer_m) > min(depths[k], performer_m) * edge_ratio) continue;
         sum += weights[k] / depths[k];
         all += weights[k];
     }

@@ -4,9 +4,14 @@
 #ifndef LAYERS
 #define LAYERS 2
 #endif
+#ifndef PLAIN
+#define PLAIN 0  // 1: colours are no sharper than bilinear
+#endif
 // Of the performers: colours are times alpha, the share of a rig's pixel; source_depth is negative beyond the matte.
 #include "rig_layers.glsl"
+#if !PLAIN
 #include "sharp_sample.glsl"
+#endif
 
 uniform sampler2D picture;    // of the set
 uniform sampler2D set_depth;  // of the view, metres, 0 = nothing, negative = guessed
@@ -58,7 +63,9 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
     // The other rigs have a say where neither of the first two sees the point.
     float say = i < 2 ? 1.0 : 1.0 - smoothstep(0.2, 0.6, seen.best);
     seen.best = max(seen.best, sees * sure);
+#if !PLAIN
     if (c.a > 0.99) c.rgb = sharp(pictures, uv, 0.0);
+#endif
     float word = say * (sees + 0.001 * presence[i]) / (away + 1e-5), w = c.a * word * (sure + least_say);
     seen.covers += word * c.a;
     seen.words += word;

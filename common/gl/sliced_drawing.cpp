@@ -11,6 +11,8 @@
 namespace vantage {
 namespace {
 
+using namespace std::chrono_literals;
+
 /// Like the current context, it belongs to the thread.
 thread_local const SlicedDrawing* current_slicing = nullptr;
 
@@ -20,18 +22,25 @@ constexpr std::chrono::seconds patience{10};
 /// A band waits so long for others at most, so that a renderer that is never done leaves some time.
 constexpr std::chrono::milliseconds longest_way{60};
 
-struct ScissorTest {
-    ScissorTest() { glEnable(GL_SCISSOR_TEST); }
-    ~ScissorTest() { glDisable(GL_SCISSOR_TEST); }
-    ScissorTest(const ScissorTest&) = delete;
-    ScissorTest& operator=(const ScissorTest&) = delete;
-};
-
 }  // namespace
 
+ScissorRows::ScissorRows(int width, cv::Range rows) : width_(width), rows_(rows) {
+    glEnable(GL_SCISSOR_TEST);
+    keep(rows);
+}
+
+ScissorRows::~ScissorRows() { glDisable(GL_SCISSOR_TEST); }
+
+void ScissorRows::keep(cv::Range rows) const { glScissor(0, rows.start, width_, rows.size()); }
+
 SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way,
-                             std::function<void()> between)
-    : slice_(slice), way_(way), between_(std::move(between)), before_(current_slicing) {
+                             std::function<void()> between, double least_share)
+    : slice_(slice),
+      way_(way),
+      between_(std::move(between)),
+      least_share_(least_share),
+      may_wait_(longest_way),
+      before_(current_slicing) {
     current_slicing = this;
 }
 
@@ -40,27 +49,45 @@ SlicedDrawing::~SlicedDrawing() { current_slicing = before_; }
 const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 
 void SlicedDrawing::give_way() const {
-    if (way_) way_->give_way(longest_way);
+    if (way_) {
+        const MonotonicTime start = MonotonicClock::now();
+        way_->give_way(may_wait_);
+        if (least_share_ > 0)
+            may_wait_ = std::max(may_wait_ - (MonotonicClock::now() - start), 0ns);
+    }
     if (between_) between_();
 }
 
+void SlicedDrawing::drew_for(std::chrono::nanoseconds time) const {
+    if (least_share_ <= 0) return;
+    const std::chrono::duration<double> earned = time * (1 / least_share_ - 1);
+    may_wait_ = std::min<std::chrono::nanoseconds>(
+        may_wait_ + std::chrono::duration_cast<std::chrono::nanoseconds>(earned), longest_way);
+}
+
 void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>& draw) const {
+    this->draw(ScissorRows(target.width, {0, target.height}), rows, draw);
+}
+
+void SlicedDrawing::draw(const ScissorRows& within, int& rows,
+                         const std::function<void()>& draw) const {
     if (rows == 0) rows = first_rows;
-    const ScissorTest scissor;
-    for (int y = 0; y < target.height;) {
-        const int height = std::min(rows, target.height - y);
+    for (int y = within.rows().start; y < within.rows().end;) {
+        const int height = std::min(rows, within.rows().end - y);
         give_way();
         const MonotonicTime start = MonotonicClock::now();
-        glScissor(0, y, target.width, height);
+        within.keep({y, y + height});
         draw();
         (void)Fence::insert().reached_within(patience);
-        const double share = std::chrono::duration<double>(MonotonicClock::now() - start) /
-                             std::chrono::duration<double>(slice_);
+        const std::chrono::nanoseconds time = MonotonicClock::now() - start;
+        drew_for(time);
+        const double share =
+            std::chrono::duration<double>(time) / std::chrono::duration<double>(slice_);
         y += height;
         // Halfway to what would have filled the slice: one band says little.
         const double fitting = height / std::max(share, 0.05);
         rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
-                          std::max(target.height, fewest_rows));
+                          std::max(within.rows().size(), fewest_rows));
     }
 }
 

@@ -9,6 +9,23 @@
 
 namespace vantage {
 
+/// While it lives, only these rows of the target are drawn or cleared.
+class ScissorRows {
+  public:
+    ScissorRows(int width, cv::Range rows);
+    ~ScissorRows();
+    ScissorRows(const ScissorRows&) = delete;
+    ScissorRows& operator=(const ScissorRows&) = delete;
+
+    cv::Range rows() const { return rows_; }
+    /// From now on only these, which are some of its own.
+    void keep(cv::Range rows) const;
+
+  private:
+    int width_;
+    cv::Range rows_;
+};
+
 /// While it lives, fullscreen passes of this thread are drawn in bands of rows, each waited for
 /// before the next is begun, so that another context that shares the GPU (or the software
 /// rasteriser) gets its turn between them: while that one claims the right of way, bands wait. How
@@ -16,9 +33,10 @@ namespace vantage {
 /// called before every band; what it throws ends the pass there.
 class SlicedDrawing {
   public:
-    /// `way` must outlive it; null: nobody goes first.
+    /// `way` must outlive it; null: nobody goes first. Bands wait for others so long at most that
+    /// `least_share` of the time is theirs, from 0 to 1.
     explicit SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way = nullptr,
-                           std::function<void()> between = {});
+                           std::function<void()> between = {}, double least_share = 0);
     ~SlicedDrawing();
     SlicedDrawing(const SlicedDrawing&) = delete;
     SlicedDrawing& operator=(const SlicedDrawing&) = delete;
@@ -29,13 +47,18 @@ class SlicedDrawing {
     /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory
     /// of a band's height; 0 at first.
     void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
+    void draw(const ScissorRows& within, int& rows, const std::function<void()>& draw) const;
     /// Waits while another context has the right of way, not for ever. Throws what `between` does.
     void give_way() const;
 
   private:
+    void drew_for(std::chrono::nanoseconds time) const;
+
     std::chrono::nanoseconds slice_;
     RightOfWay* way_;
     std::function<void()> between_;
+    double least_share_;
+    mutable std::chrono::nanoseconds may_wait_;  ///< by what was drawn; a thread's own
     const SlicedDrawing* before_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/gl/framebuffer.h"
 #include "common/gl/program.h"
 #include "common/gl/vertex_array.h"
@@ -28,8 +30,9 @@ class TilePass {
     Program& use();
     /// Makes the target 0 and draws the tiles of a picture of `picture` pixels, which covers the
     /// target, where `tiles` (a pixel a tile) is above 0, with the program in use. Binds `tiles` to
-    /// `unit`.
-    void draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture);
+    /// `unit`. `rows`: of the target, the others are left alone.
+    void draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture,
+              std::optional<cv::Range> rows = {});
 
   private:
     Program program_;

@@ -38,9 +38,9 @@ class InstantPreparer {
     virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                                    const PrepareLevel& level) = 0;
 
-    /// Does a piece of work that betters later instants, when there is time for it. `target`: what
-    /// they are wished for.
-    virtual void improve(const VirtualView& /*target*/) {}
+    /// Does a piece of work that betters later instants, when there is time for it: as long as a
+    /// pass takes. `target`: what they are wished for. True: more of the same work is left.
+    virtual bool improve(const VirtualView& /*target*/) { return false; }
 
     /// Goes through all that these views may ever need, and learns nothing of them: a driver
     /// compiles a shader when it is first drawn with, which takes seconds for all of them.

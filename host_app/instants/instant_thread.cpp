@@ -17,6 +17,8 @@ namespace {
 
 /// What a slice may hold up another context's picture for.
 constexpr std::chrono::milliseconds slice{4};
+/// Of the time, while pictures are rendered beside.
+constexpr double least_preparing = 0.4;
 /// How long the thread waits for a set before it looks at what is wished.
 constexpr std::chrono::milliseconds patience{5};
 /// For an instant, at the end.
@@ -26,8 +28,9 @@ constexpr std::chrono::milliseconds recovery{200};
 /// Between two looks at whether what is held could be better.
 constexpr std::chrono::milliseconds betterings{100};
 /// A set is bettered when no instant waits; but a computer that is never done with them does it
-/// too.
-constexpr std::chrono::seconds longest_unimproved{2};
+/// too, for this share of the time. What was left of it counts for so long.
+constexpr double least_improving = 0.1;
+constexpr double longest_left_ms = 200;
 /// Instants further apart have nothing to say to each other.
 constexpr double longest_gap_s = 1;
 
@@ -350,14 +353,25 @@ void InstantThread::prepare_instants() {
     const ContextGroup::Member member = generations_.back().member;
     const CurrentContext current(*member.context);
     require_context("instants were prepared");
-    const SlicedDrawing slices(slice, &way_, [this] { give_way_to_jump(); });
+    const SlicedDrawing slices(
+        slice, &way_, [this] { give_way_to_jump(); }, least_preparing);
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
-    MonotonicTime bettered{}, improved = MonotonicClock::now();
+    MonotonicTime bettered{}, earned = MonotonicClock::now();
+    double improving_ms = 0;  ///< that are left for it
     const auto improve = [&](const InstantWish& wish) {
-        improved = MonotonicClock::now();
+        const MonotonicTime start = MonotonicClock::now();
         (void)unless_time_jumps(wish, [&] { preparer->improve(wish.target); });
+        improving_ms -= ms_since(start);
+    };
+    const auto has_time_to_improve = [&] {
+        const double passed_ms = ms_since(earned);
+        earned = MonotonicClock::now();
+        improving_ms =
+            std::min(std::max(improving_ms, -longest_left_ms) + least_improving * passed_ms,
+                     longest_left_ms);
+        return improving_ms > 0;
     };
     for (;;) {
         InstantWish wish;
@@ -443,7 +457,7 @@ void InstantThread::prepare_instants() {
             prepared = wish;
             unprepared_.reset();
             note_prepared(is_counted, preparer->set_memory());
-            if (is_live && start - improved > longest_unimproved) improve(wish);
+            if (is_live && has_time_to_improve()) improve(wish);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
             if (unless_time_jumps(wish, [&] { publish(last_, wish, preparer, start); }))

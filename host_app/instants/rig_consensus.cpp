@@ -25,6 +25,8 @@ constexpr double exact_px = 0.7, least_change_px = 0.5;
 constexpr double floor_share = 0.05;
 /// What thin things are looked for by, and where: of the inverse of the view's median depth.
 constexpr std::size_t searched_others = 2;
+/// Steps that a search takes: at every pixel it tries more than all other passes together.
+constexpr int search_parts = 12;
 constexpr float farthest_searched = 0.4f, nearest_searched = 2.2f;
 /// Relative uncertainty of depth that does not come of stereo.
 constexpr double least_sigma = 0.002;
@@ -103,8 +105,23 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
     whole_.upload(cv::Mat1b(1, 1, uchar{255}));
 }
 
-void RigConsensus::draw(TilePass& pass, const Framebuffer& target, int unit) const {
-    pass.draw(target, *tiles_, static_cast<GLuint>(unit), picture_);
+std::deque<RigConsensus::Step> RigConsensus::in_steps(const std::function<void()>& work) {
+    std::deque<Step> steps;
+    steps_ = &steps;
+    work();
+    steps_ = nullptr;
+    return steps;
+}
+
+void RigConsensus::then(Step step) {
+    if (steps_)
+        steps_->push_back(std::move(step));
+    else
+        step();
+}
+
+void RigConsensus::draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look) {
+    pass.draw(target, *look->tiles, static_cast<GLuint>(unit), look->picture);
 }
 
 void RigConsensus::bind_view(Program& program, const Texture& depth_m,
@@ -116,14 +133,14 @@ void RigConsensus::bind_view(Program& program, const Texture& depth_m,
     view.colour->bind(1);
 }
 
-int RigConsensus::bind_others(Program& program, const Texture& depth_m,
-                              const ComparedView& view) const {
+int RigConsensus::bind_others(Program& program, const Texture& depth_m, const Look& look) const {
+    const ComparedView& view = look->view;
     bind_view(program, depth_m, view);
     const VirtualView camera = depth_camera(view, depth_m.size());
     program.set("spread", depth_spread(view.camera()));
     int unit = 2;
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        const ComparedView& other = *others_[i];
+    for (std::size_t i = 0; i < look->others.size(); ++i) {
+        const ComparedView& other = look->others[i];
         const auto set = [&](const char* name, const auto& value) {
             program.set(fmt::format("{}[{}]", name, i), value);
         };
@@ -140,13 +157,14 @@ int RigConsensus::bind_others(Program& program, const Texture& depth_m,
     return unit;
 }
 
-double RigConsensus::parallax_px(const ComparedView& view) const {
+double RigConsensus::parallax_px(const Look& look) {
     constexpr double small = 0.01;
+    const ComparedView& view = look->view;
     const VirtualView camera = depth_camera(view, view.depth_m->size());
     const double z = view.median_depth_m();
     double largest = 0;
-    for (const ComparedView* other : others_) {
-        const Eigen::Matrix4d map = pixel_from_target_pixel(other->camera(), camera);
+    for (const ComparedView& other : look->others) {
+        const Eigen::Matrix4d map = pixel_from_target_pixel(other.camera(), camera);
         const auto project = [&](double depth_m) {
             const Eigen::Vector4d q =
                 map * Eigen::Vector4d(0.5 * camera.width_px * depth_m,
@@ -159,28 +177,29 @@ double RigConsensus::parallax_px(const ComparedView& view) const {
     return largest;
 }
 
-bool RigConsensus::tell_news(const ComparedView& view, double parallax_px) const {
+bool RigConsensus::tell_news(const ComparedView& view, double parallax_px) {
     const double own_px = own_parallax_px(view);
     return own_px > 0 && parallax_px > least_news * own_px;
 }
 
-void RigConsensus::smooth(TilePass& pass, const Texture& depth_m, const ComparedView& view,
+void RigConsensus::smooth(TilePass& pass, const Texture& depth_m, const Look& look,
                           const Framebuffer& target) const {
-    bind_view(pass.use(), depth_m, view);
-    draw(pass, target, 2);
+    bind_view(pass.use(), depth_m, look->view);
+    draw(pass, target, 2, look);
 }
 
-void RigConsensus::sweep(const ComparedView& view, double relative_step) {
+void RigConsensus::sweep(const Look& look, double relative_step) {
+    const ComparedView& view = look->view;
     const cv::Size size = half_.texture().size();
     // Asked for before anything is bound: making a texture binds it.
     const Framebuffer& refined = half_.next_target(size);
-    TilePass& comparing = sweep_[others_.size() - 1];
+    TilePass& comparing = sweep_[look->others.size() - 1];
     Program& compare = comparing.use();
-    const int unit = bind_others(compare, half_.texture(), view);
+    const int unit = bind_others(compare, half_.texture(), look);
     compare.set("relative_step", static_cast<float>(relative_step));
     compare.set("lod", std::log2(static_cast<float>(view.colour->width_px()) /
                                  static_cast<float>(size.width)));
-    draw(comparing, costs_->target, unit);
+    draw(comparing, costs_->target, unit, look);
 
     Program& refine = refine_.use();
     bind_view(refine, half_.texture(), view);
@@ -189,149 +208,171 @@ void RigConsensus::sweep(const ComparedView& view, double relative_step) {
         refine.set(fmt::format("unlike[{}]", i), 2 + i);
         costs_->unlike[static_cast<std::size_t>(i)].bind(2 + i);
     }
-    draw(refine_, refined, 6);
+    draw(refine_, refined, 6, look);
     half_.finish();
 }
 
-void RigConsensus::refine(const ComparedView& view, double parallax_px) {
-    const Texture& depth_m = *view.depth_m;
-    const cv::Size half((depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2);
-    half_before_.resize(half);
-    if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
-
-    smooth(halve_, depth_m, view, half_before_.target());
-    smooth(smooth_, half_before_.texture(), view, half_.next_target(half));
-    half_.finish();
-    sweep(view, coarse_step_px / parallax_px);
-    smooth(smooth_, half_.texture(), view, half_.next_target(half));
-    half_.finish();
-    sweep(view, fine_step_px / parallax_px);
+void RigConsensus::refine(const Look& look, double parallax_px) {
+    const cv::Size size = look->view.depth_m->size(),
+                   half((size.width + 1) / 2, (size.height + 1) / 2);
+    then([=, this] {
+        half_before_.resize(half);
+        if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
+        smooth(halve_, *look->view.depth_m, look, half_before_.target());
+        smooth(smooth_, half_before_.texture(), look, half_.next_target(half));
+        half_.finish();
+    });
+    then([=, this] { sweep(look, coarse_step_px / parallax_px); });
+    then([=, this] {
+        smooth(smooth_, half_.texture(), look, half_.next_target(half));
+        half_.finish();
+        sweep(look, fine_step_px / parallax_px);
+    });
 }
 
-void RigConsensus::compare(const ComparedView& view, double parallax_px) {
-    const Texture& depth_m = *view.depth_m;
+void RigConsensus::compare(const Look& look, double parallax_px) {
+    const Texture& depth_m = *look->view.depth_m;
     agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
-    TilePass& comparing = agreement_pass_[others_.size() - 1];
+    TilePass& comparing = agreement_pass_[look->others.size() - 1];
     Program& agreement = comparing.use();
-    const int unit = bind_others(agreement, depth_m, view);
+    const int unit = bind_others(agreement, depth_m, look);
     agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
-    draw(comparing, agreement_.target(), unit);
+    draw(comparing, agreement_.target(), unit, look);
     agreement_.generate_mipmaps();
 }
 
-void RigConsensus::choose_others(const ComparedView& view, std::span<const ComparedView> all) {
+RigConsensus::Look RigConsensus::look_at(const ComparedView& view,
+                                         std::span<const ComparedView> all, std::size_t most,
+                                         const Texture* tiles) const {
     std::vector<const ComparedView*> looked_at;
     for (const ComparedView& one : all)
         if (one.seen_by != view.seen_by) looked_at.push_back(&one);
-    others_ = most_useful(looked_at, depth_camera(view, view.depth_m->size()), max_others);
+    auto look = std::make_shared<LookedAt>();
+    look->view = view;
+    for (const ComparedView* other :
+         most_useful(looked_at, depth_camera(view, view.depth_m->size()), most))
+        look->others.push_back(*other);
+    look->tiles = tiles ? tiles : &whole_;
+    look->picture = tiles ? view.colour->size() : cv::Size(TilePass::side_px, TilePass::side_px);
+    return look;
 }
 
-const Texture& RigConsensus::move_and_carve(const ComparedView& view,
-                                            std::span<const ComparedView> all) {
-    const Texture& depth_m = *view.depth_m;
-    choose_others(view, all);
-    if (others_.empty()) return depth_m;
+const Texture& RigConsensus::move_and_carve(const Look& look) {
+    const Texture& depth_m = *look->view.depth_m;
+    if (look->others.empty()) return depth_m;
     // Before anything is bound: making a texture binds it.
     result_.resize(depth_m.size());
     judged_.resize(depth_m.size());
 
-    const double parallax = parallax_px(view);
-    const bool moves = tell_news(view, parallax);
-    compare(view, parallax);
-    if (moves) refine(view, parallax);
-    TilePass& carving = (moves ? move_and_carve_ : carve_)[others_.size() - 1];
-    Program& carve = carving.use();
-    int unit = bind_others(carve, depth_m, view);
-    carve.set("softness", softness);
-    carve.set("agreement", unit);
-    agreement_.texture().bind(unit++);
-    if (!moves) {
-        draw(carving, result_.target(), unit);
-        return result_.texture();
-    }
-    carve.set("half_before", unit);
-    half_before_.texture().bind(unit++);
-    carve.set("half_after", unit);
-    half_.texture().bind(unit++);
-    carve.set("least_change", static_cast<float>(least_change_px / parallax));
-    draw(carving, judged_.target(), unit);
-    return judged_.texture();
+    const double parallax = parallax_px(look);
+    const bool moves = tell_news(look->view, parallax);
+    const Texture& carved = moves ? judged_.texture() : result_.texture();
+    then([=, this] { compare(look, parallax); });
+    if (moves) refine(look, parallax);
+    then([=, this] {
+        TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
+        Program& carve = carving.use();
+        int unit = bind_others(carve, *look->view.depth_m, look);
+        carve.set("softness", softness);
+        carve.set("agreement", unit);
+        agreement_.texture().bind(unit++);
+        if (moves) {
+            carve.set("half_before", unit);
+            half_before_.texture().bind(unit++);
+            carve.set("half_after", unit);
+            half_.texture().bind(unit++);
+            carve.set("least_change", static_cast<float>(least_change_px / parallax));
+        }
+        draw(carving, moves ? judged_.target() : result_.target(), unit, look);
+    });
+    return carved;
+}
+
+const Texture& RigConsensus::better(const Look& look) {
+    const Texture& judged = move_and_carve(look);
+    if (look->others.empty() || &judged == &result_.texture()) return judged;
+    then([=, this] {
+        TilePass& adopting = adopt_[look->others.size() - 1];
+        Program& adopt = adopting.use();
+        const int unit = bind_others(adopt, *look->view.depth_m, look);
+        adopt.set("softness", softness);
+        adopt.set("judged", unit);
+        judged_.texture().bind(unit);
+        draw(adopting, result_.target(), unit + 1, look);
+    });
+    return result_.texture();
 }
 
 const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all) {
-    tiles_ = &whole_;
-    picture_ = {TilePass::side_px, TilePass::side_px};
-    const Texture& judged = move_and_carve(view, all);
-    if (others_.empty() || &judged == &result_.texture()) return judged;
-    TilePass& adopting = adopt_[others_.size() - 1];
-    Program& adopt = adopting.use();
-    const int free_unit = bind_others(adopt, *view.depth_m, view);
-    adopt.set("softness", softness);
-    adopt.set("judged", free_unit);
-    judged.bind(free_unit);
-    draw(adopting, result_.target(), free_unit + 1);
-    return result_.texture();
+    return better(look_at(view, all, max_others));
 }
 
 const Texture& RigConsensus::better_performers(const ComparedView& view,
                                                std::span<const ComparedView> all,
                                                const Texture& tiles) {
-    tiles_ = &tiles;
-    picture_ = view.colour->size();
-    return move_and_carve(view, all);
+    return move_and_carve(look_at(view, all, max_others, &tiles));
 }
 
 const Texture& RigConsensus::better_set(const ComparedView& view,
                                         std::span<const ComparedView> all) {
-    const Texture& bettered = better(view, all);
-    if (others_.empty() || !shows_floor(all)) return bettered;
+    const Look look = look_at(view, all, max_others);
+    const Texture& bettered = better(look);
+    if (look->others.empty() || !shows_floor(all)) return bettered;
     with_floor_.resize(bettered.size());
-    TilePass& standing = floor_[others_.size() - 1];
-    Program& program = standing.use();
-    const int unit = bind_others(program, *view.depth_m, view);
-    // Of the points where z times the ray from the camera is at y = 0.
-    const Pose& pose = view.camera().world_from_camera;
-    const Eigen::RowVector3d inverse_z =
-        pose.linear().row(1) * view.K_depth().inverse() / -pose.translation().y();
-    program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
-    program.set("softness", softness);
-    program.set("before", unit);
-    bettered.bind(unit);
-    draw(standing, with_floor_.target(), unit + 1);
+    then([=, this, &bettered] {
+        TilePass& standing = floor_[look->others.size() - 1];
+        Program& program = standing.use();
+        const int unit = bind_others(program, *look->view.depth_m, look);
+        // Of the points where z times the ray from the camera is at y = 0.
+        const Pose& pose = look->view.camera().world_from_camera;
+        const Eigen::RowVector3d inverse_z =
+            pose.linear().row(1) * look->view.K_depth().inverse() / -pose.translation().y();
+        program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
+        program.set("softness", softness);
+        program.set("before", unit);
+        bettered.bind(unit);
+        draw(standing, with_floor_.target(), unit + 1, look);
+    });
     return with_floor_.texture();
 }
 
 bool RigConsensus::search(const ComparedView& view, std::span<const ComparedView> all,
                           const Texture& bettered, const Framebuffer& found) {
-    choose_others(view, all);
-    if (others_.size() < searched_others || !tell_news(view, parallax_px(view))) return false;
-    others_.resize(searched_others);
-    tiles_ = &whole_;
-    picture_ = {TilePass::side_px, TilePass::side_px};
-    Program& program = search_.use();
-    const int unit = bind_others(program, *view.depth_m, view);
-    const auto nearness = static_cast<float>(1 / view.median_depth_m());
-    program.set("range",
-                Eigen::Vector2f(farthest_searched * nearness, nearest_searched * nearness));
-    program.set("before", unit);
-    bettered.bind(unit);
-    draw(search_, found, unit + 1);
+    const Look look = look_at(view, all, searched_others);
+    // The others that are compared with all tell whether anything is to be told.
+    if (look->others.size() < searched_others ||
+        !tell_news(view, parallax_px(look_at(view, all, max_others))))
+        return false;
+    const int rows = view.depth_m->height_px();
+    for (int part = 0; part < search_parts; ++part)
+        then([=, this, &bettered, &found] {
+            Program& program = search_.use();
+            const int unit = bind_others(program, *look->view.depth_m, look);
+            const auto nearness = static_cast<float>(1 / look->view.median_depth_m());
+            program.set("range",
+                        Eigen::Vector2f(farthest_searched * nearness, nearest_searched * nearness));
+            program.set("before", unit);
+            bettered.bind(unit);
+            search_.draw(found, *look->tiles, static_cast<GLuint>(unit + 1), look->picture,
+                         cv::Range(rows * part / search_parts, rows * (part + 1) / search_parts));
+        });
     return true;
 }
 
 const Texture& RigConsensus::with_found(const ComparedView& view, const Texture& bettered,
                                         const Texture& found) {
     with_found_.resize(bettered.size());
-    tiles_ = &whole_;
-    picture_ = {TilePass::side_px, TilePass::side_px};
-    Program& program = found_.use();
-    program.set("before", 0);
-    program.set("found", 1);
-    program.set("picture", 2);
-    bettered.bind(0);
-    found.bind(1);
-    view.colour->bind(2);
-    draw(found_, with_found_.target(), 3);
+    const Look look = look_at(view, {}, 0);
+    then([=, this, &bettered, &found] {
+        Program& program = found_.use();
+        program.set("before", 0);
+        program.set("found", 1);
+        program.set("picture", 2);
+        bettered.bind(0);
+        found.bind(1);
+        look->view.colour->bind(2);
+        draw(found_, with_found_.target(), 3, look);
+    });
     return with_found_.texture();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -46,7 +48,17 @@ bool shows_floor(std::span<const ComparedView> views);
 /// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.
 class RigConsensus {
   public:
+    /// A pass or two, or a part of one.
+    using Step = std::function<void()>;
+
     explicit RigConsensus(const ShaderLibrary& library);
+
+    /// What `work` asks of better_set(), search() and with_found() is not drawn, but is the steps
+    /// that are returned: to be done in order, and before anything else is asked of this. Textures
+    /// that were returned to `work` are valid after the last one.
+    std::deque<Step> in_steps(const std::function<void()>& work);
+    /// Within in_steps(), the next step; else done at once.
+    void then(Step step);
 
     /// The view's depth, bettered; as it is where no other view looks at the same things.
     /// r32f, metres, 0 = unknown, negative = guessed; valid until the next call. `all` may hold the
@@ -78,36 +90,45 @@ class RigConsensus {
     };
     static constexpr std::size_t max_others = 3;
 
-    /// Those that `view` is compared with.
-    void choose_others(const ComparedView& view, std::span<const ComparedView> all);
+    /// A view, those that it is compared with, and where: tiles of a picture (see TilePass).
+    struct LookedAt {
+        ComparedView view;
+        std::vector<ComparedView> others;
+        const Texture* tiles = nullptr;
+        cv::Size picture;
+    };
+    using Look = std::shared_ptr<const LookedAt>;
+
+    /// At `most` others; null `tiles`: everywhere.
+    Look look_at(const ComparedView& view, std::span<const ComparedView> all, std::size_t most,
+                 const Texture* tiles = nullptr) const;
+    const Texture& better(const Look& look);
     /// The first channel is the depth as it was moved and carved, the second what is known of it
     /// (see rig_carve.frag); without that where nothing was moved; the view's own where no other
     /// looks.
-    const Texture& move_and_carve(const ComparedView& view, std::span<const ComparedView> all);
+    const Texture& move_and_carve(const Look& look);
     /// Draws the tiles that are looked at. `unit`: a free one.
-    void draw(TilePass& pass, const Framebuffer& target, int unit) const;
+    static void draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look);
     void bind_view(Program& program, const Texture& depth_m, const ComparedView& view) const;
     /// Also the other views, up to the texture unit that is returned.
-    int bind_others(Program& program, const Texture& depth_m, const ComparedView& view) const;
+    int bind_others(Program& program, const Texture& depth_m, const Look& look) const;
     /// How far the view's middle moves in the others' pictures, at most, if its inverse depth
     /// changes by all of itself; px of its depth map.
-    double parallax_px(const ComparedView& view) const;
+    static double parallax_px(const Look& look);
     /// Whether the others stand far enough apart to tell something new.
-    bool tell_news(const ComparedView& view, double parallax_px) const;
-    void compare(const ComparedView& view, double parallax_px);
+    static bool tell_news(const ComparedView& view, double parallax_px);
+    void compare(const Look& look, double parallax_px);
     /// Fills half_before_ and half_.
-    void refine(const ComparedView& view, double parallax_px);
-    void sweep(const ComparedView& view, double relative_step);
-    void smooth(TilePass& pass, const Texture& depth_m, const ComparedView& view,
+    void refine(const Look& look, double parallax_px);
+    void sweep(const Look& look, double relative_step);
+    void smooth(TilePass& pass, const Texture& depth_m, const Look& look,
                 const Framebuffer& target) const;
 
+    std::deque<Step>* steps_ = nullptr;  ///< null: nothing is put off
     TilePass halve_, smooth_, refine_, search_, found_;
     /// One for every number of other views.
     std::vector<TilePass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_, floor_;
-    std::vector<const ComparedView*> others_;
     Texture whole_{TextureFormat::r8, 1, 1};  ///< one tile
-    const Texture* tiles_ = nullptr;
-    cv::Size picture_;  ///< that the tiles are of
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
     DrawnTexture with_floor_{TextureFormat::r32f}, with_found_{TextureFormat::r32f};

@@ -9,7 +9,7 @@ void RigHistory::forget() {
     set_.forget();
     learnt_instants_ = 0;
     model_.reset();
-    searched_s_.reset();
+    search_.reset();
     hide();
 }
 
@@ -24,7 +24,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
         colour_ && colour_->size() == view.colour.size() && depth().size() == view.depth_size() &&
         camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    dt_s_ = dt_s;
+    dt_s_ = is_same_camera && !is_set_learnt_ ? dt_s_ + dt_s : dt_s;
     if (!is_same_camera) forget();
     if (!prepared_rank_) hide();
     prepared_rank_.reset();

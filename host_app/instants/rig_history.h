@@ -74,17 +74,22 @@ class RigHistory {
     struct Model {
         std::shared_ptr<const RigSurface> surface;
         int rank = 0;
+        double rest_s = 0;       ///< before there is a use in making it anew
         double made_s = 0;       ///< on the preparer's clock
         std::uint64_t made = 0;  ///< number of the instant
     };
     const std::optional<Model>& model() const { return model_; }
     void set_model(const Model& model) { model_ = model; }
 
-    /// The inverse depths that a search of the set found, 1/m, 0 = none, and when that was, on the
-    /// preparer's clock; empty before the first.
+    /// The inverse depths that a search of the set found, 1/m, 0 = none.
     DrawnTexture& found() { return found_; }
-    const std::optional<double>& searched_s() const { return searched_s_; }
-    void set_searched_s(double searched_s) { searched_s_ = searched_s; }
+    /// The last search: when it was, on the preparer's clock, and how long after it the next one
+    /// is; empty before the first.
+    struct Search {
+        double at_s = 0, rest_s = 0;
+    };
+    const std::optional<Search>& search() const { return search_; }
+    void set_search(const Search& search) { search_ = search; }
 
     /// The performers' share of each pixel of the picture, r8, and the tiles of it in which there
     /// are any (see TilePass).
@@ -96,7 +101,7 @@ class RigHistory {
     DrawnTexture& performer_depth() { return performer_depth_; }
     const Texture& performer_depth() const { return performer_depth_.texture(); }
 
-    /// Since the upload before.
+    /// Since the upload before, or the last one that was learnt of.
     double dt_s() const { return dt_s_; }
 
     /// What was published of this rig last, and whether it was made of the last upload and how well
@@ -132,7 +137,7 @@ class RigHistory {
     int learnt_instants_ = 0;
     std::optional<Model> model_;
     DrawnTexture found_{TextureFormat::r32f};
-    std::optional<double> searched_s_;
+    std::optional<Search> search_;
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};
     DrawnTexture matte_tiles_{TextureFormat::r8};
     DrawnTexture performer_depth_{TextureFormat::r32f};

@@ -13,8 +13,12 @@ namespace {
 
 /// Between two models of a set at the best level, and between two works of improve().
 constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
-/// Between two searches for thin things in a rig's set: the set is all but still by then.
-constexpr double search_period_s = 2;
+/// Before improve() makes a rig's best model anew: first, then twice as long each time, for what
+/// stands still is soon known as well as it will be. What has changed since a model is not of it.
+constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
+/// Between two searches for thin things in a rig's set: first, then twice as long each time, for
+/// what is found in a set that stands still hardly changes.
+constexpr double first_search_rest_s = 2, longest_search_rest_s = 30;
 /// Instants, before which there is nothing to remember.
 constexpr int remembered_from = 3;
 /// Between two looks at how much of the sets is known.
@@ -41,7 +45,7 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     learnt_.clear();
     has_depths_.clear();
     if (std::exchange(is_after_cut_, false)) return;
-    learn(uploaded_);
+    learn(level_.is_refined ? uploaded_ : rigs_in_turn());
     if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
@@ -51,7 +55,8 @@ void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualVie
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
     (void)prepare(target, best_of_one);
-    improve(target);
+    while (improve(target)) continue;
+    level_ = prepare_levels().front();
     rigs_.forget();
     improved_s_ = now_s_;
 }
@@ -72,6 +77,18 @@ void StagedPreparer::learn(std::span<RigHistory* const> rigs) {
         // Performers are carved by all that have learnt.
         has_depths_.clear();
     }
+}
+
+std::vector<RigHistory*> StagedPreparer::rigs_in_turn() const {
+    std::vector<RigHistory*> rigs;
+    RigHistory* longest_left = nullptr;
+    for (RigHistory* rig : uploaded_)
+        if (prepared_rigs_.contains(rig))
+            rigs.push_back(rig);
+        else if (!longest_left || rig->dt_s() > longest_left->dt_s())
+            longest_left = rig;
+    if (longest_left) rigs.push_back(longest_left);
+    return rigs;
 }
 
 void StagedPreparer::begin_with_learnt(RigHistory& rig) {
@@ -129,22 +146,47 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
     const ComparedView view = compared(rig);
     const std::vector<ComparedView> all = compared(rigs_.shown());
     const Texture& bettered = consensus_.better_set(view, all);
-    if (!rig.searched_s() || now_s_ - *rig.searched_s() >= search_period_s) {
+    const std::optional<RigHistory::Search>& last = rig.search();
+    bool is_searched = last.has_value();
+    // A set that is known at all comes before thin things in it.
+    const bool is_known = rig.model() && rig.model()->rank == 0;
+    if (is_known && (!last || now_s_ - last->at_s >= last->rest_s)) {
         rig.found().resize(bettered.size());
-        if (consensus_.search(view, all, bettered, rig.found().target()))
-            rig.set_searched_s(now_s_);
+        if (consensus_.search(view, all, bettered, rig.found().target())) {
+            is_searched = true;
+            const double rest_s =
+                last ? std::min(2 * last->rest_s, longest_search_rest_s) : first_search_rest_s;
+            consensus_.then([&rig, rest_s, at_s = now_s_] { rig.set_search({at_s, rest_s}); });
+        }
     }
-    return rig.searched_s() ? consensus_.with_found(view, bettered, rig.found().texture())
-                            : bettered;
+    return is_searched ? consensus_.with_found(view, bettered, rig.found().texture()) : bettered;
+}
+
+std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
+                                                              const PrepareLevel& level) {
+    rig.generate_mipmaps();
+    const Texture* depth_m = &rig.steady_depth();
+    const Texture* measured_m = depth_m;
+    std::deque<RigConsensus::Step> steps;
+    if (level.is_refined) steps = consensus_.in_steps([&] { depth_m = &bettered_set(rig); });
+    const std::optional<RigHistory::Model>& before = rig.model();
+    const RigHistory::Model made{nullptr, level.rank,
+                                 before && before->rank == 0
+                                     ? std::min(2 * before->rest_s, longest_model_rest_s)
+                                     : first_model_rest_s,
+                                 now_s_, instant_};
+    steps.push_back([=, this, &rig, &colour = rig.colour()] {
+        const std::shared_ptr<RigSurface> model = surfaces_.take();
+        model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
+        closer_.close(*depth_m, *measured_m, colour, model->depth_target());
+        rig.set_model({model, made.rank, made.rest_s, made.made_s, made.made});
+    });
+    return steps;
 }
 
 void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
-    const std::shared_ptr<RigSurface> model = surfaces_.take();
-    model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
-    rig.generate_mipmaps();
-    const Texture& bettered = level.is_refined ? bettered_set(rig) : rig.steady_depth();
-    closer_.close(bettered, rig.steady_depth(), rig.colour(), model->depth_target());
-    rig.set_model({model, level.rank, now_s_, instant_});
+    bettering_.reset();
+    for (const RigConsensus::Step& step : model_in_steps(rig, level)) step();
 }
 
 void StagedPreparer::bind_set(Program& program, const RigHistory& rig) const {
@@ -245,6 +287,8 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     auto instant = std::make_shared<Instant>();
     instant->level = level.rank;
     const std::vector<RigHistory*> rigs = most_useful(rigs_.shown(), target, level.rigs);
+    level_ = level;
+    prepared_rigs_ = {rigs.begin(), rigs.end()};
     learn(level.is_refined ? uploaded_ : rigs);
     for (RigHistory* rig : rigs) {
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
@@ -253,17 +297,47 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     return instant;
 }
 
-void StagedPreparer::improve(const VirtualView& target) {
+bool StagedPreparer::improve(const VirtualView& target) {
+    if (bettering_ && !is_under_way(*bettering_)) bettering_.reset();
+    if (!bettering_) begin_bettering(target);
+    if (!bettering_) return false;
+    const RigConsensus::Step step = std::move(bettering_->steps.front());
+    bettering_->steps.pop_front();
+    if (bettering_->steps.empty()) {
+        bettering_.reset();
+        improved_s_ = now_s_;
+    }
+    step();
+    return bettering_.has_value();
+}
+
+void StagedPreparer::begin_bettering(const VirtualView& target) {
     if (now_s_ - improved_s_ < improvement_period_s) return;
-    // The oldest model of those that are looked at.
+    // Of those that are looked at the one whose model is due for longest.
+    const auto due_s = [](const RigHistory& rig) {
+        return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
+    };
     RigHistory* oldest = nullptr;
     for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs))
-        if (rig->model() && (!oldest || rig->model()->made_s < oldest->model()->made_s))
+        if (rig->model() && due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest)))
             oldest = rig;
     if (!oldest) return;
-    improved_s_ = now_s_;
     learn(uploaded_);
-    make_model(*oldest, prepare_levels().front());
+    bettering_.emplace();
+    for (RigHistory* rig : rigs_.shown())
+        if (rig->learnt_instants() > 0)
+            bettering_->rigs.push_back({rig, rig->colour().size(), rig->depth().size()});
+    bettering_->steps = model_in_steps(*oldest, prepare_levels().front());
+}
+
+bool StagedPreparer::is_under_way(const Bettering& bettering) const {
+    const std::vector<RigHistory*> known = rigs_.known();
+    return std::all_of(
+        bettering.rigs.begin(), bettering.rigs.end(), [&](const Bettering::Rig& rig) {
+            return std::find(known.begin(), known.end(), rig.rig) != known.end() &&
+                   rig.rig->learnt_instants() > 0 && rig.rig->colour().size() == rig.colour &&
+                   rig.rig->depth().size() == rig.depth;
+        });
 }
 
 }  // namespace vantage

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,7 +29,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
-    void improve(const VirtualView& target) override;
+    bool improve(const VirtualView& target) override;
     void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
     SetMemory* set_memory() override { return this; }
@@ -40,9 +42,26 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
 
     /// The sets of those rigs of the newest instant of which it was not done yet.
     void learn(std::span<RigHistory* const> rigs);
+    /// Of the newest instant, at levels that do not need all: those that were prepared last, and of
+    /// the others the one whose set was learnt longest ago.
+    std::vector<RigHistory*> rigs_in_turn() const;
     /// A rig without a past begins with what was loaded of it, if that fits.
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
+    /// A model that is made a step at a time, between instants.
+    struct Bettering {
+        struct Rig {
+            RigHistory* rig = nullptr;
+            cv::Size colour, depth;
+        };
+        std::vector<Rig> rigs;  ///< that it needs, of these sizes
+        std::deque<RigConsensus::Step> steps;
+    };
+    void begin_bettering(const VirtualView& target);
+    /// Whether all that it needs is still as it was.
+    bool is_under_way(const Bettering& bettering) const;
+    /// What make_model() does. The rigs must stay what they are until the last step.
+    std::deque<RigConsensus::Step> model_in_steps(RigHistory& rig, const PrepareLevel& level);
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
     /// The depth of the rig's set as the other rigs better it, with the thin things that are looked
@@ -58,9 +77,12 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
 
     RecyclePool<RigSurface> surfaces_;
     RigRoster rigs_;
-    std::vector<RigHistory*> uploaded_;  ///< those of the newest instant
-    std::vector<RigHistory*> learnt_;    ///< of them: whose sets were learnt
-    std::set<RigHistory*> has_depths_;   ///< of them: whose performers were found
+    std::vector<RigHistory*> uploaded_;    ///< those of the newest instant
+    std::vector<RigHistory*> learnt_;      ///< of them: whose sets were learnt
+    std::set<RigHistory*> has_depths_;     ///< of them: whose performers were found
+    PrepareLevel level_;                   ///< of the last instant that was prepared
+    std::set<RigHistory*> prepared_rigs_;  ///< for it
+    std::optional<Bettering> bettering_;
     SetLearner sets_;
     PerformerDepth performers_;
     RigConsensus consensus_;

@@ -24,6 +24,9 @@ constexpr double mean_share = 0.2;
 /// Of a tick and of the time between two pulses. Rendering has the right of way over preparing:
 /// what it takes, instants are late by. Preparing counts the time that it gave way for.
 constexpr double rendering_share = 0.65, preparing_share = 0.9;
+/// Where the cheapest instants do not fit beside it rendering has to do with less, instant by
+/// instant, down to the least; where they have room it gets that back.
+constexpr double least_rendering_share = 0.3, lesser = 0.93, more = 1.03;
 /// Of the 200 ms that a jump in time may last.
 constexpr double sought_ms = 80;
 
@@ -120,6 +123,17 @@ const PrepareLevel& Governor::prepare_sought() const {
     return prepare_levels()[prepare_.fitting(sought_ms)];
 }
 
+void Governor::saw_prepare(int rank, double ms, MonotonicTime now) {
+    const bool is_cheapest = prepare_.level() + 1 == prepare_levels().size();
+    prepare_.saw(static_cast<std::size_t>(rank), ms, instant_ms_, now);
+    const double allowed_ms = preparing_share * instant_ms_;
+    if (is_cheapest && ms > allowed_ms)
+        rendering_share_ = std::max(least_rendering_share, lesser * rendering_share_);
+    else if (ms < room * allowed_ms)
+        rendering_share_ = std::min(rendering_share, more * rendering_share_);
+    render_.set_share(rendering_share_);
+}
+
 void Governor::saw_past_instant(double ms) {
     constexpr std::size_t judged_instants = 5;
     past_ms_.push_back(ms);
@@ -139,6 +153,7 @@ int Governor::moments_a_pulse(double speed) const {
 Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
+      rendering_share_(rendering_share),
       render_(render_levels().size(), rendering_share),
       prepare_(prepare_levels().size(), preparing_share) {
     // What a GPU can do is found out from below: pictures that come in time first, better ones

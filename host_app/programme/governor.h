@@ -24,6 +24,8 @@ class LevelChooser {
     void begin_with_the_cheapest();
     /// From now on this one, whatever it takes.
     void fix(std::size_t level);
+    /// From now on works may take so much of the time.
+    void set_share(double share) { share_ = share; }
 
     /// The best level, of this one and those that are cheaper, whose works take so long at most by
     /// what they took before; the cheapest where none is known to. A fixed one stays.
@@ -71,9 +73,7 @@ class Governor {
     void saw_render(const RenderLevel& level, double ms, MonotonicTime now) {
         render_.saw(static_cast<std::size_t>(level.rank), ms, tick_ms_, now);
     }
-    void saw_prepare(int rank, double ms, MonotonicTime now) {
-        prepare_.saw(static_cast<std::size_t>(rank), ms, instant_ms_, now);
-    }
+    void saw_prepare(int rank, double ms, MonotonicTime now);
     /// An instant of the past was fetched and prepared in so long.
     void saw_past_instant(double ms);
     /// How many moments of a pulse are prepared when the past is played at this speed: no more a
@@ -84,6 +84,7 @@ class Governor {
 
   private:
     double tick_ms_, instant_ms_;
+    double rendering_share_;  ///< less where even the cheapest instants come late beside it
     LevelChooser render_, prepare_;
     std::deque<double> past_ms_;  ///< of the last instants of the past
 };

@@ -15,13 +15,15 @@ class PerformerLayers {
 
     /// `picture` and `depth_m` are the set's, of the target's size; `shares` are the rigs' in it,
     /// or null where they are not noted. `performers`, of the same rigs in the same order, are what
-    /// InstantRig::boundary says. The result is valid until the next call.
+    /// InstantRig::boundary says. `is_plain`: at less cost, no sharper than bilinear. The result is
+    /// valid until the next call.
     const DepthPicture& show(const Texture& picture, const Texture& depth_m, const Texture* shares,
-                             std::span<const DrawnLayer> performers, const VirtualView& target);
+                             std::span<const DrawnLayer> performers, const VirtualView& target,
+                             bool is_plain);
 
   private:
     RigLayers layers_;
-    LayerPass show_;
+    LayerPass show_, show_plainly_;
     DepthPicture shown_;
 };
 

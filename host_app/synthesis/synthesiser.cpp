@@ -28,6 +28,7 @@ std::span<const RenderLevel> render_levels() {
         {3, 2, 0, 1, true},
         {4, 2, 0, 0.75, true},
         {5, 2, 0, 0.625, true},
+        {6, 2, 0, 0.5, true},
     };
     return levels;
 }

@@ -210,8 +210,9 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
             runner.preparer->take(views, 1 / wanted.rate_hz);
             glFinish();
             measured.take_ms.push_back(cpu_ms() - before_ms);
-            runner.preparer->improve(
-                view_of(cameras[0].state(), {format.width_px, format.height_px}));
+            while (runner.preparer->improve(
+                view_of(cameras[0].state(), {format.width_px, format.height_px})))
+                continue;
             for (std::size_t c = 0; c < cameras.size(); ++c) {
                 const VirtualView target =
                     view_of(cameras[c].state(), {format.width_px, format.height_px});

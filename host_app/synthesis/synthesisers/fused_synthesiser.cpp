@@ -53,8 +53,9 @@ class FusedRenderer final : public ViewRenderer {
         if (blender_.origins()) origins_ = *blender_.origins();
         if (layers.used().empty()) return set;
         const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
-        const DepthPicture& picture = performers_.show(
-            set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr, performers, view);
+        const DepthPicture& picture =
+            performers_.show(set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr,
+                             performers, view, level.is_plain);
         if (origins_) origins_->shares = picture.shares();
         return impulses_.filter(picture.colour(), picture.depth_m());
     }

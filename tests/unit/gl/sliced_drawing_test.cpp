@@ -132,6 +132,19 @@ TEST_F(BandsTest, EndWhereWhatIsCalledBetweenThemSaysSo) {
     EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
 }
 
+TEST_F(BandsTest, WaitForOthersOnlyAsLongAsTheirShareOfTheTimeAllows) {
+    RightOfWay way;
+    const RightOfWay::Claim never_ends(way);
+    const SlicedDrawing slices(
+        1ns, &way, [] {}, 1.0);
+    int rows = 8, drawn = 0;
+    const auto start = std::chrono::steady_clock::now();
+    slices.draw({20, 8 * 1000}, rows, [&] { ++drawn; });
+    EXPECT_EQ(drawn, 1000);
+    // Waiting for each as long as it may last would take a minute.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 30s);
+}
+
 TEST_F(BandsTest, BelongToTheThreadAndToTheInnermostOne) {
     EXPECT_EQ(SlicedDrawing::current(), nullptr);
     const SlicedDrawing outer(4ms);

@@ -35,5 +35,30 @@ TEST(TilePass, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     }
 }
 
+TEST(TilePass, LeavesRowsAloneThatItIsNotAskedFor) {
+    const EglContext context;
+    const ShaderFolder folder;
+    folder.write("tone.frag",
+                 "layout(location = 0) out float drawn;\nvoid main() { drawn = 1.0; }");
+    const ShaderLibrary library{folder.path()};
+    const cv::Size size(TilePass::side_px, TilePass::side_px);
+    Texture tiles(TextureFormat::r8, 1, 1), drawn(TextureFormat::r8, size.width, size.height);
+    tiles.upload(cv::Mat1b(1, 1, uchar{255}));
+    const cv::Mat1b before(size, uchar{77});
+    drawn.upload(before);
+    const Framebuffer target({&drawn});
+    TilePass pass(library, "tone.frag");
+    pass.use();
+    pass.draw(target, tiles, 0, size, cv::Range(3, 7));
+    const cv::Mat1b seen = drawn.download();
+    for (int y = 0; y < size.height; ++y)
+        EXPECT_EQ(cv::norm(seen.row(y),
+                           cv::Mat1b(1, size.width, y >= 3 && y < 7 ? uchar{255} : uchar{77}),
+                           cv::NORM_INF),
+                  0)
+            << y;
+    EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
+}
+
 }  // namespace
 }  // namespace vantage

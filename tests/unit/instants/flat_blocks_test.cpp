@@ -73,6 +73,24 @@ TEST_F(FlatBlocksTest, AreTwoTriangles) {
     EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
 }
 
+TEST_F(FlatBlocksTest, OfWhichAQuarterBendsAreTwoTrianglesAQuarterElsewhere) {
+    const auto plane = [](int x, int y) {
+        return 1 / (0.4f + 0.002f * static_cast<float>(x) + 0.001f * static_cast<float>(y));
+    };
+    // A bump within a quarter of a block, at whose edge three others see it too.
+    fill([&](int x, int y) {
+        const bool is_bump = x >= 25 && x <= 26 && y >= 17 && y <= 18;
+        return plane(x, y) * (is_bump ? 0.985f : 1.0f);
+    });
+    builder_.build(grid(QuadGrid::coarse));
+    constexpr std::size_t blocks = 8 * 6, bent = 4, quads = 4;
+    EXPECT_GT(built().size(), 2 * blocks) << "nothing is seen of the bump";
+    EXPECT_LE(built().size(), 2 * (blocks - bent) + bent * 2 * (3 + quads));
+    double area = 0;
+    for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
+    EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
+}
+
 TEST_F(FlatBlocksTest, SpanNoBend) {
     // A ridge down the picture: half of all blocks touch it or their neighbours do.
     fill([](int x, int) {

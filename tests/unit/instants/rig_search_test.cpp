@@ -71,6 +71,31 @@ TEST_F(RigSearchTest, FindsAThinThingThatWasTakenForWhatIsBehindIt) {
     EXPECT_EQ(cv::countNonZero(changed), 0);
 }
 
+TEST_F(RigSearchTest, FindsTheSameStepByStep) {
+    const DepthImage at_once = kept({0, -0.4, 0.4}, -behind_pole_m);
+    DepthImage in_steps;
+    std::deque<RigConsensus::Step> steps;
+    std::vector<DepthView> rigs;
+    for (const double x_m : {0.0, -0.4, 0.4}) rigs.push_back(film_of_thin_pole(x_m));
+    RigRoster views;
+    views.upload(rigs, nominal_dt_s);
+    DepthImage before_m(search_size, behind_pole_m);
+    before_m(thin_pole) = -behind_pole_m;
+    const Texture before = texture_of(TextureFormat::r32f, before_m);
+    const Texture found(TextureFormat::r32f, search_size.width, search_size.height);
+    const Framebuffer target{&found};
+    const Texture* result = nullptr;
+    steps = consensus_.in_steps([&] {
+        const std::vector<ComparedView> all = compared(views.shown());
+        ASSERT_TRUE(consensus_.search(all[0], all, before, target));
+        result = &consensus_.with_found(all[0], before, found);
+    });
+    EXPECT_GT(steps.size(), 5u);
+    for (const RigConsensus::Step& step : steps) step();
+    ASSERT_NE(result, nullptr);
+    EXPECT_EQ(cv::norm(DepthImage(result->download()), at_once, cv::NORM_INF), 0);
+}
+
 TEST_F(RigSearchTest, LeavesMeasuredDepthAlone) {
     EXPECT_EQ(cv::countNonZero(kept({0, -0.4, 0.4}, behind_pole_m) != behind_pole_m), 0);
     EXPECT_TRUE(has_searched_);

@@ -240,6 +240,66 @@ TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
     EXPECT_EQ(learnt(), 2u) << "nobody is left out for ever";
 }
 
+/// Where there is time for two rigs only, the others take turns.
+TEST_F(StagedPreparerTest, LearnsTheSetsOfRigsThatAreNotShownInTurnAtTheCheapestLevel) {
+    std::vector<DepthView> views(4, film(false));
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].name = std::to_string(i);
+    const VirtualView target{staged_width_px, staged_height_px, views[0].K,
+                             views[0].world_from_camera};
+    const PrepareLevel one_rig{3, 1, false, false};
+    preparer_.cut();
+    const auto learnt = [&] { return preparer_.set_memory()->learnt().rigs.size(); };
+    for (std::size_t known = 1; known <= views.size(); ++known) {
+        preparer_.take(views, 0.2);
+        (void)preparer_.prepare(target, one_rig);
+        EXPECT_EQ(learnt(), known);
+    }
+}
+
+class BetteredSetTest : public StagedPreparerTest {
+  protected:
+    static std::vector<DepthView> rigs(int width_px = staged_width_px) {
+        std::vector<DepthView> views;
+        for (const double x_m : {-0.6, 0.0, 0.6}) {
+            views.push_back(wall_and_square(x_m, width_px, staged_height_px, {.waves = true}));
+            views.back().baseline_m = 0.1;
+        }
+        return views;
+    }
+    void take_instant(const std::vector<DepthView>& views) {
+        preparer_.take(views, 0.4);
+        target_ = {staged_width_px, staged_height_px, views[1].K, views[1].world_from_camera};
+        (void)preparer_.prepare(target_, prepare_levels().back());
+    }
+    int steps_until_done() {
+        int steps = 1;
+        while (preparer_.improve(target_)) ++steps;
+        return steps;
+    }
+
+    VirtualView target_;
+};
+
+TEST_F(BetteredSetTest, IsMadeAPassAtATimeAndThenLeftAloneForAWhile) {
+    for (int i = 0; i < 4; ++i) take_instant(rigs());
+    EXPECT_GT(steps_until_done(), 3);
+    EXPECT_EQ(steps_until_done(), 1) << "there is nothing to do before the next instants";
+}
+
+TEST_F(BetteredSetTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
+    for (int i = 0; i < 4; ++i) take_instant(rigs());
+    ASSERT_TRUE(preparer_.improve(target_));
+    take_instant(rigs(staged_width_px + 20));
+    // The next one begins with the rigs as they are.
+    EXPECT_LT(steps_until_done(), 100);
+    for (int i = 0; i < 4; ++i) take_instant(rigs(staged_width_px + 20));
+    EXPECT_LT(steps_until_done(), 100);
+    const std::shared_ptr<const Instant> instant =
+        preparer_.prepare(target_, prepare_levels().front());
+    ASSERT_EQ(instant->rigs.size(), 3u);
+    EXPECT_EQ(instant->rigs[0].surface->depth().width_px(), staged_width_px + 20);
+}
+
 /// A freeze or a jump in time moves performers, not the set.
 TEST_F(StagedPreparerTest, KeepsTheSetOverACut) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));

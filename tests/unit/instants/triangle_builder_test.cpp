@@ -82,7 +82,10 @@ TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) 
     for (const DepthImage& depth_m : {DepthImage(grid_height_px, grid_width_px, 3.0f), slanted})
         for (const QuadGrid grid : {QuadGrid::fine, QuadGrid::coarse}) {
             look_at(depth_m);
-            EXPECT_EQ(covered(built(grid)), 2 * 8 * 6) << static_cast<int>(grid);
+            const int spanned = covered(built(grid));
+            EXPECT_GE(spanned, 2 * 8 * 6) << static_cast<int>(grid);
+            // Flat quarters of a block take a pixel of their neighbours each.
+            EXPECT_LE(spanned, grid == QuadGrid::fine ? 2 * 8 * 6 : 4 * 8 * 6);
         }
 }
 

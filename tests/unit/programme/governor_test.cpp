@@ -166,6 +166,27 @@ TEST(Governor, LetsEveryClockFallByItself) {
     EXPECT_EQ(governor.prepare().rank, 1);
 }
 
+/// Rendering goes first, and would leave instants nothing on a computer that has too little for
+/// both.
+TEST(Governor, LetsRenderingDoWithLessWhereTheCheapestInstantsComeLate) {
+    Governor governor(25, 5, {});
+    MonotonicTime now{1h};
+    const auto run_for = [&](int pulses, double render_ms, double prepare_ms) {
+        for (int i = 0; i < pulses; ++i) {
+            for (int tick = 0; tick < 5; ++tick, now += 40ms)
+                governor.saw_render(governor.render(), render_ms, now);
+            governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
+        }
+    };
+    run_for(100, 12.1, 150);
+    const int beside_instants = governor.render().rank;
+    run_for(20, 12.1, 400);
+    ASSERT_EQ(governor.prepare().rank, static_cast<int>(prepare_levels().size()) - 1);
+    EXPECT_GT(governor.render().rank, beside_instants) << "12 of 40 ms are too much now";
+    run_for(200, 5, 100);
+    EXPECT_EQ(governor.render().rank, 0) << "they fit again";
+}
+
 /// An instant may take as long as the pulses are apart, a jump may not.
 TEST(Governor, PreparesWhatIsJumpedToCheaplyWhereTheGovernedLevelWouldTakeLong) {
     Governor governor(25, 5, {});
