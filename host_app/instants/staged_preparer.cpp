@@ -17,7 +17,7 @@ constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
 constexpr double search_period_s = 2;
 /// Instants, before which there is nothing to remember.
 constexpr int remembered_from = 3;
-/// Between two looks at how much of the sets is known.
+/// Between two looks at how much of the sets is known, and at the mattes.
 constexpr double look_period_s = 1;
 
 }  // namespace
@@ -99,10 +99,12 @@ void StagedPreparer::look_at_sets() {
     states_.clear();
     for (const RigHistory* rig : uploaded_) {
         const auto misfit = misfits_.find(rig->camera().name);
+        const SetLearner::Look look = sets_.look_at(*rig);
         states_.push_back({.rig = rig->camera().name,
-                           .known = sets_.known_share(*rig),
+                           .known = look.known_share,
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
-                           .misfit = misfit != misfits_.end() ? misfit->second : ""});
+                           .misfit = misfit != misfits_.end() ? misfit->second : "",
+                           .matte = look.matte});
     }
 }
 
