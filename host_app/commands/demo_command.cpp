@@ -106,7 +106,11 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
     live.show.flight = folder / ("flight-" + move.filename().string());
     live.takes = folder;
     live.show.json = options.json;
-    if (!options.headless) return live;
+    if (!options.headless) {
+        live.show.outputs = {"file:" + (folder / "programme.mkv").string() + "?start=off"};
+        live.show.overwrite = true;
+        return live;
+    }
     live.show.headless = true;
     live.past_mb = 64;  // nobody goes back in time here
     live.show.seconds = options.seconds;

@@ -1,5 +1,7 @@
 #include "host_app/desk/air_verdict.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "host_app/desk/rig_look.h"
@@ -11,6 +13,10 @@ using Level = AirVerdict::Level;
 
 /// A pulse that a rig has missed is seen by nobody, and one look should not come at a bad moment.
 constexpr double missed_s = 1;
+/// Of a live picture: where people begin to see that it is late, and where it is not of now.
+constexpr double late_s = 1, old_s = 3;
+/// Of the ticks that repeat a picture: more is seen as a stutter.
+constexpr double most_repeated = 0.25;
 
 /// Why nothing of the stage can be shown.
 std::string why_not(const DeskState& state) {
@@ -18,6 +24,8 @@ std::string why_not(const DeskState& state) {
     if (state.is_of_take()) return "";
     if (state.signal == SignalState::no_signal) return "no rig gives pictures";
     if (state.signal == SignalState::stale) return "the newest picture is old";
+    if (state.age_s && *state.age_s >= old_s)
+        return fmt::format("the picture is {:.0f} s old", *state.age_s);
     return "";
 }
 
@@ -31,6 +39,11 @@ std::string why_with_care(const DeskState& state) {
     for (const DeskOutput& output : state.outputs)
         if (output.is_failed) return fmt::format("{} has failed", output.name);
     if (state.take && !state.take->failure.empty()) return "the take has failed";
+    if (state.age_s && *state.age_s >= late_s)
+        return fmt::format("the picture is {:.1f} s old", *state.age_s);
+    if (state.repeat_rate_hz > most_repeated * state.tick_rate_hz)
+        return fmt::format("{:.0f} of {:g} pictures a second are repeated", state.repeat_rate_hz,
+                           std::round(state.tick_rate_hz));
     for (const DeskRig& rig : state.rigs)
         if (!rig.worries.empty()) return fmt::format("{}: {}", rig.name, rig.worries.front());
     return "";

@@ -39,6 +39,12 @@ void read_window(TomlTable& table, WindowPlace& window) {
     table.read("maximised", window.is_maximised);
 }
 
+std::string window_text(const char* name, const std::optional<WindowPlace>& window) {
+    if (!window) return "";
+    return fmt::format("\n[{}]\nx = {}\ny = {}\nwidth = {}\nheight = {}\nmaximised = {}\n", name,
+                       window->x, window->y, window->width, window->height, window->is_maximised);
+}
+
 }  // namespace
 
 DeskArrangement load_desk(const std::filesystem::path& path) {
@@ -47,10 +53,13 @@ DeskArrangement load_desk(const std::filesystem::path& path) {
     read_toml_file(path, desk_file_version, [&](TomlTable& top) {
         top.read("panels", switches.panels);
         top.read("rigs", switches.rigs);
+        top.read("rigs_apart", switches.rigs_apart);
         top.read("outside", switches.outside);
         top.read_table("eye", [&](TomlTable& table) { read_eye(table, switches.eye); });
         top.read_table("window",
                        [&](TomlTable& table) { read_window(table, desk.window.emplace()); });
+        top.read_table("rigs_window",
+                       [&](TomlTable& table) { read_window(table, desk.rigs_window.emplace()); });
     });
     return desk;
 }
@@ -59,17 +68,12 @@ std::string to_toml(const DeskArrangement& desk) {
     const DeskSwitches& switches = desk.switches;
     std::string text = fmt::format(
         "# How the desk of Vantage is arranged; docs/desk.md explains the keys.\nversion = {}\n"
-        "panels = {}\nrigs = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
+        "panels = {}\nrigs = {}\nrigs_apart = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
-        desk_file_version, switches.panels, switches.rigs, switches.outside,
+        desk_file_version, switches.panels, switches.rigs, switches.rigs_apart, switches.outside,
         std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / deg,
         switches.eye.elevation_rad / deg, switches.eye.nearness);
-    if (!desk.window) return text;
-    const WindowPlace& window = *desk.window;
-    return text + fmt::format(
-                      "\n[window]\nx = {}\ny = {}\nwidth = {}\nheight = {}\n"
-                      "maximised = {}\n",
-                      window.x, window.y, window.width, window.height, window.is_maximised);
+    return text + window_text("window", desk.window) + window_text("rigs_window", desk.rigs_window);
 }
 
 }  // namespace vantage

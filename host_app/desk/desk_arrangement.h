@@ -19,6 +19,7 @@ struct WindowPlace {
 struct DeskArrangement {
     DeskSwitches switches;  ///< but for the help
     std::optional<WindowPlace> window = {};
+    std::optional<WindowPlace> rigs_window = {};  ///< their own
     bool operator==(const DeskArrangement&) const = default;
 };
 

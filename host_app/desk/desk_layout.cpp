@@ -102,6 +102,21 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
     return layout;
 }
 
+int best_rig_rows(float width_px, float height_px, float em_px, int rigs) {
+    int best = 1;
+    float largest = 0;
+    for (int rows = 1; rows <= rigs; ++rows) {
+        const float columns = std::ceil(static_cast<float>(rigs) / static_cast<float>(rows));
+        const float height =
+            std::min(width_px / columns / cell_aspect,
+                     height_px / static_cast<float>(rows) - caption_height * em_px);
+        if (height <= largest) continue;
+        largest = height;
+        best = rows;
+    }
+    return best;
+}
+
 DeskLayout pictures_alone(float width_px, float height_px, bool has_preview) {
     DeskLayout layout;
     layout.programme = {0, 0, width_px, height_px};

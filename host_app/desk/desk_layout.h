@@ -34,6 +34,8 @@ struct DeskLayout {
 /// on preview, whose picture stands beside the programme's, each with room for its name over it.
 DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
                        bool has_clips = false, bool has_preview = false);
+/// In how many rows the rigs' cells are largest, where they have the whole window.
+int best_rig_rows(float width_px, float height_px, float em_px, int rigs);
 /// Nothing but the pictures.
 DeskLayout pictures_alone(float width_px, float height_px, bool has_preview);
 

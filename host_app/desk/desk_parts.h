@@ -34,6 +34,7 @@ struct DrawnDesk {
     DeskRect picture;  ///< of the programme, with nothing over it unless there is an overlay
     std::optional<DeskRect> preview = {};  ///< its picture; nothing: there is none
     bool has_overlay = false;
+    int help_pages = 0;  ///< 0: the help is not shown
     DeskSpots spots = {};
 
     /// The picture of the camera that hands fly.
@@ -63,6 +64,7 @@ void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, De
 // In the middle of the window, over everything else.
 void draw_wheel_map(const Pen& pen, float width_px, float height_px, const DeskWheel& wheel,
                     DeskSpots& spots);
-void draw_help(const Pen& pen, float width_px, float height_px);
+/// Returns how many pages it has, the first of which is 1.
+int draw_help(const Pen& pen, float width_px, float height_px, int page);
 
 }  // namespace vantage

@@ -8,9 +8,10 @@ DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const 
     const bool has_preview = state.preview.has_value();
     const DeskLayout layout =
         switches.panels
-            ? desk_layout(size.x, size.y, pen.em(),
-                          switches.rigs ? static_cast<int>(state.rigs.size()) : 0,
-                          aspect_of(state.picture), !state.replay.clips.empty(), has_preview)
+            ? desk_layout(
+                  size.x, size.y, pen.em(),
+                  switches.rigs && !switches.rigs_apart ? static_cast<int>(state.rigs.size()) : 0,
+                  aspect_of(state.picture), !state.replay.clips.empty(), has_preview)
             : pictures_alone(size.x, size.y, has_preview);
     DrawnDesk drawn;
     draw_monitors(pen, layout, state, drawn);
@@ -22,9 +23,9 @@ DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const 
         draw_time_line(pen, layout.time_line, state, drawn.spots);
         draw_multiview(pen, layout.rigs, layout.rig_rows, state);
     }
-    drawn.has_overlay = switches.help || state.wheel_map;
+    drawn.has_overlay = switches.help > 0 || state.wheel_map;
     if (state.wheel_map) draw_wheel_map(pen, size.x, size.y, *state.wheel_map, drawn.spots);
-    if (switches.help) draw_help(pen, size.x, size.y);
+    if (switches.help > 0) drawn.help_pages = draw_help(pen, size.x, size.y, switches.help);
     return drawn;
 }
 

@@ -29,14 +29,13 @@ struct DeskRig {
     std::uint64_t lost_at_rig = 0, lost_on_the_way = 0, lost_at_host = 0;
     const Texture* colour = nullptr;       ///< null: none yet
     const Texture* depth = nullptr;        ///< colour-mapped; null: none yet
+    const Texture* mask = nullptr;         ///< the performers, white; null: they are not told
     double nearest_m = 0, farthest_m = 0;  ///< of the depth picture's colours; 0: not known
     std::optional<double> temperature_c = {};
     std::string clock = {};                 ///< a few words; empty: it says nothing
     std::string calibration = {};           ///< age and residual; empty: it has none
     std::optional<double> set_known = {};   ///< share of its set; nothing: none is learnt
     std::vector<std::string> worries = {};  ///< what a technician should look after
-
-    std::uint64_t lost() const { return lost_at_rig + lost_on_the_way + lost_at_host; }
 };
 
 /// A step of a frame's way, median.
@@ -99,6 +98,12 @@ struct DeskTime {
     /// 0..1 along the line.
     double share_of(double pulse) const;
     double pulse_at(double share) const;
+};
+
+/// The planned move.
+struct DeskMove {
+    double duration_s = 0;
+    std::vector<double> keyframes;  ///< 0..1 of it
 };
 
 /// The stage from above.
@@ -235,9 +240,13 @@ struct DeskState {
     std::string typed;               ///< the line in which a command is typed; empty: none
     std::string notice;              ///< what replay could not do a moment ago; empty: nothing
     DeskReplay replay;
-    std::optional<DeskTime> time;  ///< nothing: there is no past
-    double picture_rate_hz = 0;
+    std::optional<DeskTime> time;     ///< nothing: there is no past
+    double picture_rate_hz = 0;       ///< of new ones
+    double tick_rate_hz = 0;          ///< of the programme
+    double repeat_rate_hz = 0;        ///< of ticks that had to repeat a picture
+    std::uint64_t repeated = 0;       ///< such ticks so far
     double latency_ms = 0;            ///< from exposure to this window; 0: not known
+    std::optional<double> age_s;      ///< of what is shown, while it is live
     std::vector<float> latencies_ms;  ///< oldest first
     std::string synthesiser, renderer;
     int render_level = 0, prepare_level = 0;  ///< of quality; 0 is the best
@@ -249,6 +258,7 @@ struct DeskState {
     bool follows_performer = false, holds_horizon = true;
     std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
     std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
+    std::optional<DeskMove> move;         ///< nothing: none is planned
     std::optional<double> move_progress;  ///< 0..1 while the camera in hand is on the move
     std::string wheel;                    ///< what the jog wheel does; empty: there is none
     std::optional<DeskWheel> wheel_map;   ///< nothing: it is not open

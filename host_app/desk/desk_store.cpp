@@ -9,8 +9,9 @@ DeskStore::DeskStore(std::filesystem::path file)
 
 void DeskStore::follow(const DeskArrangement& desk, MonotonicTime now) {
     // The first place of a window is nobody's wish.
-    const bool is_changed =
-        desk.switches != desk_.switches || (desk_.window && desk.window != desk_.window);
+    const bool is_changed = desk.switches != desk_.switches ||
+                            (desk_.window && desk.window != desk_.window) ||
+                            (desk_.rigs_window && desk.rigs_window != desk_.rigs_window);
     if (is_changed) file_.note_change();
     desk_ = desk;
     if (file_.is_due(now)) (void)file_.write(to_toml(desk_));

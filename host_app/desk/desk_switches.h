@@ -6,11 +6,12 @@ namespace vantage {
 
 /// What of the desk the operator has switched on.
 struct DeskSwitches {
-    bool panels = true;  ///< else the picture alone
-    bool help = false;
-    bool rigs = true;      ///< pictures and state of each, in a row below
-    bool outside = false;  ///< the stage is seen from outside, not from above
-    OutsideEye eye = {};   ///< from there
+    bool panels = true;       ///< else the picture alone
+    int help = 0;             ///< the page that is shown; 0: none
+    bool rigs = true;         ///< pictures and state of each, in a row below
+    bool rigs_apart = false;  ///< they have a window of their own instead
+    bool outside = false;     ///< the stage is seen from outside, not from above
+    OutsideEye eye = {};      ///< from there
     bool operator==(const DeskSwitches&) const = default;
 };
 

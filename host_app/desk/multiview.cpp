@@ -25,7 +25,19 @@ float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture,
     return width;
 }
 
-/// Under the depth picture, the most important first.
+/// "lost 15 rig, 1 host  ": where, and how many; empty: none.
+std::string lost_words(const DeskRig& rig) {
+    std::string words;
+    const auto add = [&](std::uint64_t count, const char* place) {
+        if (count > 0) words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, place);
+    };
+    add(rig.lost_at_rig, "rig");
+    add(rig.lost_on_the_way, "net");
+    add(rig.lost_at_host, "host");
+    return words.empty() ? "" : fmt::format("lost {}  ", words);
+}
+
+/// Under depth and mask, the most important first.
 void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) {
     const Clipping clipping(pen, rect);
     float y = rect.top;
@@ -62,25 +74,41 @@ void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_
         x = pen.text_until(right, x, y, colour_of(look.mark), look.words, true) + 0.5f * em;
     if (!is_of_take) {
         const std::string numbers = fmt::format("{:.1f}/s  {:.0f} ms", rig.rate_hz, rig.latency_ms);
-        // At the rig, on the way, at this host.
-        const std::string lost = rig.lost() > 0 ? fmt::format("lost {}/{}/{}  ", rig.lost_at_rig,
-                                                              rig.lost_on_the_way, rig.lost_at_host)
-                                                : "";
+        const std::string lost = lost_words(rig);
+        // What was lost is told, where there is room for one of them.
         if (x + pen.width_of(lost + numbers) <= right) {
             pen.text_right(right, y, palette::dim, numbers);
             pen.text_right(right - pen.width_of(numbers), y, palette::warn, lost);
+        } else {
+            pen.text_until(right, x, y, lost.empty() ? palette::dim : palette::warn,
+                           lost.empty() ? numbers : lost);
         }
     }
     const bool is_of_now = rig.state == RigState::present;
     const DeskRect pictures{cell.left, cell.top + 1.6f * em, cell.width, cell.height - 1.6f * em};
-    const float width = draw_picture(pen, pictures, rig.colour, is_of_now);
-    const float left = cell.left + width + 0.15f * em;
-    const DeskRect beside{left, pictures.top, cell.right() - left, 0.62f * pictures.height};
-    if (beside.is_empty()) return;
-    draw_picture(pen, beside, rig.depth, is_of_now);
+    // A high cell has room beside it too.
+    constexpr float most_of_width = 0.66f;
+    DeskRect large = pictures;
+    large.width *= most_of_width;
+    const float width = draw_picture(pen, large, rig.colour, is_of_now);
+    // Depth and mask side by side or, where that makes them larger, one over the other, with room
+    // for words under them.
+    constexpr float usual_aspect = 0.75f, lines_of_words = 3.6f;
+    const float gap = 0.15f * em, left = cell.left + width + gap;
+    const float room = cell.right() - left;
+    const float high = pictures.height - lines_of_words * pen.line() - gap;
+    const float beside = std::min(0.5f * (room - gap), high / usual_aspect);
+    const float below = std::min(room, 0.5f * (high - gap) / usual_aspect);
+    const bool is_beside = beside >= below;
+    DeskRect half{left, pictures.top, std::max(beside, below), 0};
+    half.height = usual_aspect * half.width;
+    if (half.is_empty()) return;
+    draw_picture(pen, half, rig.depth, is_of_now);
+    (is_beside ? half.left : half.top) += (is_beside ? half.width : half.height) + gap;
+    draw_picture(pen, half, rig.mask, is_of_now);
     draw_small_print(pen,
-                     {left + 0.2f * em, beside.bottom() + 0.15f * em, beside.width - 0.2f * em,
-                      pictures.height - beside.height - 0.15f * em},
+                     {left + 0.2f * em, half.bottom() + gap, room - 0.2f * em,
+                      pictures.bottom() - half.bottom() - gap},
                      rig);
 }
 

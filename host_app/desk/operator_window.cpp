@@ -11,20 +11,13 @@
 #include <imgui.h>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/gl/limits.h"
 #include "host_app/control/table/control_command.h"
+#include "host_app/desk/gl_window.h"
 
 namespace vantage {
 namespace {
-
-/// GLFW's reason for what just failed.
-std::string glfw_reason() {
-    const char* words = nullptr;
-    if (glfwGetError(&words) == GLFW_NO_ERROR || !words) return "no reason given";
-    std::string reason = words;
-    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
-    return reason;
-}
 
 /// By itself the desk takes no more than a tenth of the time, and a third while hands change it; it
 /// is drawn no oftener than anybody can read, and no more seldom than it must.
@@ -32,24 +25,6 @@ constexpr int idle_times = 9, idle_times_in_hand = 2;
 constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000};
 /// Between the presses of a double click.
 constexpr double double_press_s = 0.35;
-
-/// Enough of it to be taken hold of.
-bool is_on_a_monitor(const WindowPlace& place) {
-    constexpr int least_px = 64;
-    const auto shared = [](int from, int length, int other_from, int other_length) {
-        return std::min(from + length, other_from + other_length) - std::max(from, other_from);
-    };
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    for (int i = 0; i < count; ++i) {
-        int x = 0, y = 0, width = 0, height = 0;
-        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
-        if (shared(place.x, place.width, x, width) >= least_px &&
-            shared(place.y, place.height, y, height) >= least_px)
-            return true;
-    }
-    return false;
-}
 
 /// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
 int glfw_key(std::string_view name) {
@@ -100,12 +75,7 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
             height_px = std::min(height_px, free_height);
         }
     }
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
-    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    hint_gl_window();
     window_.reset(glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr));
     if (!window_)
         fail(
@@ -167,15 +137,13 @@ void OperatorWindow::on_maximised(GLFWwindow* window, int is_maximised) {
 }
 
 void OperatorWindow::arrange(const DeskArrangement& desk) {
-    const bool help = switches_.help;
+    const int help = switches_.help;
     switches_ = desk.switches;
     switches_.help = help;
     is_changed_ = true;
+    rigs_place_ = desk.rigs_window;
     if (!desk.window) return;
-    const WindowPlace& place = *desk.window;
-    glfwSetWindowSize(window_.get(), place.width, place.height);
-    if (is_on_a_monitor(place)) glfwSetWindowPos(window_.get(), place.x, place.y);
-    if (place.is_maximised) glfwMaximizeWindow(window_.get());
+    put_window(window_.get(), *desk.window);
 }
 
 void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
@@ -249,6 +217,7 @@ std::string OperatorWindow::question_of(const ControlCommand& command, int numbe
     const std::string_view name = command.name;
     if (name == "take" && take_runs_) return "T again to end the take";
     if (name == "remove_keyframe") return "X again to take out the keyframe";
+    if (name == "learn_set") return "Ctrl + J again to forget the set and learn it anew";
     if (name == "store" && number <= shot_places &&
         kept_shots_[static_cast<std::size_t>(number - 1)])
         return fmt::format("Ctrl + {} again to replace shot {}", number, number);
@@ -259,16 +228,16 @@ std::string OperatorWindow::question_of(const ControlCommand& command, int numbe
 void OperatorWindow::take_key(int key, int modifiers) {
     switch (key) {
         case GLFW_KEY_F1:
-            switches_.help = !switches_.help;
+            switches_.help = switches_.help == 0                  ? 1
+                             : switches_.help < drawn_.help_pages ? switches_.help + 1
+                                                                  : 0;
             break;
         case GLFW_KEY_ENTER:
         case GLFW_KEY_KP_ENTER:
             prompt_.open();
             break;
         case GLFW_KEY_TAB:
-            ((modifiers & GLFW_MOD_CONTROL) != 0 ? switches_.outside
-             : (modifiers & GLFW_MOD_SHIFT) != 0 ? switches_.rigs
-                                                 : switches_.panels) ^= true;
+            take_tab((modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0);
             break;
         case GLFW_KEY_ESCAPE:
             if (guard_.confirms(has_unsaved_wheel_
@@ -281,6 +250,17 @@ void OperatorWindow::take_key(int key, int modifiers) {
         default:
             break;
     }
+}
+
+void OperatorWindow::take_tab(bool with_shift, bool with_control) {
+    if (with_shift && with_control)
+        switches_.rigs_apart ^= true;
+    else if (with_control)
+        switches_.outside ^= true;
+    else if (with_shift)
+        switches_.rigs ^= true;
+    else
+        switches_.panels ^= true;
 }
 
 void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) {
@@ -425,29 +405,10 @@ bool OperatorWindow::is_desk_due(MonotonicTime now) const {
     return now >= (is_changed_ ? next_desk_in_hand_ : next_desk_);
 }
 
-bool OperatorWindow::fit_to_window() {
-    int width_px = 0, height_px = 0;
-    glfwGetFramebufferSize(window_.get(), &width_px, &height_px);
-    // A window that is put away has no size.
-    if (width_px < 1 || height_px < 1) return false;
-    const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
-    float scale = 1, scale_y = 1;
-    glfwGetWindowContentScale(window_.get(), &scale, &scale_y);
-    if (const float letter_px = letter_height_px(width, height, scale);
-        letter_px != ui_->letter_px()) {
-        ui_->set_letter_px(letter_px);
-        renderer_->take_fonts();
-    }
-    ImGui::GetIO().DisplaySize = {width, height};
-    if (!screen_ || screen_->target.size() != cv::Size(width_px, height_px))
-        screen_ = std::make_unique<Screen>(width_px, height_px);
-    return true;
-}
-
 void OperatorWindow::show(DeskState state) {
     const MonotonicTime start = MonotonicClock::now();
     is_changed_ = false;
-    if (!fit_to_window()) return;
+    if (!fit_screen(window_.get(), *ui_, *renderer_, screen_)) return;
     if (state.question.empty()) state.question = guard_.question(glfwGetTime());
     if (prompt_.is_open()) state.typed = prompt_.line();
     panel_.follow(state.wheel_map);
@@ -459,7 +420,8 @@ void OperatorWindow::show(DeskState state) {
     drawn_ = draw_desk(state, switches_, ui_->fonts());
     ImGui::Render();
     renderer_->draw(*ImGui::GetDrawData(), screen_->target);
-    present();
+    screen_->present(window_.get());
+    show_rigs(state);
     const MonotonicTime end = MonotonicClock::now();
     next_desk_ = end + std::clamp<std::chrono::nanoseconds>(idle_times * (end - start),
                                                             least_desk_period, most_desk_period);
@@ -473,18 +435,26 @@ void OperatorWindow::show_pictures(const Texture& programme, const Texture* prev
     renderer_->draw_picture(programme, drawn_.picture, screen_->target);
     if (preview && drawn_.preview)
         renderer_->draw_picture(*preview, *drawn_.preview, screen_->target);
-    present();
+    screen_->present(window_.get());
 }
 
-void OperatorWindow::present() {
-    const cv::Size size = screen_->target.size();
-    // Our pictures have their top in row 0, the window's has its bottom there.
-    screen_->target.bind();
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, size.width, size.height, 0, size.height, size.width, 0,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    check_gl("showing the operator's desk");
-    glfwSwapBuffers(window_.get());
+/// In their own window, where that is asked for. One that is closed is the row again.
+void OperatorWindow::show_rigs(const DeskState& state) {
+    if (rigs_window_ && rigs_window_->closed()) switches_.rigs_apart = false;
+    if (!switches_.rigs_apart) return rigs_window_.reset();
+    if (!rigs_window_) {
+        try {
+            rigs_window_ = std::make_unique<RigsWindow>(window_.get(), shaders_, rigs_place_);
+        } catch (const Error& error) {
+            // The show goes on with one window.
+            log_warning("{}", error.what());
+            switches_.rigs_apart = false;
+            return;
+        }
+        rigs_window_->give_keys(this, on_key, on_letter);
+    }
+    rigs_window_->show(state);
+    rigs_place_ = rigs_window_->place();
 }
 
 ColourImage OperatorWindow::screenshot() const {

@@ -14,9 +14,11 @@
 #include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/desk_screen.h"
 #include "host_app/desk/key_guard.h"
+#include "host_app/desk/rigs_window.h"
 #include "host_app/desk/shot_places.h"
 #include "host_app/desk/ui_renderer.h"
 #include "host_app/desk/wheel_panel.h"
+#include "host_app/desk/window_screen.h"
 #include "host_app/flight/flight_input.h"
 
 struct GLFWwindow;
@@ -64,25 +66,21 @@ class OperatorWindow {
     void show_pictures(const Texture& programme, const Texture* preview);
 
     /// What hands have switched on, and where they have put the window.
-    DeskArrangement arrangement() const { return {switches_, place_}; }
+    DeskArrangement arrangement() const { return {switches_, place_, rigs_place_}; }
     /// Of a place without a monitor only the size counts.
     void arrange(const DeskArrangement& desk);
     /// Whether points of the stage are shown.
     bool shows_outside() const { return switches_.panels && switches_.outside; }
     /// Where the parts of what was shown last are.
     const DrawnDesk& drawn() const { return drawn_; }
+    /// The rigs' own window; null: they are in the desk's row.
+    const RigsWindow* rigs_window() const { return rigs_window_.get(); }
     /// What was shown last, the whole desk.
     ColourImage screenshot() const;
 
   private:
     struct WindowDeleter {
         void operator()(GLFWwindow* window) const;
-    };
-    struct Screen {
-        Texture texture;
-        Framebuffer target;
-        Screen(int width_px, int height_px)
-            : texture(TextureFormat::rgba8, width_px, height_px), target({&texture}) {}
     };
     static OperatorWindow& of(GLFWwindow* window);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
@@ -107,16 +105,17 @@ class OperatorWindow {
     void take_held_keys(double dt_s);
     bool held(int key) const;
     void seek_at_cursor();
-    /// The size of what is shown, in pixels; its letters follow it.
-    bool fit_to_window();
-    void present();
+    void take_tab(bool with_shift, bool with_control);
+    void show_rigs(const DeskState& state);
 
     GlfwLibrary glfw_;
     std::unique_ptr<GLFWwindow, WindowDeleter> window_;
     ShaderLibrary shaders_;
     std::optional<UiContext> ui_;
     std::optional<UiRenderer> renderer_;
-    std::unique_ptr<Screen> screen_;
+    std::unique_ptr<WindowScreen> screen_;
+    std::unique_ptr<RigsWindow> rigs_window_;  ///< null: they are in the desk's row
+    std::optional<WindowPlace> rigs_place_;
     DrawnDesk drawn_;
     DeskSwitches switches_;
     WindowPlace place_;

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/gl/framebuffer.h"
+#include "host_app/desk/gl_window.h"
 
 namespace vantage {
 
@@ -20,17 +21,11 @@ class ScreenWindows::Window {
         GLFWmonitor* shown_on = monitors[monitor - 1];
         const GLFWvidmode* mode = glfwGetVideoMode(shown_on);
         // The monitor's own mode, so that nothing is switched.
-        glfwDefaultWindowHints();
+        hint_gl_window();
         glfwWindowHint(GLFW_RED_BITS, mode->redBits);
         glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);
         glfwWindowHint(GLFW_BLUE_BITS, mode->blueBits);
         glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
-        glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
-        glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
-        glfwWindowHint(GLFW_DEPTH_BITS, 0);
-        glfwWindowHint(GLFW_STENCIL_BITS, 0);
         // The operator's hands stay at the operator's window.
         glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
         glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);

@@ -63,16 +63,7 @@ void draw_camera(Column& column, const DeskState& state) {
                                          state.follows_performer ? ", goes with a performer" : "",
                                          state.holds_horizon ? "" : ", horizon free"));
     if (coverage) draw_coverage(column, *coverage);
-    if (state.move_progress) {
-        const float height = 0.4f * column.pen.em();
-        column.row_of_two("on the planned move; steer to take over", palette::dim,
-                          fmt::format("{:.0f} %", 100 * *state.move_progress));
-        column.pen.fill({column.left, column.y, column.width(), height}, palette::trough);
-        column.pen.fill({column.left, column.y,
-                         static_cast<float>(*state.move_progress) * column.width(), height},
-                        palette::accent);
-        column.y += 2 * height;
-    }
+    if (state.move_progress) column.row(palette::dim, "on the planned move; steer to take over");
     if (!state.wheel.empty()) column.wrapped(palette::dim, state.wheel);
 }
 
@@ -138,9 +129,10 @@ void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
     for (const DeskOutput& output : state.outputs) {
         const float top = column.y;
         const int key = first_key + number - 1;
-        const std::string value =
-            output.is_on ? fmt::format("{}, {:.1f} Mbit/s", output.state, output.mbit_s)
-                         : output.state;
+        const std::string value = !output.is_on
+                                      ? output.state
+                                      : fmt::format("{}, {:.1f} Mbit/s, queue {}", output.state,
+                                                    output.mbit_s, output.queued);
         column.row_of_two(key > last_key ? output.name : fmt::format("F{}  {}", key, output.name),
                           output.is_failed ? palette::bad
                           : output.is_on   ? palette::good

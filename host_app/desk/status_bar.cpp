@@ -93,13 +93,17 @@ float draw_recordings(const Pen& pen, float x, float y, float height, const Desk
 void draw_numbers(const Pen& pen, float left, float right, float y, const DeskState& state) {
     const std::string latency =
         state.latency_ms > 0 ? fmt::format("   {:.0f} ms", state.latency_ms) : "";
-    const std::string rates = fmt::format("{:.1f} pictures/s{}", state.picture_rate_hz, latency);
+    const std::string rate =
+        fmt::format("{:.1f} of {:.4g} pictures/s", state.picture_rate_hz, state.tick_rate_hz);
+    const std::string repeated =
+        state.repeated > 0 ? fmt::format(", {} repeated", state.repeated) : "";
+    const std::string help = latency + "   F1 help";
     const std::string quality =
         fmt::format("{}x{}   {}, level {}/{}   ", state.picture ? state.picture->width_px() : 0,
                     state.picture ? state.picture->height_px() : 0, state.synthesiser,
                     state.render_level, state.prepare_level);
-    for (const std::string& words :
-         {quality + rates + "   F1 help", rates + "   F1 help", std::string("F1 help")})
+    for (const std::string& words : {quality + rate + repeated + help, rate + repeated + help,
+                                     rate + help, std::string("F1 help")})
         if (left + pen.width_of(words) <= right) {
             pen.text_right(right, y, palette::dim, words);
             return;

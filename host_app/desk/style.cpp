@@ -20,6 +20,7 @@ ImFont* load_font(const char* file, float letter_px) {
 }  // namespace
 
 UiContext::UiContext(float letter_px) : context_(ImGui::CreateContext()) {
+    make_current();
     ImGuiIO& io = ImGui::GetIO();
     // Parts stand where they stand; nothing is kept between sessions.
     io.IniFilename = nullptr;

@@ -38,8 +38,8 @@ struct UiFonts {
     ImFont* strong = nullptr;
 };
 
-/// A Dear ImGui context of its own, current while it lives, with the fonts of Vantage. Where DejaVu
-/// Sans is not installed, the font that comes with the library takes its place.
+/// A Dear ImGui context of its own, current from its making on, with the fonts of Vantage. Where
+/// DejaVu Sans is not installed, the font that comes with the library takes its place.
 class UiContext {
   public:
     /// `letter_px`: height of letters.
@@ -50,6 +50,18 @@ class UiContext {
 
     const UiFonts& fonts() const { return fonts_; }
     float letter_px() const { return letter_px_; }
+    void make_current() const { ImGui::SetCurrentContext(context_); }
+    /// Makes the context of before current again at its end.
+    class Kept {
+      public:
+        Kept() : context_(ImGui::GetCurrentContext()) {}
+        ~Kept() { ImGui::SetCurrentContext(context_); }
+        Kept(const Kept&) = delete;
+        Kept& operator=(const Kept&) = delete;
+
+      private:
+        ImGuiContext* context_;
+    };
     /// Fonts of before are gone then, and a UiRenderer has to take up the new ones.
     void set_letter_px(float letter_px);
 

@@ -32,11 +32,11 @@ double tick_step_s(double duration_s, float width_in_ems) {
     return std::max(steps.back(), duration_s);
 }
 
-void draw_ticks(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
+/// `y`: of their words.
+void draw_ticks(const Pen& pen, const DeskRect& bar, float y, const DeskTime& time) {
     const double duration_s = (time.newest - time.oldest) / time.rate_hz;
     if (duration_s <= 0) return;
     const double step_s = tick_step_s(duration_s, bar.width / pen.em());
-    const float y = bar.bottom() + 0.1f * pen.em();
     for (double s = 0; s <= duration_s + 1e-6; s += step_s) {
         // Of a take from its beginning, of a stage from now back.
         const double share = time.is_of_take ? s / duration_s : 1 - s / duration_s;
@@ -81,18 +81,42 @@ void draw_clips_of(const Pen& pen, const DeskRect& bar, const DeskTime& time,
     }
 }
 
+void draw_diamond(const Pen& pen, float x, float y, const ImVec4& colour) {
+    const float half = 0.3f * pen.em();
+    pen.list().AddQuadFilled({x - half, y}, {x, y - half}, {x + half, y}, {x, y + half},
+                             ImGui::GetColorU32(colour));
+}
+
 /// Of the flight, along the lower edge: diamonds.
 void draw_keyframes(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
-    const float half = 0.3f * pen.em(), y = bar.bottom() - half;
+    const float y = bar.bottom() - 0.3f * pen.em();
     for (const double pulse : time.keyframes) {
         if (pulse < time.oldest || pulse > time.newest) continue;
-        const float x = bar.left + static_cast<float>(time.share_of(pulse)) * bar.width;
-        pen.list().AddQuadFilled({x - half, y}, {x, y - half}, {x + half, y}, {x, y + half},
-                                 ImGui::GetColorU32(palette::text));
+        draw_diamond(pen, bar.left + static_cast<float>(time.share_of(pulse)) * bar.width, y,
+                     palette::text);
     }
 }
 
-void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time, const DeskReplay& replay) {
+/// The planned move from its start to its end, on a line of its own: it has a time of its own.
+void draw_move(const Pen& pen, float words_left, const DeskRect& line, const DeskState& state) {
+    const DeskMove& move = *state.move;
+    const float y = line.top + 0.5f * line.height;
+    pen.fill(line, palette::trough);
+    if (state.move_progress)
+        pen.fill({line.left, line.top, static_cast<float>(*state.move_progress) * line.width,
+                  line.height},
+                 palette::accent);
+    for (const double share : move.keyframes)
+        draw_diamond(pen, line.left + static_cast<float>(share) * line.width, y,
+                     state.move_progress ? palette::text : palette::dim);
+    pen.text_until(line.left - 0.4f * pen.em(), words_left, y - 0.5f * pen.em(),
+                   state.move_progress ? palette::accent : palette::dim,
+                   state.move_progress ? fmt::format("move {:.0f} %", 100 * *state.move_progress)
+                                       : fmt::format("move {:.1f} s", move.duration_s));
+}
+
+void draw_bar(const Pen& pen, const DeskRect& bar, float words_y, const DeskTime& time,
+              const DeskReplay& replay) {
     const auto x_of = [&](double pulse) {
         return bar.left + static_cast<float>(time.share_of(pulse)) * bar.width;
     };
@@ -107,7 +131,7 @@ void draw_bar(const Pen& pen, const DeskRect& bar, const DeskTime& time, const D
         const float height = 0.22f * bar.height;
         pen.fill({from, bar.bottom() - height, bar.right() - from, height}, palette::bad);
     }
-    draw_ticks(pen, bar, time);
+    draw_ticks(pen, bar, words_y, time);
     draw_clips_of(pen, bar, time, replay);
     draw_keyframes(pen, bar, time);
     if (time.in) draw_mark(pen, bar, x_of(*time.in), true);
@@ -125,9 +149,14 @@ void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state
                     DeskSpots& spots) {
     if (rect.is_empty()) return;
     const float em = pen.em();
+    // A move's line is taken off the bar.
     const DeskRect bar{rect.left + 6 * em, rect.top + 0.2f * em, rect.width - 11.5f * em,
-                       1.35f * em};
+                       (state.move ? 1.0f : 1.35f) * em};
     const float y = bar.top + 0.5f * (bar.height - em);
+    const float words_y = rect.top + 1.65f * em + (state.move ? 0.2f * em : 0);
+    if (state.move)
+        draw_move(pen, rect.left, {bar.left, bar.bottom() + 0.2f * em, bar.width, 0.3f * em},
+                  state);
     if (!state.time) {
         pen.fill(bar, palette::trough);
         pen.text(bar.left + 0.5f * em, y, palette::dim, "no past is kept");
@@ -135,7 +164,7 @@ void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state
     }
     const DeskTime& time = *state.time;
     pen.text(rect.left, y, time.at ? palette::accent : palette::text, place_words(time), true);
-    draw_bar(pen, bar, time, state.replay);
+    draw_bar(pen, bar, words_y, time, state.replay);
     // As high as the words under the bar, so that it is easily met.
     spots.time = {{bar.left, rect.top, bar.width, rect.height}, time};
     if (time.is_of_take) return;

@@ -34,6 +34,7 @@ struct RigSetState {
     double known = 0;        ///< share of its pixels that have been still for half a second
     bool is_loaded = false;  ///< it began with a set that was learnt before
     std::string misfit;      ///< why it did not, though there is one; a sentence
+    cv::Mat1b matte = {};    ///< the performers' share of its picture, small, 0..255
 };
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include "host_app/instants/set_learner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -24,8 +25,8 @@ constexpr double absorbed_after_s = 120;
 constexpr double known_after_s = 0.5;
 /// The longest means, of which certainties are shares.
 constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
-/// Pixels that known_share() looks at.
-const cv::Size sampled_pixels{64, 48};
+/// Pixels across that look_at() looks at.
+constexpr int most_sampled_px = 128;
 
 float most_colour_instants(double dt_s) {
     return instants_of(colour_mean_s, dt_s, 4, longest_colour_mean);
@@ -182,19 +183,26 @@ cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
     return (still >= std::floor(least)) & (set.depth_m > 0);
 }
 
-double SetLearner::known_share(const RigHistory& rig) {
-    sampled_.resize(sampled_pixels);
+SetLearner::Look SetLearner::look_at(const RigHistory& rig) {
+    const cv::Size picture = rig.matte().size();
+    const double reduction = std::max(1.0, picture.width / static_cast<double>(most_sampled_px));
+    const cv::Size sampled(std::max(1, cvRound(picture.width / reduction)),
+                           std::max(1, cvRound(picture.height / reduction)));
+    sampled_.resize(sampled);
     Program& known = known_.use();
     known.set("set_state", 0);
     known.set("set_colour", 1);
     known.set("known_after", known_after(rig));
-    known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled_pixels.width),
-                                              1.0f / static_cast<float>(sampled_pixels.height)));
+    known.set("matte", 2);
+    known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
+                                              1.0f / static_cast<float>(sampled.height)));
     rig.set_state().state().bind(0);
     rig.colour_mean().bind(1);
+    rig.matte().bind(2);
     known_.draw(sampled_.target());
-    const cv::Mat seen = sampled_.texture().download();
-    return cv::countNonZero(seen) / static_cast<double>(seen.total());
+    std::array<cv::Mat1b, 2> seen;
+    cv::split(sampled_.texture().download(), seen.data());
+    return {cv::countNonZero(seen[0]) / static_cast<double>(sampled.area()), seen[1]};
 }
 
 }  // namespace vantage

@@ -18,7 +18,7 @@ class SetLearner {
           edges_(library, "matte_edges.frag"),
           learn_(library, "set_learn.frag"),
           colour_(library, "set_colour.frag"),
-          known_(library, "set_known.frag") {}
+          known_(library, "set_look.frag") {}
 
     /// Makes the rig's colour() and steady_depth() those of its set, and fills its matte(). Once an
     /// upload.
@@ -31,8 +31,12 @@ class SetLearner {
     static void restore(RigHistory& rig, const LearntRigSet& set);
     /// Where a set is known that was read back from instants `dt_s` apart; of its depth's size.
     static cv::Mat1b known(const LearntRigSet& set, double dt_s);
-    /// Share of the rig's pixels at which the set is known. Precondition as learnt().
-    double known_share(const RigHistory& rig);
+    struct Look {
+        double known_share = 0;  ///< of the rig's pixels: the set is known there
+        cv::Mat1b matte;         ///< the performers' share of its picture, small, 0..255
+    };
+    /// Reads it back. Precondition as learnt().
+    Look look_at(const RigHistory& rig);
 
     /// Instants that a pixel's depth counts at most.
     static float most_votes(const RigHistory& rig);
@@ -43,7 +47,7 @@ class SetLearner {
     FullscreenPass see_, tiles_;
     TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
-    DrawnTexture sampled_{TextureFormat::r8};
+    DrawnTexture sampled_{TextureFormat::rg8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 

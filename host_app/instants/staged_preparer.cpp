@@ -21,7 +21,7 @@ constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
 constexpr double first_search_rest_s = 2, longest_search_rest_s = 30;
 /// Instants, before which there is nothing to remember.
 constexpr int remembered_from = 3;
-/// Between two looks at how much of the sets is known.
+/// Between two looks at how much of the sets is known, and at the mattes.
 constexpr double look_period_s = 1;
 
 }  // namespace
@@ -116,10 +116,13 @@ void StagedPreparer::look_at_sets() {
     states_.clear();
     for (const RigHistory* rig : uploaded_) {
         const auto misfit = misfits_.find(rig->camera().name);
+        const SetLearner::Look look =
+            rig->learnt_instants() > 0 ? sets_.look_at(*rig) : SetLearner::Look();
         states_.push_back({.rig = rig->camera().name,
-                           .known = sets_.known_share(*rig),
+                           .known = look.known_share,
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
-                           .misfit = misfit != misfits_.end() ? misfit->second : ""});
+                           .misfit = misfit != misfits_.end() ? misfit->second : "",
+                           .matte = look.matte});
     }
 }
 

@@ -85,7 +85,10 @@ DeskSound desk_sound(const SoundState& sound) {
 
 DeskOutput desk_output(const OutputState& output) {
     constexpr double bits_a_megabit = 1e6;
-    return {output.name,
+    // Of a film's place the folders have no room.
+    return {output.film.empty()
+                ? output.name
+                : fmt::format("film {}", std::filesystem::path(output.film).filename().string()),
             words_of(output.phase),
             output.phase == OutputPhase::on,
             output.phase == OutputPhase::failed,
@@ -93,6 +96,14 @@ DeskOutput desk_output(const OutputState& output) {
             output.queued,
             output.dropped,
             output.failure};
+}
+
+/// Of the moment that is shown; nothing: it is held, or of the past.
+std::optional<double> live_age_s(const ProgrammeState& programme) {
+    if (!programme.picture || programme.time.pulse || programme.time.is_held) return std::nullopt;
+    const ReadyInstant& instant = *programme.picture->job.instant;
+    if (!instant.is_live || !instant.exposure) return std::nullopt;
+    return std::chrono::duration<double>(TaiClock::now() - *instant.exposure).count();
 }
 
 DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {
@@ -124,6 +135,7 @@ DeskRig DeskFeed::rig_of(const RigAccount& account, const FrameSet* set, Monoton
     if (const RigPictures::Pictures* pictures = rig_pictures_.of(status.rig)) {
         if (pictures->colour) rig.colour = &*pictures->colour;
         if (pictures->depth) rig.depth = &*pictures->depth;
+        if (pictures->mask) rig.mask = &*pictures->mask;
         rig.nearest_m = pictures->range.nearest_m;
         rig.farthest_m = pictures->range.farthest_m;
     }
@@ -163,10 +175,13 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
                        MonotonicTime now) {
     const LiveReport report = show.report();
     picture_rate_.add(report.programme.pictures, now);
+    repeat_rate_.add(report.programme.repeated, now);
     preview_rate_.add(programme.preview.pictures, now);
     for (const RigAccount& rig : report.rigs)
         rig_rates_[rig.status.rig].add(rig.status.received, now);
     if (set) rig_pictures_.take(*set);
+    for (const RigAccount& rig : report.rigs)
+        if (rig.set) rig_pictures_.take_mask(rig.status.rig, rig.set->matte);
 
     state_.rigs.clear();
     for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set, now));
@@ -179,6 +194,10 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.picture_rate_hz = picture_rate_.per_second();
+    state_.tick_rate_hz = show.settings().rate_hz;
+    state_.repeat_rate_hz = repeat_rate_.per_second();
+    state_.repeated = report.programme.repeated;
+    state_.age_s = live_age_s(programme);
     // What never was live is not from an exposure to a picture.
     const bool is_live = !programme.time.pulse && !programme.time.is_held;
     state_.latency_ms = latencies_ms_.empty() || !is_live ? 0 : latencies_ms_.back();
@@ -198,13 +217,18 @@ void DeskFeed::follow_move(const LiveShow& show) {
     const std::shared_ptr<const Move> move = show.controls().move();
     if (move == move_) return;
     move_ = move;
+    state_.move.reset();
     move_m_.clear();
     keyframes_m_.clear();
     if (!move_) return;
     for (int i = 0; i <= move_steps; ++i)
         move_m_.push_back(move_->at(move_->duration_s() * i / move_steps).eye_m());
-    for (const MoveKeyframe& keyframe : move_->keyframes())
+    state_.move = DeskMove{move_->duration_s(), {}};
+    for (const MoveKeyframe& keyframe : move_->keyframes()) {
         keyframes_m_.push_back(keyframe.view.eye_m());
+        state_.move->keyframes.push_back(
+            move_->duration_s() > 0 ? keyframe.time_s / move_->duration_s() : 0);
+    }
 }
 
 void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme,

@@ -56,7 +56,7 @@ class DeskFeed {
         Eigen::Vector3d eye_m;
     };
     std::optional<MonotonicTime> refreshed_;
-    RateMeter picture_rate_;
+    RateMeter picture_rate_, repeat_rate_;
     std::map<std::string, RateMeter> rig_rates_;
     std::map<std::string, MonotonicTime> rigs_seen_;  ///< in a set, last
     RigPictures rig_pictures_;

@@ -12,7 +12,11 @@ constexpr int first_key = 5;
 void OutputSwitch::press(int number, MonotonicTime now) {
     const auto at = static_cast<std::size_t>(number - 1);
     const std::vector<OutputState> states = desk_.states();
-    if (number < 1 || at >= states.size()) return;
+    if (number < 1 || at >= states.size()) {
+        asked_ = {number, fmt::format("there is no output {}: --output adds one", number),
+                  now + asks_for};
+        return;
+    }
     const bool runs = desk_.is_wanted(at);
     const bool is_second = asked_ && asked_->number == number && now < asked_->until;
     asked_.reset();
@@ -21,12 +25,13 @@ void OutputSwitch::press(int number, MonotonicTime now) {
     else if (is_second)
         desk_.stop(at);
     else
-        asked_ = {number, states[at].name, now + asks_for};
+        asked_ = {number,
+                  fmt::format("F{} again to end {}", first_key + number - 1, states[at].name),
+                  now + asks_for};
 }
 
 std::string OutputSwitch::question(MonotonicTime now) const {
-    if (!asked_ || now >= asked_->until) return "";
-    return fmt::format("F{} again to end {}", first_key + asked_->number - 1, asked_->name);
+    return asked_ && now < asked_->until ? asked_->words : "";
 }
 
 }  // namespace vantage

@@ -14,15 +14,15 @@ class OutputSwitch {
   public:
     explicit OutputSwitch(OutputDesk& desk) : desk_(desk) {}
 
-    /// `number`: from 1 on; one that there is not is passed over.
+    /// `number`: from 1 on; of one that there is not question() says so.
     void press(int number, MonotonicTime now);
-    /// What the operator is asked; empty: nothing.
+    /// What the operator is asked or told; empty: nothing.
     std::string question(MonotonicTime now) const;
 
   private:
     struct Asked {
         int number;
-        std::string name;
+        std::string words;
         MonotonicTime until;
     };
     OutputDesk& desk_;

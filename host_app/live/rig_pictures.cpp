@@ -47,6 +47,13 @@ void RigPictures::take(const FrameSet& set) {
     }
 }
 
+void RigPictures::take_mask(const std::string& rig, const cv::Mat1b& matte) {
+    if (matte.empty()) return;
+    ColourImage picture;
+    cv::cvtColor(matte, picture, cv::COLOR_GRAY2RGBA);
+    show(pictures_[rig].mask, picture);
+}
+
 const RigPictures::Pictures* RigPictures::of(const std::string& rig) const {
     const auto found = pictures_.find(rig);
     return found == pictures_.end() ? nullptr : &found->second;

@@ -10,16 +10,18 @@
 
 namespace vantage {
 
-/// What rigs see, colour and depth, in pictures small enough for a desk. Of the context that is
-/// current.
+/// What rigs see, colour, depth and performers, in pictures small enough for a desk. Of the context
+/// that is current.
 class RigPictures {
   public:
     struct Pictures {
-        std::optional<Texture> colour, depth;
+        std::optional<Texture> colour, depth, mask;
         DepthRange range;
     };
     /// Of the rigs that are not in the set the last pictures stay.
     void take(const FrameSet& set);
+    /// The performers' share of a rig's picture, 0..255; empty: nothing changes.
+    void take_mask(const std::string& rig, const cv::Mat1b& matte);
     /// Null: none yet.
     const Pictures* of(const std::string& rig) const;
 

@@ -47,11 +47,11 @@ std::size_t OutputDesk::add(const std::string& url) {
         has_encoder_ = true;
         plan = plan_output(url, settings_.format);
     }
-    const bool takes_stdout = plan.takes_stdout;
+    const bool takes_stdout = plan.takes_stdout, begins = plan.begins;
     const std::shared_ptr<ScreenFeed> screen = plan.screen;
     auto output =
         std::make_shared<Output>(std::move(plan), settings_.format, settings_.pulse_rate_hz);
-    output->start();
+    if (begins) output->start();
     const std::lock_guard lock(mutex_);
     takes_stdout_ = takes_stdout_ || takes_stdout;
     if (screen) screens_.push_back(screen);

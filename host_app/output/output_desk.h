@@ -16,7 +16,7 @@ class OutputDesk {
     struct Settings {
         OutputFormat format;  ///< its encoder: the wish; empty: chosen by trying
         double pulse_rate_hz = 30;
-        std::vector<std::string> urls;  ///< that are begun at once
+        std::vector<std::string> urls;  ///< begun at once, unless they say start=off
     };
     /// Throws Error for a URL that cannot be; what only opening shows fails later, alone.
     explicit OutputDesk(Settings settings);
@@ -27,7 +27,8 @@ class OutputDesk {
     /// For the programme; this must outlive it.
     std::unique_ptr<PictureSink> sink();
 
-    /// Another one, begun at once; its number, from 0 on. Throws Error for what cannot be.
+    /// Another one, begun at once unless its URL says start=off; its number, from 0 on. Throws
+    /// Error for what cannot be.
     std::size_t add(const std::string& url);
     /// Never wait. Precondition: the number is of one.
     void start(std::size_t number);

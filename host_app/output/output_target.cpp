@@ -5,10 +5,17 @@
 namespace vantage {
 
 OutputPlan plan_output(const std::string& text, const OutputFormat& format) {
-    const OutputUrl url = OutputUrl::parse(text);
+    OutputUrl url = OutputUrl::parse(text);
+    // Of every kind.
+    const bool begins = url.choice("start", {"on", "off"}) == "on";
+    url.options.erase("start");
     std::string known;
     for (const OutputEntry& entry : output_entries()) {
-        if (entry.scheme == url.scheme) return entry.plan(url, format);
+        if (entry.scheme == url.scheme) {
+            OutputPlan plan = entry.plan(url, format);
+            plan.begins = begins;
+            return plan;
+        }
         known += (known.empty() ? "" : ", ") + entry.words;
     }
     fail("there is no output {}: outputs are {}", url.shown, known);

@@ -52,6 +52,7 @@ class OutputTarget {
 struct OutputPlan {
     std::string name;        ///< for people, without secrets
     std::string film = "";   ///< its file, where it is one
+    bool begins = true;      ///< at once; else when somebody asks for it
     bool is_stream = false;  ///< what fails is tried again, and what nobody takes is no loss
     bool takes_sound = false;
     bool is_listening = false;  ///< opening it waits for somebody who calls

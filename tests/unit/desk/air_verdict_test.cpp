@@ -37,6 +37,23 @@ TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
     EXPECT_NE(air_verdict(state).why, "");
 }
 
+TEST(AirVerdictTest, TellsOfAHostThatCannotFollow) {
+    DeskState state = good_state();
+    state.tick_rate_hz = 50;
+    state.repeat_rate_hz = 10;
+    state.age_s = 0.4;
+    EXPECT_EQ(air_verdict(state).level, Level::ready);
+    state.repeat_rate_hz = 20.4;
+    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).why, "20 of 50 pictures a second are repeated");
+    state.age_s = 1.26;
+    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).why, "the picture is 1.3 s old");
+    state.age_s = 4;
+    EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+    EXPECT_EQ(air_verdict(state).why, "the picture is 4 s old");
+}
+
 TEST(AirVerdictTest, APictureThatIsHeldMayGoOnAir) {
     DeskState state = good_state();
     state.signal = SignalState::hold;

@@ -116,6 +116,13 @@ TEST(DeskLayoutTest, ManyRigsStandInRows) {
     EXPECT_GT(layout_of({1280, 720}, 12).rig_rows, 1);
 }
 
+TEST(DeskLayoutTest, RigsThatHaveAWindowOfTheirOwnFillIt) {
+    EXPECT_EQ(best_rig_rows(1280, 720, 13, 1), 1);
+    EXPECT_EQ(best_rig_rows(1280, 720, 13, 4), 2);
+    EXPECT_EQ(best_rig_rows(2560, 360, 9, 4), 1);
+    EXPECT_EQ(best_rig_rows(720, 1280, 13, 4), 4);
+}
+
 TEST(DeskRectTest, FitsTheLargestPictureOfAShapeIntoItsMiddle) {
     const DeskRect square = DeskRect{10, 20, 200, 100}.fitted(1);
     EXPECT_EQ(square.left, 60);

@@ -219,6 +219,19 @@ TEST_F(DeskScreen, ShowsTheKeyframesOfAFlightOnTheTimeLine) {
     EXPECT_LT(differing(before, draw(), line), two);
 }
 
+TEST_F(DeskScreen, ShowsHowFarThePlannedMoveIsOnALineOfItsOwn) {
+    const DeskRect line = layout().time_line;
+    const ColourImage before = draw();
+    state().move_progress = 0.8;
+    const ColourImage later = draw();
+    EXPECT_GT(differing(before, later, line), 300);
+    state().move->keyframes = {0, 0.5, 1};
+    EXPECT_GT(differing(later, draw(), line), 20);
+    state().move.reset();
+    state().move_progress.reset();
+    EXPECT_GT(differing(before, draw(), line), 1000);
+}
+
 TEST_F(DeskScreen, WithoutAPastThereIsNothingToSeekIn) {
     state().time.reset();
     draw();
@@ -337,10 +350,22 @@ TEST_F(DeskScreen, NamesTheColoursOfTheSourceMap) {
 
 TEST_F(DeskScreen, OpensTheHelpOverEverythingElse) {
     const ColourImage before = draw();
-    switches_.help = true;
+    EXPECT_EQ(drawn_.help_pages, 0);
+    switches_.help = 1;
     const ColourImage after = draw();
     EXPECT_TRUE(drawn_.has_overlay);
+    EXPECT_EQ(drawn_.help_pages, 1);
     EXPECT_GT(differing(before, after, {440, 200, 400, 300}), 60000);
+}
+
+TEST_F(DeskScreen, TheHelpHasPagesWhereTheWindowIsSmall) {
+    const cv::Size small(640, 360);
+    switches_.help = 1;
+    const ColourImage first = draw(small);
+    const int pages = drawn_.help_pages;
+    EXPECT_GT(pages, 1);
+    for (switches_.help = 2; switches_.help <= pages; ++switches_.help)
+        EXPECT_GT(differing(first, draw(small), {0, 0, 640, 360}), 5000) << switches_.help;
 }
 
 TEST_F(DeskScreen, AsksBeforeTheEnd) {

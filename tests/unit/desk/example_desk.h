@@ -15,18 +15,22 @@ class ExampleDesk {
         : picture(TextureFormat::rgba8, 320, 180, Filter::linear),
           colour(TextureFormat::rgba8, 160, 120, Filter::linear),
           depth(TextureFormat::rgba8, 160, 120, Filter::linear),
+          mask(TextureFormat::rgba8, 160, 120, Filter::linear),
           preview_picture(TextureFormat::rgba8, 160, 90, Filter::linear) {
         // Alpha 0, as where no rig saw the surface: the desk shows the pixel all the same.
         picture.upload(ColourImage(180, 320, cv::Vec4b(40, 90, 140, 0)));
         colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
         preview_picture.upload(ColourImage(90, 160, cv::Vec4b(90, 130, 60, 255)));
         depth.upload(ColourImage(120, 160, cv::Vec4b(230, 210, 60, 255)));
+        mask.upload(ColourImage(120, 160, cv::Vec4b(255, 255, 255, 255)));
         state.picture = &picture;
         state.waiting = false;
         state.recording = true;
         state.timecode = "10:00:07:12";
         state.pulse = 1234567;
-        state.picture_rate_hz = 29.97;
+        state.picture_rate_hz = 29.7;
+        state.tick_rate_hz = 29.97;
+        state.repeated = 3;
         state.latency_ms = 84;
         for (int i = 0; i < 100; ++i)
             state.latencies_ms.push_back(80.0f + static_cast<float>(i % 13));
@@ -35,12 +39,13 @@ class ExampleDesk {
         state.rigs = {rig("north", RigState::present), rig("south", RigState::late),
                       rig("east", RigState::disconnected)};
         state.rigs[1].lost_on_the_way = 17;
-        state.rigs[2].colour = state.rigs[2].depth = nullptr;
+        state.rigs[2].colour = state.rigs[2].depth = state.rigs[2].mask = nullptr;
         DeskOutput film, srt, v4l2;
         film.name = "film flight.mkv";
         film.state = "on";
         film.is_on = true;
         film.mbit_s = 6.2;
+        film.queued = 1;
         srt.name = "srt://0.0.0.0:9000?mode=listener";
         srt.state = "waiting for a caller";
         v4l2.name = "v4l2:/dev/video10";
@@ -49,6 +54,7 @@ class ExampleDesk {
         v4l2.failure = "/dev/video10 cannot be opened: No such file or directory";
         state.outputs = {film, srt, v4l2};
         state.move_progress = 0.4;
+        state.move = DeskMove{12, {0, 0.25, 0.6, 1}};
         state.coverage = Coverage{.share = 0.97};
         DeskTime time;
         time.oldest = 1000;
@@ -111,7 +117,7 @@ class ExampleDesk {
         state.wheel_map = wheel;
     }
 
-    Texture picture, colour, depth, preview_picture;
+    Texture picture, colour, depth, mask, preview_picture;
     DeskState state;
 
   private:
@@ -123,6 +129,7 @@ class ExampleDesk {
         rig.latency_ms = 60;
         rig.colour = &colour;
         rig.depth = &depth;
+        rig.mask = &mask;
         rig.nearest_m = 2.1;
         rig.farthest_m = 6.4;
         rig.temperature_c = 61;

@@ -167,6 +167,17 @@ TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
     EXPECT_EQ(cv::countNonZero(DepthImage(set.depth().download()) <= 0), 0);
 }
 
+TEST_F(StagedPreparerTest, TellsWherePerformersAreForPeopleToLookAt) {
+    for (int i = 0; i < 8; ++i) (void)prepared(film(false));
+    EXPECT_EQ(cv::countNonZero(preparer_.set_memory()->states().at(0).matte > 20), 0);
+    // It is looked at once a second.
+    for (int i = 0; i < 6; ++i) (void)prepared(film(true));
+    const cv::Mat1b matte = preparer_.set_memory()->states().at(0).matte;
+    ASSERT_EQ(matte.size(), cv::Size(staged_width_px, staged_height_px));
+    EXPECT_GT(cv::mean(matte, square(-2))[0], 230);
+    EXPECT_LT(cv::mean(matte, ~square(4))[0], 5);
+}
+
 TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
     auto learnt = std::make_shared<LearntSet>(preparer_.set_memory()->learnt());

@@ -46,9 +46,10 @@ TEST_F(OutputSwitchTest, ForgetsAPressAfterAWhileOrAnotherOne) {
     EXPECT_TRUE(desk_.is_wanted(1));
 }
 
-TEST_F(OutputSwitchTest, PassesOverKeysOfNoOutput) {
-    for (const int number : {0, 3, 8, -1}) switch_.press(number, now_);
-    EXPECT_EQ(switch_.question(now_), "");
+TEST_F(OutputSwitchTest, SaysThatThereIsNoSuchOutput) {
+    for (const int number : {0, -1, 8, 3}) switch_.press(number, now_);
+    EXPECT_EQ(switch_.question(now_), "there is no output 3: --output adds one");
+    EXPECT_EQ(switch_.question(now_ + 4s), "");
 }
 
 }  // namespace

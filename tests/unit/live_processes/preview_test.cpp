@@ -5,42 +5,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host_app/control/freed/freed_message.h"
-#include "host_app/control/ports/udp_socket.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/source_folder.h"
+#include "tests/unit/live_processes/camera_on_air.h"
 #include "tests/unit/live_processes/steered_show.h"
 
 namespace vantage {
 namespace {
-
-/// The camera of every tick that is put out, as a graphics computer would hear it.
-class CameraOnAir {
-  public:
-    explicit CameraOnAir(int port)
-        : socket_(UdpSocket::bound({"127.0.0.1", port, true}, "the test")) {}
-
-    /// Of the next tick.
-    Pose next() {
-        for (int i = 0; i < 600; ++i)
-            if (const auto message = socket_.receive(std::chrono::milliseconds(100)))
-                if (const auto camera = decode_freed(message->bytes))
-                    return camera->world_from_camera;
-        ADD_FAILURE() << "no camera came";
-        return Pose::Identity();
-    }
-    /// Of the ticks that have come meanwhile too, the last one.
-    Pose newest() {
-        while (socket_.receive(std::chrono::milliseconds(0)))
-            ;
-        return next();
-    }
-
-  private:
-    UdpSocket socket_;
-};
-
-double way_m(const Pose& a, const Pose& b) { return (a.translation() - b.translation()).norm(); }
 
 TEST(Preview, IsFlownWhileTheProgrammeStandsUntilACutOrAFlightBringsItToAir) {
     const TemporaryFolder folder;

@@ -2,68 +2,19 @@
 #include <memory>
 #include <string>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "common/base/atomic_file.h"
 #include "common/config/stage_config.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/free_ports.h"
+#include "tests/unit/live_processes/attended.h"
 
 namespace vantage {
 namespace {
-
-/// The event of that name among lines of JSON; null if it has not come.
-nlohmann::json event_of(const std::string& out, const std::string& name, std::size_t skip = 0) {
-    std::istringstream lines(out);
-    for (std::string line; std::getline(lines, line);) {
-        const nlohmann::json event = nlohmann::json::parse(line, nullptr, false);
-        if (!event.is_discarded() && event["event"] == name && skip-- == 0) return event;
-    }
-    return {};
-}
-
-/// A program with a person at its standard input.
-class Attended {
-  public:
-    Attended(const std::string& program, const std::string& arguments,
-             const std::filesystem::path& folder, const std::string& name)
-        : pipe_(folder / (name + ".in")) {
-        if (mkfifo(pipe_.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
-        std::filesystem::create_directories(folder / name);
-        // Opened both ways, so that neither end waits for the other.
-        fd_ = open(pipe_.c_str(), O_RDWR | O_CLOEXEC);
-        child_ = std::make_unique<ChildProgram>(
-            "/bin/sh",
-            std::vector<std::string>{
-                "-c", fmt::format("exec '{}' {} <'{}'", program, arguments, pipe_.string())},
-            folder / name);
-    }
-    ~Attended() { close(fd_); }
-
-    nlohmann::json wait_for(const std::string& event, std::size_t skip = 0) const {
-        for (int i = 0; i < 1500; ++i, usleep(20'000))
-            if (nlohmann::json found = event_of(child_->out(), event, skip); !found.is_null())
-                return found;
-        ADD_FAILURE() << "no " << event << " in: " << child_->out() << child_->err();
-        return {{"code", ""}};
-    }
-    void type(const std::string& line) const {
-        const std::string text = line + "\n";
-        ASSERT_EQ(write(fd_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-    }
-    ProgramResult end() { return child_->wait(); }
-
-  private:
-    std::filesystem::path pipe_;
-    int fd_ = -1;
-    std::unique_ptr<ChildProgram> child_;
-};
 
 struct SetupTest : testing::Test {
     TemporaryFolder folder;
@@ -91,14 +42,6 @@ struct SetupTest : testing::Test {
             VANTAGE_PROGRAM, fmt::format("setup --json --stage '{}' {}", stage.string(), options),
             folder.path(), name);
     }
-    /// Each types what the other shows.
-    static void compare(const Attended& host, const Attended& rig, std::size_t codes_before) {
-        const std::string at_rig = rig.wait_for("code")["code"];
-        const std::string at_host = host.wait_for("code", codes_before)["code"];
-        EXPECT_EQ(at_rig, at_host);
-        host.type(at_rig);
-        rig.type(at_host);
-    }
 };
 
 TEST_F(SetupTest, MakesAStageOfTwoRigsThatLiveShowsWithTheirKeys) {
@@ -111,9 +54,9 @@ TEST_F(SetupTest, MakesAStageOfTwoRigsThatLiveShowsWithTheirKeys) {
     const auto host = set_up(fmt::format("--rig 127.0.0.1:{} --rig 127.0.0.1:{} --wait 60",
                                          pairings.first, pairings.second),
                              "setup");
-    compare(*host, *north_pair, 0);
+    compare_codes(*host, *north_pair, 0);
     EXPECT_EQ(north_pair->end().status, 0);
-    compare(*host, *south_pair, 1);
+    compare_codes(*host, *south_pair, 1);
     EXPECT_EQ(south_pair->end().status, 0);
     // Their daemons are started with what pairing wrote, and setup, which waits for them, looks.
     const ChildProgram north_runs(VANTAGE_RIG_PROGRAM, {"run", "--config", north},

@@ -72,6 +72,21 @@ TEST_F(OutputDeskTest, EachIsBegunEndedAndFailsByItself) {
     EXPECT_NE(thrown_sentence([&] { desk.add("srt://nowhere"); }), "");
 }
 
+TEST_F(OutputDeskTest, OneMayWaitUntilItIsAskedFor) {
+    OutputDesk desk(settings({at("a.mkv") + "?start=off"}));
+    const auto sink = desk.sink();
+    give(desk, *sink, 0, 5);
+    EXPECT_EQ(desk.states()[0].phase, OutputPhase::off);
+    EXPECT_FALSE(std::filesystem::exists(at("a.mkv")));
+    desk.start(0);
+    give(desk, *sink, 5, 5);
+    desk.finish();
+    EXPECT_EQ(desk.states()[0].dropped, 0u);
+    EXPECT_EQ(probe_film(at("a.mkv")).times_s.size(), 5u);
+    EXPECT_NE(thrown_sentence([&] { desk.add(at("b.mkv") + "?start=later"); }).find("on or off"),
+              std::string::npos);
+}
+
 TEST_F(OutputDeskTest, RefusesWhatCannotBeTogether) {
     EXPECT_NE(thrown_sentence([&] {
                   OutputDesk::check(settings({at("a.mkv"), at("a.mkv")}));

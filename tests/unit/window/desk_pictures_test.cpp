@@ -59,6 +59,11 @@ TEST_P(DeskPictures, OfAWheelsMapAreThoseThatWereLookedAt) {
     expect_as_looked_at("jog", [](ExampleDesk& desk) { desk.open_wheel_map(); });
 }
 
+/// As large as displays are.
+class DeskLargePictures : public DeskPictures {};
+
+TEST_P(DeskLargePictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk"); }
+
 /// States in which the desk is laid out as in another one, but for a part.
 class DeskStatePictures : public DeskPictures {};
 
@@ -76,6 +81,8 @@ std::string name_of_size(const testing::TestParamInfo<cv::Size>& size) {
 INSTANTIATE_TEST_SUITE_P(Sizes, DeskPictures,
                          testing::Values(cv::Size(640, 360), cv::Size(1280, 720),
                                          cv::Size(1920, 1080)),
+                         name_of_size);
+INSTANTIATE_TEST_SUITE_P(Sizes, DeskLargePictures, testing::Values(cv::Size(3840, 2160)),
                          name_of_size);
 INSTANTIATE_TEST_SUITE_P(Sizes, DeskStatePictures,
                          testing::Values(cv::Size(640, 360), cv::Size(1280, 720)), name_of_size);

@@ -1,5 +1,6 @@
 #include "host_app/desk/operator_window.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
@@ -213,7 +214,9 @@ TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
     EXPECT_GT(plain, 100) << "the panels' words";
     after({"key", "F1"});
     EXPECT_GT(bright(), plain + 500);
-    after({"key", "F1"});
+    const int pages = window_->drawn().help_pages;
+    EXPECT_GT(pages, 1) << "the window is small";
+    for (int page = 1; page <= pages; ++page) after({"key", "F1"});
     EXPECT_LT(bright(), plain + 100);
     after({"key", "Tab"});
     EXPECT_LT(bright(), plain / 2);
@@ -276,6 +279,33 @@ TEST_F(OperatorHands, ShiftAndTabPutTheRigsAway) {
     EXPECT_TRUE(window_->arrangement().switches.panels);
 }
 
+TEST_F(OperatorHands, RigsHaveAWindowOfTheirOwnWhenAsked) {
+    show_the_desk();
+    Texture colour(TextureFormat::rgba8, 160, 120, Filter::linear);
+    colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
+    state_.rigs.resize(4);
+    for (DeskRig& rig : state_.rigs) {
+        rig.state = RigState::present;
+        rig.colour = &colour;
+    }
+    look(0);
+    EXPECT_EQ(window_->rigs_window(), nullptr);
+    after({"key", "ctrl+shift+Tab"});
+    ASSERT_NE(window_->rigs_window(), nullptr);
+    EXPECT_TRUE(window_->arrangement().switches.rigs) << "Tab with other keys is another key";
+    const auto pixels_of_rigs = [](const ColourImage& shown) {
+        return std::count(shown.begin(), shown.end(), cv::Vec4b(150, 60, 60, 255));
+    };
+    EXPECT_GT(pixels_of_rigs(window_->rigs_window()->screenshot()), 4 * 20000);
+    EXPECT_EQ(pixels_of_rigs(window_->screenshot()), 0) << "they are there in place of here";
+    screen_->hands({"search", "--sync", "--name", "Vantage rigs", "windowfocus"});
+    EXPECT_TRUE(after({"key", "p"}).toggle_move) << "its keys are the desk's";
+    after({"key", "ctrl+shift+Tab"});
+    EXPECT_EQ(window_->rigs_window(), nullptr);
+    EXPECT_TRUE(window_->arrangement().rigs_window) << "it comes back where it was";
+    EXPECT_GT(pixels_of_rigs(window_->screenshot()), 4 * 1000);
+}
+
 TEST_F(OperatorHands, TheDeskIsArrangedAsItWasLeft) {
     DeskArrangement desk = window_->arrangement();
     desk.switches = {.panels = true, .rigs = false, .outside = true, .eye = {1, 0.3, 0.1}};
@@ -315,6 +345,11 @@ TEST_F(OperatorHands, ATakeThatRunsIsEndedByTheSecondPressOnly) {
 TEST_F(OperatorHands, AKeyframeIsTakenOutByTheSecondPressOnly) {
     EXPECT_FALSE(after({"key", "x"}).remove_keyframe);
     EXPECT_TRUE(after({"key", "x"}).remove_keyframe);
+}
+
+TEST_F(OperatorHands, TheSetIsForgottenByTheSecondPressOnly) {
+    EXPECT_FALSE(after({"key", "ctrl+j"}).learn_set);
+    EXPECT_TRUE(after({"key", "ctrl+j"}).learn_set);
 }
 
 TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {

@@ -1,0 +1,72 @@
+#include "host_app/desk/window_screen.h"
+
+#include <algorithm>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include "common/gl/limits.h"
+#include "host_app/desk/desk_arrangement.h"
+#include "host_app/desk/desk_layout.h"
+
+namespace vantage {
+namespace {
+
+/// Enough of it to be taken hold of.
+bool is_on_a_monitor(const WindowPlace& place) {
+    constexpr int least_px = 64;
+    const auto shared = [](int from, int length, int other_from, int other_length) {
+        return std::min(from + length, other_from + other_length) - std::max(from, other_from);
+    };
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0, width = 0, height = 0;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
+        if (shared(place.x, place.width, x, width) >= least_px &&
+            shared(place.y, place.height, y, height) >= least_px)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void WindowScreen::present(GLFWwindow* window) const {
+    const cv::Size size = target.size();
+    // Our pictures have their top in row 0, the window's has its bottom there.
+    target.bind();
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, size.height, size.width, 0,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    check_gl("showing the operator's desk");
+    glfwSwapBuffers(window);
+}
+
+bool fit_screen(GLFWwindow* window, UiContext& ui, UiRenderer& renderer,
+                std::unique_ptr<WindowScreen>& screen) {
+    int width_px = 0, height_px = 0;
+    glfwGetFramebufferSize(window, &width_px, &height_px);
+    if (width_px < 1 || height_px < 1) return false;
+    const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+    float scale = 1, scale_y = 1;
+    glfwGetWindowContentScale(window, &scale, &scale_y);
+    if (const float letter_px = letter_height_px(width, height, scale);
+        letter_px != ui.letter_px()) {
+        ui.set_letter_px(letter_px);
+        renderer.take_fonts();
+    }
+    ImGui::GetIO().DisplaySize = {width, height};
+    if (!screen || screen->target.size() != cv::Size(width_px, height_px))
+        screen = std::make_unique<WindowScreen>(width_px, height_px);
+    return true;
+}
+
+void put_window(GLFWwindow* window, const WindowPlace& place) {
+    glfwSetWindowSize(window, place.width, place.height);
+    if (is_on_a_monitor(place)) glfwSetWindowPos(window, place.x, place.y);
+    if (place.is_maximised) glfwMaximizeWindow(window);
+}
+
+}  // namespace vantage

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "host_app/control/freed/freed_message.h"
+#include "host_app/control/ports/udp_socket.h"
+
+namespace vantage {
+
+/// The camera of every tick that is put out, as a graphics computer would hear it.
+class CameraOnAir {
+  public:
+    explicit CameraOnAir(int port)
+        : socket_(UdpSocket::bound({"127.0.0.1", port, true}, "the test")) {}
+
+    /// Of the next tick.
+    Pose next() {
+        for (int i = 0; i < 600; ++i)
+            if (const auto message = socket_.receive(std::chrono::milliseconds(100)))
+                if (const auto camera = decode_freed(message->bytes))
+                    return camera->world_from_camera;
+        ADD_FAILURE() << "no camera came";
+        return Pose::Identity();
+    }
+    /// Of the ticks that have come meanwhile too, the last one.
+    Pose newest() {
+        while (socket_.receive(std::chrono::milliseconds(0)))
+            ;
+        return next();
+    }
+
+  private:
+    UdpSocket socket_;
+};
+
+inline double way_m(const Pose& a, const Pose& b) {
+    return (a.translation() - b.translation()).norm();
+}
+
+}  // namespace vantage
