@@ -5,6 +5,8 @@
 # As root, with loop devices and xfsprogs: XFS copies an image of a disk at one moment. Everything goes to out/power_cut/;
 # closes with a line `N passed, N failed`.
 set -euo pipefail
+# What is mounted is nobody else's, and goes with this process.
+[ -n "${HAS_OWN_MOUNTS:-}" ] || exec env HAS_OWN_MOUNTS=1 unshare --mount "$0" "$@"
 cd "$(dirname "$0")/../.."
 cuts=${1:-20}
 case "$cuts" in
