@@ -94,6 +94,10 @@ void TakeRecorder::offer(const ArrivedFrame& frame) {
     offer_with_pre_roll({frame, {}, nullptr, frame.arrival});
 }
 
+void TakeRecorder::offer(const CameraRecord& camera, MonotonicTime now) {
+    offer_with_pre_roll({std::nullopt, camera, nullptr, now});
+}
+
 void TakeRecorder::offer(const SoundBlock& sound) {
     offer_with_pre_roll(
         {std::nullopt, {}, std::make_shared<const SoundBlock>(sound), MonotonicClock::now()});
@@ -145,11 +149,6 @@ std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
         queue_.pop_front();
     }
     return items;
-}
-
-void TakeRecorder::offer(const CameraRecord& camera) {
-    const std::lock_guard lock(mutex_);
-    if (is_taking_ && !is_ending_) push({std::nullopt, camera, nullptr, {}});
 }
 
 void TakeRecorder::begin(const std::filesystem::path& path) {
@@ -261,7 +260,11 @@ void TakeRecorder::work(Take& take, std::vector<Item> items) {
         while (!take.first_arrival && !take.held_sound.empty() &&
                take.held_sound.back().end() - take.held_sound.front().first > sound_before)
             take.held_sound.pop_front();
-        if (!item.frame) continue;
+        if (!item.frame) {
+            // Before the first frame there is no time of the take's own.
+            if (!item.sound && take.first_arrival) take.held.push_back(std::move(item));
+            continue;
+        }
         try {
             look_at_first(take, item);
             take.held.push_back(std::move(item));

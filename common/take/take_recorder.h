@@ -77,7 +77,7 @@ class TakeRecorder {
 
     /// Never wait.
     void offer(const ArrivedFrame& frame);
-    void offer(const CameraRecord& camera);
+    void offer(const CameraRecord& camera, MonotonicTime now = MonotonicClock::now());
     /// What was heard, in its order. Precondition: Settings::has_sound.
     void offer(const SoundBlock& sound);
 

@@ -209,7 +209,12 @@ TakePart part_of(const TakeReader& take, const TakeOptions& options) {
     part.to =
         options.to.empty() ? span.last + 1 : pulse_of(take, options.to, span.first, span.last);
     part.every = options.every;
-    if (part.from >= part.to) fail("--from {} is not before --to {}", options.from, options.to);
+    if (part.from > span.last)
+        fail("--from {} is after the end of {}, which is {:.1f} s long", options.from, options.take,
+             take.duration_s());
+    if (part.from >= part.to)
+        fail("--from {} is not before --to {}", options.from.empty() ? "0" : options.from,
+             options.to);
     return part;
 }
 

@@ -59,6 +59,7 @@ TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_
                    std::chrono::nanoseconds pre_roll, bool has_sound)
     : path_(std::move(path)),
       folder_(std::move(folder)),
+      has_pre_roll_(pre_roll.count() > 0),
       has_sound_(has_sound),
       recorder_(recorder_settings(stage, stage_file, pre_roll, has_sound)) {
     if (!folder_.empty() && !std::filesystem::is_directory(folder_))
@@ -82,7 +83,7 @@ StageFeed TakeDesk::feed(StageFeed feed) {
     feed.ask = [this](const std::string& rig, bool streaming) {
         const std::lock_guard lock(mutex_);
         wishes_[rig] = streaming;
-        ask_(rig, streaming || recorder_.is_running());
+        ask_(rig, streaming || wants_all());
         if (look_at_) look_at_(rig, streaming);
     };
     return feed;
@@ -94,8 +95,8 @@ std::unique_ptr<PictureSink> TakeDesk::camera_sink() {
 
 void TakeDesk::ask_all() {
     const std::lock_guard lock(mutex_);
-    const bool is_running = recorder_.is_running();
-    for (const auto& [rig, streaming] : wishes_) ask_(rig, streaming || is_running);
+    const bool all = wants_all();
+    for (const auto& [rig, streaming] : wishes_) ask_(rig, streaming || all);
 }
 
 void TakeDesk::begin(const std::filesystem::path& path) {

@@ -14,8 +14,8 @@
 
 namespace vantage {
 
-/// Begins and ends a live session's takes. While one runs every rig is asked for its frames, also
-/// those that the programme does not need now. Thread-safe.
+/// Begins and ends a live session's takes. While one runs, and always where takes have a pre-roll,
+/// every rig is asked for its frames, also those that the programme does not need now. Thread-safe.
 class TakeDesk {
   public:
     /// `stage_file` is attached to every take, and the rigs' colour files are. Without a `path`
@@ -27,8 +27,8 @@ class TakeDesk {
 
     /// For the receiver; this must outlive it.
     FrameTap tap();
-    /// The same feed, whose rigs send while a take runs; those that the programme does not need are
-    /// not decoded then. This must outlive it.
+    /// The same feed, whose rigs send while a take wants them; those that the programme does not
+    /// need are not decoded then. This must outlive it.
     StageFeed feed(StageFeed feed);
     /// Records what is heard; empty: takes have no sound. This must outlive it.
     std::function<void(const SoundBlock&)> sound_tap();
@@ -46,10 +46,11 @@ class TakeDesk {
     TakeRecorder::PreRoll pre_roll() const { return recorder_.pre_roll(); }
 
   private:
+    bool wants_all() const { return has_pre_roll_ || recorder_.is_running(); }
     void ask_all();
 
     std::filesystem::path path_, folder_;
-    bool has_sound_;
+    bool has_pre_roll_, has_sound_;
     TakeRecorder recorder_;
     std::mutex mutex_;
     std::function<void(const std::string&, bool)> ask_, look_at_;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds every fuzz target and runs each in turn on what it has found so far.
+# Builds every fuzz target, or those that are named, and runs each in turn on what it has found so far.
 #   tests/fuzz/run_fuzz.sh [SECONDS a target, default 60] [TARGET...]
 # Inputs are kept in build/fuzz/corpus/TARGET and grow from run to run; what broke a decoder is left in
 # build/fuzz/found/ for `build/fuzz/bin/TARGET_fuzz FILE` to repeat. Closes with a line `N passed, N failed`.
@@ -13,12 +13,16 @@ fi
 case "$seconds" in
   *[!0-9]* | "" | 0) echo "run_fuzz.sh: '$seconds' is no number of seconds above 0" >&2; exit 2 ;;
 esac
-tools/build.sh fuzz vantage_fuzz_targets || exit 1
+targets=("$@")
+if [ ${#targets[@]} -eq 0 ]; then
+  tools/build.sh fuzz vantage_fuzz_targets || exit 1
+else
+  tools/build.sh fuzz make_seeds "${targets[@]/%/_fuzz}" || exit 1
+fi
 
 corpus=build/fuzz/corpus found=build/fuzz/found
 mkdir -p "$corpus" "$found"
 build/fuzz/bin/make_seeds "$corpus" || exit 1
-targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
   for program in build/fuzz/bin/*_fuzz; do targets+=("$(basename "$program" _fuzz)"); done
 fi

@@ -86,9 +86,14 @@ TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
     wanted.pre_roll = 2s;
     TakeRecorder recorder(wanted);
     const MonotonicTime start = MonotonicTime(100s);
-    for (std::uint64_t pulse = 1000; pulse <= 1100; ++pulse)
-        for (const std::size_t rig : {0, 1})
-            recorder.offer(arrived(rig, pulse, start + (pulse - 1000) * 40ms));
+    for (std::uint64_t pulse = 1000; pulse <= 1100; ++pulse) {
+        const MonotonicTime now = start + (pulse - 1000) * 40ms;
+        for (const std::size_t rig : {0, 1}) recorder.offer(arrived(rig, pulse, now));
+        CameraRecord camera;
+        camera.tick = pulse;
+        camera.time = PulseGrid(25).time_of(pulse);
+        recorder.offer(camera, now);
+    }
     EXPECT_NEAR(recorder.pre_roll().seconds, 2, 0.05);
     EXPECT_GT(recorder.pre_roll().bytes, 0u);
     recorder.begin(take_);
@@ -98,6 +103,8 @@ TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
     EXPECT_EQ(reader.frames(0).front().pulse, 1050u);
     EXPECT_EQ(reader.frames(0).size(), 52u) << "neither a frame twice nor one missing";
     EXPECT_EQ(reader.frames(0).back().pulse, 1101u);
+    ASSERT_EQ(reader.cameras().size(), 51u) << "the programme's flight begins with it";
+    EXPECT_EQ(reader.cameras().front().tick, 1050u);
     EXPECT_EQ(recorder.state().gaps, 0u);
 }
 
