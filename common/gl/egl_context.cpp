@@ -8,6 +8,7 @@
 #include <EGL/eglext.h>
 #include <fcntl.h>
 #include <gbm.h>
+#include <malloc.h>
 
 #include "common/base/error.h"
 #include "common/base/unique_fd.h"
@@ -147,6 +148,8 @@ EglContext::~EglContext() {
     if (eglGetCurrentContext() == context_)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
+    // What a driver's compiler took, the allocator keeps: 80 MiB of llvmpipe with each reset.
+    ::malloc_trim(0);
 }
 
 bool EglContext::has_extension(const char* egl_extension) const {

@@ -1,6 +1,8 @@
 #include "common/receive/link_budget.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace vantage {
 namespace {
@@ -17,22 +19,42 @@ double mbit_s(double bytes_a_frame, double rate_hz) {
     return bits_a_byte * wire_bytes_a_byte * bytes_a_frame * rate_hz / bits_a_mbit;
 }
 
-/// Of one frame; of a quality that the ladder lacks, as it is.
-double bytes_at(const RigWeight& weight, std::optional<int> quality) {
-    double colour = weight.colour_bytes;
-    for (const RigWeight::AtQuality& step : weight.ladder)
-        if (step.quality == quality) colour = std::min(colour, step.colour_bytes);
-    return colour + weight.other_bytes;
+/// What one frame of a rig weighs.
+using BytesOf = std::function<double(const RigWeight&)>;
+
+/// Of a quality that the ladder lacks, as it is.
+BytesOf at_quality(std::optional<int> quality) {
+    return [quality](const RigWeight& weight) {
+        double colour = weight.colour_bytes;
+        for (const RigWeight::AtQuality& step : weight.ladder)
+            if (step.quality == quality) colour = std::min(colour, step.colour_bytes);
+        return colour + weight.other_bytes;
+    };
 }
 
+/// Of a size that was not tried, as it is.
+BytesOf at_scale(double scale) {
+    return [scale](const RigWeight& weight) {
+        for (const RigWeight::AtScale& step : weight.smaller)
+            if (step.scale == scale)
+                return step.colour_share * weight.colour_bytes + scale * scale * weight.other_bytes;
+        return weight.colour_bytes + weight.other_bytes;
+    };
+}
+
+/// `rigs`: the heaviest ones that send at a time; 0: all.
 LinkBudget budget_at(const std::vector<RigWeight>& weights, double rate_hz,
-                     const LinkLimits& limits, std::optional<int> quality) {
+                     const LinkLimits& limits, const BytesOf& bytes_of, std::size_t rigs = 0) {
     LinkBudget budget;
+    std::vector<double> sent;
     for (const RigWeight& weight : weights) {
-        const double needed = mbit_s(bytes_at(weight, quality), rate_hz);
+        const double needed = mbit_s(bytes_of(weight), rate_hz);
         budget.rigs.push_back({weight.rig, needed, needed / (planned_share * limits.rig_mbit_s)});
-        budget.host_mbit_s += needed;
+        sent.push_back(needed);
     }
+    std::sort(sent.begin(), sent.end(), std::greater<>());
+    if (rigs > 0 && rigs < sent.size()) sent.resize(rigs);
+    budget.host_mbit_s = std::accumulate(sent.begin(), sent.end(), 0.0);
     budget.host_share = budget.host_mbit_s / (planned_share * limits.host_mbit_s);
     return budget;
 }
@@ -46,7 +68,7 @@ bool LinkBudget::fits() const {
 
 LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
                       const LinkLimits& limits) {
-    LinkBudget budget = budget_at(weights, rate_hz, limits, std::nullopt);
+    LinkBudget budget = budget_at(weights, rate_hz, limits, at_quality(std::nullopt));
     if (budget.fits() || weights.empty()) return budget;
     // Each divisor once, with the best quality that fits it; a coarser one at a lower rate is worse
     // in both.
@@ -56,11 +78,24 @@ LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
     std::size_t coarsest = qualities.size();
     for (int divisor = 1; divisor <= most_divisor && coarsest > 0; ++divisor)
         for (std::size_t i = 0; i < coarsest; ++i) {
-            const LinkBudget then = budget_at(weights, rate_hz / divisor, limits, qualities[i]);
+            const LinkBudget then =
+                budget_at(weights, rate_hz / divisor, limits, at_quality(qualities[i]));
             if (!then.fits()) continue;
             budget.proposals.push_back({qualities[i], divisor, then.host_mbit_s});
             coarsest = i;
         }
+    for (const RigWeight::AtScale& step : weights.front().smaller) {
+        const LinkBudget then = budget_at(weights, rate_hz, limits, at_scale(step.scale));
+        if (!then.fits()) continue;
+        budget.proposals.push_back({.host_mbit_s = then.host_mbit_s, .scale = step.scale});
+        break;
+    }
+    const std::size_t rigs = limits.programme_rigs;
+    if (rigs > 0 && rigs < weights.size()) {
+        const LinkBudget then = budget_at(weights, rate_hz, limits, at_quality(std::nullopt), rigs);
+        if (then.fits())
+            budget.proposals.push_back({.host_mbit_s = then.host_mbit_s, .rigs = rigs});
+    }
     return budget;
 }
 

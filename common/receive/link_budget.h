@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,15 +14,23 @@ struct RigWeight {
         int quality = 0;
         double colour_bytes = 0;
     };
+    /// Of a smaller picture of the same things.
+    struct AtScale {
+        double scale = 1;         ///< of width and height
+        double colour_share = 1;  ///< of the colour's bytes
+    };
     std::string rig;
     int frames = 0;                   ///< that were measured
     double colour_bytes = 0;          ///< mean of a frame
     double other_bytes = 0;           ///< disparity and header, likewise
     std::vector<AtQuality> ladder{};  ///< from the best to the coarsest
+    std::vector<AtScale> smaller{};   ///< from the largest to the smallest
 };
 
 struct LinkLimits {
     double rig_mbit_s = 1000, host_mbit_s = 1000;  ///< what the networks' interfaces say
+    /// Rigs that a programme without a take asks for at a time; 0: all.
+    std::size_t programme_rigs = 0;
 };
 
 /// What a stage asks of its networks.
@@ -31,11 +40,14 @@ struct LinkBudget {
         double mbit_s = 0;  ///< on the wire
         double share = 0;   ///< of what its link carries steadily; above 1 it does not fit
     };
-    /// A way to make it fit: a JPEG quality, or every n-th pulse only, or both.
+    /// A way to make it fit: a JPEG quality, or every n-th pulse only, or both; smaller pictures;
+    /// or only the rigs that a programme needs.
     struct Proposal {
         std::optional<int> jpeg_quality{};
         int rate_divisor = 1;
         double host_mbit_s = 0;
+        double scale = 1;      ///< of width and height
+        std::size_t rigs = 0;  ///< at a time; 0: all
     };
     std::vector<Rig> rigs;
     double host_mbit_s = 0, host_share = 0;

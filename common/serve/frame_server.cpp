@@ -25,6 +25,9 @@ constexpr int receive_high_water_mark = 64;
 /// A host that talks without end does not keep frames from leaving.
 constexpr int messages_per_turn = 64;
 constexpr std::chrono::seconds handshake_limit{5};
+/// At the end, for hosts to take what was sent. Without it ZeroMQ aborts where a host leaves at
+/// that moment with a frame half sent (libzmq issue 3442).
+constexpr std::chrono::milliseconds farewell{200};
 /// Between lines about messages that are no host's.
 constexpr std::chrono::seconds complaint_period{10};
 
@@ -65,7 +68,7 @@ std::uint64_t FrameServer::malformed() const {
 
 void FrameServer::bind(const Settings& settings) {
     const Endpoint wanted = parse_endpoint(settings.bind, settings.bind_option);
-    router_.set(zmq::sockopt::linger, 0);
+    router_.set(zmq::sockopt::linger, option_ms(farewell));
     router_.set(zmq::sockopt::router_mandatory, true);
     router_.set(zmq::sockopt::sndhwm, send_high_water_mark);
     router_.set(zmq::sockopt::rcvhwm, receive_high_water_mark);

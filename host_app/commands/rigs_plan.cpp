@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
 #include "common/base/stop_signal.h"
@@ -16,6 +17,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/colour_codec.h"
 #include "common/wire/frame_codec.h"
+#include "host_app/instants/rig_demand.h"
 
 namespace vantage {
 namespace {
@@ -23,12 +25,15 @@ namespace {
 struct PlanOptions {
     std::string stage;
     double seconds = 3, wait_s = 10, rate_hz = 0;
-    LinkLimits limits;
+    LinkLimits limits{.programme_rigs = RigDemand::most_rigs};
     bool start = false, json = false;
 };
 
 /// Qualities that are tried where it does not fit as it is.
 constexpr int ladder[] = {90, 85, 80, 75, 70, 65, 60, 50, 40};
+/// Likewise sizes, of width and height, at a usual quality.
+constexpr double smaller_by[] = {0.75, 0.5};
+constexpr int usual_quality = 85;
 
 /// Sums of what came, by rig.
 class Scales {
@@ -59,8 +64,8 @@ class Scales {
     std::vector<RigWeight> weights_;
 };
 
-/// A rig's latest picture, packed anew at every quality with the chroma that it sends; what is sent
-/// without loss has that of a rig that is not told any.
+/// A rig's latest picture, packed anew at every quality and size with the chroma that it sends;
+/// what is sent without loss has that of a rig that is not told any.
 void weigh(const RigFrame& frame, RigWeight& weight) {
     const bool is_jpeg = decode_frame_head(frame.packed->header).colour == FrameHead::Colour::jpeg;
     const Chroma chroma = is_jpeg ? JpegDecoder().chroma_of(frame.packed->colour) : Chroma::quarter;
@@ -68,6 +73,13 @@ void weigh(const RigFrame& frame, RigWeight& weight) {
     for (const int quality : ladder)
         weight.ladder.push_back(
             {quality, static_cast<double>(encoder.encode(frame.colour, quality, chroma).size())});
+    const auto whole = encoder.encode(frame.colour, usual_quality, chroma).size();
+    for (const double scale : smaller_by) {
+        cv::Mat smaller;
+        cv::resize(frame.colour, smaller, {}, scale, scale, cv::INTER_AREA);
+        const auto bytes = encoder.encode(smaller, usual_quality, chroma).size();
+        weight.smaller.push_back({scale, static_cast<double>(bytes) / static_cast<double>(whole)});
+    }
 }
 
 struct Measured {
@@ -107,6 +119,13 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
 }
 
 std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
+    constexpr double percent = 100;
+    if (proposal.scale < 1)
+        return fmt::format("pictures of {:.0f} % of the width and the height",
+                           percent * proposal.scale);
+    if (proposal.rigs > 0)
+        return fmt::format("{} rigs at a time, as a programme asks for that records no take",
+                           proposal.rigs);
     std::string text;
     if (proposal.jpeg_quality) text = fmt::format("jpeg_quality = {}", *proposal.jpeg_quality);
     if (proposal.rate_divisor > 1)
@@ -152,6 +171,8 @@ nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const Link
         nlohmann::ordered_json json{{"rate_divisor", proposal.rate_divisor},
                                     {"host_mbit_s", proposal.host_mbit_s}};
         if (proposal.jpeg_quality) json["jpeg_quality"] = *proposal.jpeg_quality;
+        if (proposal.scale < 1) json["scale"] = proposal.scale;
+        if (proposal.rigs > 0) json["rigs"] = proposal.rigs;
         proposals.push_back(std::move(json));
     }
     return {{"rate_hz", rate_hz},

@@ -314,6 +314,10 @@ bool InstantThread::unless_time_jumps(const InstantWish& wish, const std::functi
         work();
     } catch (const GaveWay&) {
         is_done = false;
+    } catch (...) {
+        // Of what is made anew after a fault nothing gives way.
+        jumps_.reset();
+        throw;
     }
     jumps_.reset();
     return is_done;

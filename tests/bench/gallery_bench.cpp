@@ -1,15 +1,15 @@
 // What the gallery's systems are worth beside `fused` on the same moments: writes the tables of
-// docs/results/gallery.md and docs/gallery.md between their markers, and the contact sheet of one
-// moment, docs/pictures/gallery.jpg.
+// docs/results/gallery.md and docs/gallery.md between their markers, the contact sheet of one
+// moment, docs/pictures/gallery.jpg, and a strip of each system, docs/pictures/gallery/NAME.jpg.
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
 #include "common/gl/egl_context.h"
@@ -22,6 +22,7 @@
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/bench/markdown_tables.h"
+#include "tests/bench/picture_sheet.h"
 #include "tests/bench/run_bench.h"
 #include "tests/support/data_folder.h"
 
@@ -36,7 +37,7 @@ constexpr auto between_instants = 500ms;
 constexpr int instants_before = 16;
 const cv::Size picture_size(320, 240);
 constexpr int edge_band_px = 5;
-constexpr int repeats = 3, sheet_columns = 3;
+constexpr int repeats = 3, sheet_columns = 3, strip_columns = 4;
 
 /// The product's own, then the gallery's, with what can be chosen of them.
 std::vector<std::string> systems() {
@@ -151,36 +152,6 @@ Result run_system(const std::string& name, const Case& one, const ShaderLibrary&
     return result;
 }
 
-void write_label(cv::Mat& picture, const std::string& text) {
-    cv::rectangle(picture, {0, 0, picture.cols, 18}, cv::Scalar(0, 0, 0, 255), cv::FILLED);
-    cv::putText(picture, text, {5, 13}, cv::FONT_HERSHEY_SIMPLEX, 0.45,
-                cv::Scalar(255, 255, 255, 255), 1, cv::LINE_AA);
-}
-
-class Sheet {
-  public:
-    void add(const std::string& label, const ColourImage& picture) {
-        cv::Mat cell = picture.clone();
-        write_label(cell, label);
-        cells_.push_back(cell);
-    }
-    ColourImage picture() const {
-        const int rows = (static_cast<int>(cells_.size()) + sheet_columns - 1) / sheet_columns;
-        ColourImage sheet(rows * picture_size.height, sheet_columns * picture_size.width,
-                          cv::Vec4b(0, 0, 0, 255));
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const int column = static_cast<int>(i) % sheet_columns,
-                      row = static_cast<int>(i) / sheet_columns;
-            cells_[i].copyTo(sheet(cv::Rect(
-                cv::Point(column * picture_size.width, row * picture_size.height), picture_size)));
-        }
-        return sheet;
-    }
-
-  private:
-    std::vector<cv::Mat> cells_;
-};
-
 std::string worth(const Result& result, const Case& one) {
     if (!result.refusal.empty()) return " – |";
     if (!one.truth.depth_m.empty())
@@ -192,6 +163,15 @@ std::string worth(const Result& result, const Case& one) {
                                           covered_mask(result.picture)));
     return fmt::format(" {:.1f} dB, {:.3f}, {:.0f} % |", psnr_db(result.picture, one.truth.colour),
                        ssim(result.picture, one.truth.colour), 100 * coverage(result.picture));
+}
+
+/// Into the strip of its system, whatever its options: the picture, and what is wrong with it.
+void show(std::map<std::string, PictureSheet>& strips, const std::string& system, const Case& one,
+          const ColourImage& picture) {
+    const std::string name = system.substr(0, system.find(':'));
+    PictureSheet& strip = strips.try_emplace(name, picture_size, strip_columns).first->second;
+    strip.add(fmt::format("{}: {}", system, one.name), picture);
+    strip.add("differences, times four", difference_picture(picture, one.truth.colour));
 }
 
 int run(int argc, char** argv) {
@@ -239,7 +219,8 @@ int run(int argc, char** argv) {
     text << " ms |\n| --- |";
     for (std::size_t i = 0; i <= cases.size(); ++i) text << " --- |";
     text << "\n";
-    Sheet sheet;
+    PictureSheet sheet(picture_size, sheet_columns);
+    std::map<std::string, PictureSheet> strips;
     std::vector<std::string> refusals;
     for (const std::string& system : only.empty() ? systems() : only) {
         text << fmt::format("| `{}` |", system);
@@ -251,6 +232,8 @@ int run(int argc, char** argv) {
                 refusals.push_back(fmt::format("- {}: {}.", cases[i].name, result.refusal));
             else if (!folder.empty())
                 write_colour_image(fmt::format("{}/{}-{}.png", folder, system, i), result.picture);
+            if (i >= shown && result.refusal.empty())
+                show(strips, system, cases[i], result.picture);
             if (i == shown) {
                 ms = result.ms;
                 if (result.refusal.empty() && !system.starts_with("lightfield"))
@@ -293,6 +276,9 @@ int run(int argc, char** argv) {
         put_between_markers(documents + "/results/gallery.md", text.str());
         put_between_markers(documents + "/gallery.md", systems_table);
         write_colour_image(documents + "/pictures/gallery.jpg", sheet.picture());
+        for (const auto& [system, strip] : strips)
+            write_colour_image(fmt::format("{}/pictures/gallery/{}.jpg", documents, system),
+                               strip.picture());
     }
     return 0;
 }

@@ -259,7 +259,7 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
 }
 
 TEST_F(MoveFile, TheMovesThatComeWithVantageAreTaken) {
-    for (const char* name : {"demo.toml", "pair.toml", "sweep.toml"}) {
+    for (const char* name : {"demo.toml", "freeze.toml", "pair.toml", "sweep.toml"}) {
         const Move move = Move::load(source_folder() / "hw_config/moves" / name);
         EXPECT_GT(move.duration_s(), 5) << name;
     }

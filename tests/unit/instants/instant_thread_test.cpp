@@ -299,6 +299,20 @@ TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
     EXPECT_EQ(thread_->books().faults, 1) << "it is not tried again";
 }
 
+TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    orders_->draws_next_until_released = true;
+    go_to(std::nullopt, 1);
+    push(3);
+    ASSERT_TRUE(wait_for([&] { return !orders_->draws_next_until_released; }));
+    orders_->is_released = true;
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(thread_->books().faults, 1);
+}
+
 TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));

@@ -54,6 +54,31 @@ TEST(LinkBudget, NamesTheRigWhoseOwnLinkIsTooNarrow) {
     EXPECT_FALSE(budget.proposals.empty());
 }
 
+TEST(LinkBudget, ProposesTheLargestSmallerPicturesThatFit) {
+    std::vector<RigWeight> weights = four_full_size();
+    for (RigWeight& weight : weights) weight.smaller = {{0.9, 0.99}, {0.75, 0.6}, {0.5, 0.3}};
+    const LinkBudget budget = plan_links(weights, 30, {});
+    ASSERT_EQ(budget.proposals.size(), 3u);
+    EXPECT_EQ(budget.proposals[2].scale, 0.75);
+    EXPECT_EQ(budget.proposals[2].rate_divisor, 1);
+    // 0.6 of 700 kB, and 0.75 by 0.75 of 120 kB, of four rigs.
+    EXPECT_NEAR(budget.proposals[2].host_mbit_s, 4 * 8 * (0.42 + 0.0675) * 30 * 1.073, 1);
+}
+
+TEST(LinkBudget, ProposesAProgrammeThatAsksForFewRigs) {
+    LinkLimits limits{.host_mbit_s = 600, .programme_rigs = 2};
+    const LinkBudget budget = plan_links(four_full_size(), 30, limits);
+    ASSERT_FALSE(budget.proposals.empty());
+    EXPECT_EQ(budget.proposals.back().rigs, 2u);
+    EXPECT_NEAR(budget.proposals.back().host_mbit_s, budget.host_mbit_s / 2, 1e-9);
+    limits.rig_mbit_s = 100;
+    for (const LinkBudget::Proposal& one : plan_links(four_full_size(), 30, limits).proposals)
+        EXPECT_EQ(one.rigs, 0u) << "a rig's own link is no wider by that";
+    limits = {.host_mbit_s = 600, .programme_rigs = 4};
+    for (const LinkBudget::Proposal& one : plan_links(four_full_size(), 30, limits).proposals)
+        EXPECT_EQ(one.rigs, 0u) << "all are needed";
+}
+
 TEST(LinkBudget, HasNothingToProposeWhereNothingFits) {
     const LinkBudget budget = plan_links(four_full_size(), 30, {.host_mbit_s = 10});
     EXPECT_FALSE(budget.fits());

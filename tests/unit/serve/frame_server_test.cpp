@@ -1,0 +1,77 @@
+#include "common/serve/frame_server.h"
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <zmq.hpp>
+
+#include <gtest/gtest.h>
+
+#include "common/wire/link_message.h"
+#include "tests/support/eventually.h"
+
+namespace vantage {
+namespace {
+
+/// A host that grants a frame and reads none of it: most of it stays at the rig.
+class StuckHost {
+  public:
+    StuckHost(const std::string& endpoint, std::uint64_t id)
+        : socket_(context_, zmq::socket_type::dealer) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::rcvhwm, 1);
+        socket_.set(zmq::sockopt::rcvbuf, 4096);
+        socket_.connect(endpoint);
+        wish_.host_id = id;
+        say();
+        zmq::message_t welcome;
+        EXPECT_TRUE(socket_.recv(welcome));
+        wish_.link = decode_rig_message({welcome.data<std::byte>(), welcome.size()}).link;
+        say();
+    }
+
+  private:
+    void say() { socket_.send(zmq::buffer(encode(wish_)), zmq::send_flags::none); }
+
+    zmq::context_t context_;
+    zmq::socket_t socket_;
+    HostMessage wish_;
+};
+
+// ZeroMQ aborts the program (libzmq issue 3442) where a connection breaks at the moment at which
+// the socket is closed without lingering, with a message half sent.
+TEST(FrameServer, EndsWellWhileItsHostsLeaveWithFramesHalfSent) {
+    constexpr int rounds = 60;
+    constexpr std::size_t more_than_networks_hold = 8 << 20;
+    auto frame = std::make_shared<PackedFrame>();
+    frame->header.resize(100);
+    frame->colour.resize(more_than_networks_hold);
+    frame->disparity.resize(100);
+    FrameServer::Settings settings;
+    settings.bind = "tcp://127.0.0.1:*";
+    for (int round = 0; round < rounds; ++round) {
+        auto server = std::make_unique<FrameServer>(settings, "rig-a", 42);
+        std::array hosts{std::make_unique<StuckHost>(server->endpoint(), 1),
+                         std::make_unique<StuckHost>(server->endpoint(), 2)};
+        server->tell([&](HostLinks& links) { links.offer(frame); });
+        ASSERT_TRUE(eventually([&] {
+            return server->change([](HostLinks& links) {
+                const auto all = links.hosts();
+                return all.size() == 2 && all[0].counters.sent + all[1].counters.sent == 2;
+            });
+        }));
+        std::atomic<bool> ends = false;
+        std::thread leaving([&] {
+            while (!ends) {
+            }
+            for (auto& host : hosts) host.reset();
+        });
+        ends = true;
+        server.reset();
+        leaving.join();
+    }
+}
+
+}  // namespace
+}  // namespace vantage
