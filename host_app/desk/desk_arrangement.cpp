@@ -67,7 +67,8 @@ DeskArrangement load_desk(const std::filesystem::path& path) {
 std::string to_toml(const DeskArrangement& desk) {
     const DeskSwitches& switches = desk.switches;
     std::string text = fmt::format(
-        "# How the desk of Vantage is arranged; docs/desk.md explains the keys.\nversion = {}\n"
+        "# How the desk of Vantage is arranged; docs/desk_file.md explains the keys.\nversion = "
+        "{}\n"
         "panels = {}\nrigs = {}\nrigs_apart = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
         desk_file_version, switches.panels, switches.rigs, switches.rigs_apart, switches.outside,

@@ -23,8 +23,8 @@ struct DeskArrangement {
     bool operator==(const DeskArrangement&) const = default;
 };
 
-/// Reads a desk file (docs/desk.md shows every key). Throws Error with file and line for whatever
-/// does not fit.
+/// Reads a desk file (docs/desk_file.md shows every key). Throws Error with file and line for
+/// whatever does not fit.
 DeskArrangement load_desk(const std::filesystem::path& path);
 /// As a desk file: what load_desk() reads again, angles to a tenth of a degree.
 std::string to_toml(const DeskArrangement& desk);
