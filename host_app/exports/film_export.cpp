@@ -71,9 +71,7 @@ class FilmInstants {
         if (share == 0) harmoniser_.see(views, std::min(dt_s, longest_gap_s));
         for (DepthView& view : views) harmoniser_.apply(view);
         preparer_->take(views, std::min(dt_s, longest_gap_s));
-        for (std::size_t rig = 0; rig < views.size(); ++rig) {
-            while (preparer_->improve(target)) continue;
-        }
+        for (std::size_t rig = 0; rig < views.size(); ++rig) preparer_->improve(target);
     }
     std::shared_ptr<const Instant> prepared(const VirtualView& target) {
         return preparer_->prepare(target, prepare_levels().front());

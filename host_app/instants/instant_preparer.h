@@ -38,9 +38,13 @@ class InstantPreparer {
     virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                                    const PrepareLevel& level) = 0;
 
-    /// Does a piece of work that betters later instants, when there is time for it: as long as a
-    /// pass takes. `target`: what they are wished for. True: more of the same work is left.
-    virtual bool improve(const VirtualView& /*target*/) { return false; }
+    /// Does a piece of work that betters later instants. `target`: what they are wished for.
+    void improve(const VirtualView& target) {
+        while (improve_a_step(target)) continue;
+    }
+    /// A step of that, as long as a pass takes, where there is no time for more. True: more of the
+    /// same work is left.
+    virtual bool improve_a_step(const VirtualView& /*target*/) { return false; }
 
     /// Goes through all that these views may ever need, and learns nothing of them: a driver
     /// compiles a shader when it is first drawn with, which takes seconds for all of them.

@@ -366,7 +366,7 @@ void InstantThread::prepare_instants() {
     double improving_ms = 0;  ///< that are left for it
     const auto improve = [&](const InstantWish& wish) {
         const MonotonicTime start = MonotonicClock::now();
-        (void)unless_time_jumps(wish, [&] { preparer->improve(wish.target); });
+        (void)unless_time_jumps(wish, [&] { preparer->improve_a_step(wish.target); });
         improving_ms -= ms_since(start);
     };
     const auto has_time_to_improve = [&] {

@@ -338,11 +338,10 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
 
 bool RigConsensus::search(const ComparedView& view, std::span<const ComparedView> all,
                           const Texture& bettered, const Framebuffer& found) {
-    const Look look = look_at(view, all, searched_others);
-    // The others that are compared with all tell whether anything is to be told.
-    if (look->others.size() < searched_others ||
-        !tell_news(view, parallax_px(look_at(view, all, max_others))))
-        return false;
+    const Look wide = look_at(view, all, max_others);
+    if (wide->others.size() < searched_others || !tell_news(view, parallax_px(wide))) return false;
+    const auto look = std::make_shared<LookedAt>(*wide);
+    look->others.resize(searched_others);
     const int rows = view.depth_m->height_px();
     for (int part = 0; part < search_parts; ++part)
         then([=, this, &bettered, &found] {

@@ -55,7 +55,7 @@ void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualVie
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
     (void)prepare(target, best_of_one);
-    while (improve(target)) continue;
+    improve(target);
     level_ = prepare_levels().front();
     rigs_.forget();
     improved_s_ = now_s_;
@@ -173,16 +173,19 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
     std::deque<RigConsensus::Step> steps;
     if (level.is_refined) steps = consensus_.in_steps([&] { depth_m = &bettered_set(rig); });
     const std::optional<RigHistory::Model>& before = rig.model();
-    const RigHistory::Model made{nullptr, level.rank,
-                                 before && before->rank == 0
-                                     ? std::min(2 * before->rest_s, longest_model_rest_s)
-                                     : first_model_rest_s,
-                                 now_s_, instant_};
-    steps.push_back([=, this, &rig, &colour = rig.colour()] {
+    RigHistory::Model made{.surface = nullptr,
+                           .rank = level.rank,
+                           .rest_s = first_model_rest_s,
+                           .made_s = now_s_,
+                           .made = instant_};
+    if (before && before->rank == 0)
+        made.rest_s = std::min(2 * before->rest_s, longest_model_rest_s);
+    steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
         const std::shared_ptr<RigSurface> model = surfaces_.take();
         model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
         closer_.close(*depth_m, *measured_m, colour, model->depth_target());
-        rig.set_model({model, made.rank, made.rest_s, made.made_s, made.made});
+        made.surface = model;
+        rig.set_model(made);
     });
     return steps;
 }
@@ -300,7 +303,7 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     return instant;
 }
 
-bool StagedPreparer::improve(const VirtualView& target) {
+bool StagedPreparer::improve_a_step(const VirtualView& target) {
     if (bettering_ && !is_under_way(*bettering_)) bettering_.reset();
     if (!bettering_) begin_bettering(target);
     if (!bettering_) return false;

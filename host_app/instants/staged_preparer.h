@@ -29,7 +29,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
-    bool improve(const VirtualView& target) override;
+    bool improve_a_step(const VirtualView& target) override;
     void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
     SetMemory* set_memory() override { return this; }

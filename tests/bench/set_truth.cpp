@@ -101,7 +101,7 @@ std::string rows(const ShaderLibrary& library, const SetTruth& wanted, std::uint
         }
         preparer.take(views, 1 / wanted.rate_hz);
         const VirtualView target = camera_of(rig_at(0, wanted.rigs.size));
-        while (preparer.improve(target)) continue;
+        preparer.improve(target);
         (void)preparer.prepare(target, prepare_levels().front());
     }
     const LearntSet learnt = preparer.set_memory()->learnt();

@@ -210,9 +210,8 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
             runner.preparer->take(views, 1 / wanted.rate_hz);
             glFinish();
             measured.take_ms.push_back(cpu_ms() - before_ms);
-            while (runner.preparer->improve(
-                view_of(cameras[0].state(), {format.width_px, format.height_px})))
-                continue;
+            runner.preparer->improve(
+                view_of(cameras[0].state(), {format.width_px, format.height_px}));
             for (std::size_t c = 0; c < cameras.size(); ++c) {
                 const VirtualView target =
                     view_of(cameras[c].state(), {format.width_px, format.height_px});

@@ -284,7 +284,7 @@ class BetteredSetTest : public StagedPreparerTest {
     }
     int steps_until_done() {
         int steps = 1;
-        while (preparer_.improve(target_)) ++steps;
+        while (preparer_.improve_a_step(target_)) ++steps;
         return steps;
     }
 
@@ -299,7 +299,7 @@ TEST_F(BetteredSetTest, IsMadeAPassAtATimeAndThenLeftAloneForAWhile) {
 
 TEST_F(BetteredSetTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
     for (int i = 0; i < 4; ++i) take_instant(rigs());
-    ASSERT_TRUE(preparer_.improve(target_));
+    ASSERT_TRUE(preparer_.improve_a_step(target_));
     take_instant(rigs(staged_width_px + 20));
     // The next one begins with the rigs as they are.
     EXPECT_LT(steps_until_done(), 100);
