@@ -61,6 +61,9 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
     dark.right = ColourImage(calibration.right.height_px, calibration.right.width_px, black);
     RigFrame unused;
     rectify_and_match(dark, unused);
+    // They are no part of the stream.
+    if (matcher_) matcher_->forget();
+    if (steady_) steady_->forget();
 }
 
 void GpuStage::prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens) {

@@ -21,6 +21,7 @@ namespace vantage {
 class EngineMatcher : public Matcher {
   public:
     const Texture& match(const Texture& left, const Texture& right) final;
+    void forget() final { luma_.forget(); }
     const Texture* confidence() const final { return result_.confidence(); }
     std::vector<PassReport> passes() const final { return profiler_.reports(); }
     void set_profiling(bool on) final { profiler_.set_enabled(on); }

@@ -50,6 +50,8 @@ class Matcher {
     /// same size that holds DisparityImage's values (1/32 px, 0 = unknown; a point at infinity is
     /// known and reads 1), owned by the matcher, valid until the next call.
     virtual const Texture& match(const Texture& left, const Texture& right) = 0;
+    /// The next pair follows none: nothing that was averaged along time counts.
+    virtual void forget() {}
 
     /// How sure the last match() is of each pixel: r8ui of the same size, 0..255, 0 where unknown
     /// or filled. Null unless the settings asked for it, and from matchers that know none.

@@ -24,6 +24,8 @@ class LumaPass {
 
     /// From rgba8 textures of the layout's size.
     void run(PassProfiler& profiler, const Texture& left, const Texture& right);
+    /// The next pair starts anew.
+    void forget() { has_state_ = false; }
 
     const Buffer& left() const { return left_; }
     const Buffer& right() const { return right_; }

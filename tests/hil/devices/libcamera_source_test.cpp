@@ -108,23 +108,19 @@ TEST_F(TeddyOnUsb, HasTheDisparityThatTheFilesHave) {
         std::this_thread::sleep_for(100ms);
     // A picture may be torn where the plug was pulled: what is averaged along time gets over it in
     // some frames.
-    const auto share_off = [&](const DisparityImage& seen) {
-        constexpr int half_a_pixel = 16;
-        cv::Mat off;
-        cv::absdiff(seen, from_files, off);
-        return cv::countNonZero(off > half_a_pixel) / static_cast<double>(off.total());
-    };
-    constexpr double most_off = 0.02;
     constexpr int most_frames = 100;
+    const auto off = [&](const DisparityImage& seen) {
+        return cv::norm(seen, from_files, cv::NORM_L1);
+    };
     std::shared_ptr<const RigFrame> frame;
     const TaiTime plugged_in = TaiClock::now();
     for (int looked = 0; looked < most_frames; ++looked) {
         frame = rig.next_frame();
-        if (frame->exposure >= plugged_in && share_off(frame->disparity) <= most_off) break;
+        if (frame->exposure >= plugged_in && off(frame->disparity) == 0) break;
     }
     EXPECT_GE(frame->exposure, plugged_in);
     EXPECT_EQ(frame->session, session);
-    EXPECT_LE(share_off(frame->disparity), most_off);
+    EXPECT_EQ(off(frame->disparity), 0);
     const nlohmann::json summary = nlohmann::json::parse(rig.stop());
     EXPECT_GE(summary["source"]["reopened"], 1) << summary;
     EXPECT_GT(summary["source"]["copied_pictures"], 4) << summary;
