@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
@@ -13,10 +12,9 @@
 #include "calib_tools/pictures/seen_picture.h"
 #include "calib_tools/stage/stage_calibration.h"
 #include "common/geometry/rectification_map.h"
-#include "common/image/image_file.h"
 #include "common/rectification/rectify_reference.h"
 #include "tests/bench/picture_sheet.h"
-#include "tests/bench/run_bench.h"
+#include "tests/bench/strip_program.h"
 #include "tests/support/boards/rendered_stage.h"
 
 namespace vantage {
@@ -141,18 +139,11 @@ ColourImage steps() {
     return sheet.picture();
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("What calibration does from a board to a stage");
-    std::string file;
-    app.add_option("picture", file, "Strip to write (.jpg or .png)")->required();
-    CLI11_PARSE(app, argc, argv);
-    write_colour_image(file, steps());
-    return 0;
-}
-
 }  // namespace
 }  // namespace vantage
 
 int main(int argc, char** argv) {
-    return vantage::run_bench("calibration_steps", [&] { return vantage::run(argc, argv); });
+    return vantage::run_strip_program("calibration_steps",
+                                      "What calibration does from a board to a stage", argc, argv,
+                                      vantage::steps);
 }

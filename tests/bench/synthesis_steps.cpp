@@ -7,12 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
 #include "common/image/colour_map.h"
-#include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/synthesis/gallery/performer_preparer.h"
 #include "host_app/synthesis/novelty_overlay.h"
@@ -20,7 +18,7 @@
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/bench/matching_rig.h"
 #include "tests/bench/picture_sheet.h"
-#include "tests/bench/run_bench.h"
+#include "tests/bench/strip_program.h"
 
 namespace vantage {
 namespace {
@@ -130,18 +128,11 @@ ColourImage steps() {
     return sheet.picture();
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("What the steps of the synthesis do to one moment");
-    std::string file;
-    app.add_option("picture", file, "Strip to write (.jpg or .png)")->required();
-    CLI11_PARSE(app, argc, argv);
-    write_colour_image(file, steps());
-    return 0;
-}
-
 }  // namespace
 }  // namespace vantage
 
 int main(int argc, char** argv) {
-    return vantage::run_bench("synthesis_steps", [&] { return vantage::run(argc, argv); });
+    return vantage::run_strip_program("synthesis_steps",
+                                      "What the steps of the synthesis do to one moment", argc,
+                                      argv, vantage::steps);
 }

@@ -9,12 +9,23 @@
 namespace vantage {
 namespace {
 
-TEST(TilePass, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
-    const EglContext context;
-    const ShaderFolder folder;
-    folder.write("tone.frag",
-                 "layout(location = 0) out float drawn;\nvoid main() { drawn = 1.0; }");
-    const ShaderLibrary library{folder.path()};
+/// A pass that draws white.
+class TilePassTest : public testing::Test {
+  protected:
+    struct WhiteShader : ShaderFolder {
+        WhiteShader() {
+            write("tone.frag",
+                  "layout(location = 0) out float drawn;\nvoid main() { drawn = 1.0; }");
+        }
+    };
+
+    EglContext context_;
+    WhiteShader folder_;
+    ShaderLibrary library_{folder_.path()};
+    TilePass pass_{library_, "tone.frag"};
+};
+
+TEST_F(TilePassTest, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     // The last column of tiles reaches beyond the picture; the target is half its size.
     const cv::Size picture(40, 32), half(20, 16);
     ASSERT_EQ(TilePass::tiles_of(picture), cv::Size(3, 2));
@@ -24,10 +35,9 @@ TEST(TilePass, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     tiles.upload(named);
     const Texture drawn(TextureFormat::r8, half.width, half.height);
     const Framebuffer target({&drawn});
-    TilePass pass(library, "tone.frag");
     for (int again = 0; again < 2; ++again) {
-        pass.use();
-        pass.draw(target, tiles, 0, picture);
+        pass_.use();
+        pass_.draw(target, tiles, 0, picture);
         const cv::Mat1b seen = drawn.download();
         for (int y = 0; y < half.height; ++y)
             for (int x = 0; x < half.width; ++x)
@@ -35,21 +45,15 @@ TEST(TilePass, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     }
 }
 
-TEST(TilePass, LeavesRowsAloneThatItIsNotAskedFor) {
-    const EglContext context;
-    const ShaderFolder folder;
-    folder.write("tone.frag",
-                 "layout(location = 0) out float drawn;\nvoid main() { drawn = 1.0; }");
-    const ShaderLibrary library{folder.path()};
+TEST_F(TilePassTest, LeavesRowsAloneThatItIsNotAskedFor) {
     const cv::Size size(TilePass::side_px, TilePass::side_px);
     Texture tiles(TextureFormat::r8, 1, 1), drawn(TextureFormat::r8, size.width, size.height);
     tiles.upload(cv::Mat1b(1, 1, uchar{255}));
     const cv::Mat1b before(size, uchar{77});
     drawn.upload(before);
     const Framebuffer target({&drawn});
-    TilePass pass(library, "tone.frag");
-    pass.use();
-    pass.draw(target, tiles, 0, size, cv::Range(3, 7));
+    pass_.use();
+    pass_.draw(target, tiles, 0, size, cv::Range(3, 7));
     const cv::Mat1b seen = drawn.download();
     for (int y = 0; y < size.height; ++y)
         EXPECT_EQ(cv::norm(seen.row(y),

@@ -62,8 +62,11 @@ std::string SteeredShow::lamp(const std::string& name) const {
     return value;
 }
 
-bool SteeredShow::shows(const std::string& name, const std::string& value) const {
-    return comes([&] { return lamp(name) == value; });
+testing::AssertionResult SteeredShow::shows(const std::string& name,
+                                            const std::string& value) const {
+    if (comes([&] { return lamp(name) == value; })) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << name << " is " << lamp(name) << ", not " << value << "; notice: " << lamp("notice");
 }
 
 bool SteeredShow::goes_past(const std::string& name, double value) const {

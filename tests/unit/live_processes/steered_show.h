@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 
@@ -21,8 +23,8 @@ class SteeredShow {
     bool is_told(const std::string& words) const;
     /// What a lamp was told to be last, as oscdump writes it: "1", "2.5", "live"; empty: nothing.
     std::string lamp(const std::string& name) const;
-    /// Waits until a lamp is this; false if that does not come.
-    bool shows(const std::string& name, const std::string& value) const;
+    /// Waits until a lamp is this; a failure that says what it is if that does not come.
+    testing::AssertionResult shows(const std::string& name, const std::string& value) const;
     /// Waits until a lamp that is a number is above this; false if that does not come.
     bool goes_past(const std::string& name, double value) const;
     std::string told() const { return watcher_.out(); }
