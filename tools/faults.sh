@@ -8,6 +8,7 @@
 # Closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/demo_stage.sh
 seconds=${1:-600}
 case "$seconds" in
   *[!0-9]* | "" | ? | 1?) echo "faults.sh: '$seconds' is no number of seconds of at least 20" >&2; exit 2 ;;
@@ -26,11 +27,7 @@ end_all() {
 trap end_all EXIT
 trap 'exit 130' INT TERM
 
-Xvfb -displayfd 3 -nolisten tcp -screen 0 1600x1000x24 3>"$out/display" 2>"$out/screen.log" &
-screen=$!
-until grep -q '[0-9]$' "$out/display"; do sleep 0.1; kill -0 $screen; done
-DISPLAY=:$(cat "$out/display")
-export DISPLAY
+start_screen 1600x1000 "$out"
 
 rig_process() { echo "${begun[$1]:-$(pgrep -P "$rigs" -f "/$1\.toml")}"; }
 said() { echo "$(($(date +%s) - started)) s: $*"; }
@@ -55,13 +52,7 @@ befall() {
 play() { # name, seconds, whether anything befalls it
   local name=$1 length=$2 troubled=$3
   rm -f out/demo/rig?.log
-  build/release/bin/vantage demo --folder out --rigs-only >"$out/ready" 2>"$out/rigs.log" &
-  rigs=$!
-  # They draw the stage's loop first.
-  until grep -q '^ready:' "$out/ready" && [ "$(grep -ls 'publishing on' out/demo/rig?.log | wc -l)" -eq 4 ]; do
-    sleep 0.2
-    kill -0 $rigs
-  done
+  start_rigs out "$out"
   : >"$out/$name.log"
   local limit=unlimited
   ! $troubled || limit=256  # KiB, for the film

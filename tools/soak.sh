@@ -8,6 +8,7 @@
 # Prints the account of every rig, and closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/demo_stage.sh
 seconds=${1:-300} seed=${2-} document=${3-}
 case "$seconds" in
   *[!0-9]* | "" | ? | [12]?) echo "soak.sh: '$seconds' is no number of seconds of at least 30" >&2; exit 2 ;;
@@ -26,12 +27,7 @@ end_all() {
 trap end_all EXIT
 trap 'exit 130' INT TERM
 
-build/release/bin/vantage demo --folder "$out" --rigs-only >"$out/ready" 2>"$out/rigs.log" &
-rigs=$!
-until grep -q '^ready:' "$out/ready" && [ "$(grep -ls 'publishing on' "$out"/demo/rig?.log | wc -l)" -eq 4 ]; do
-  sleep 0.2
-  kill -0 $rigs
-done
+start_rigs "$out" "$out"
 reset=$PWD/build/release/lib/vantage_gpu_reset.so
 [ -z "$seed" ] || [ -e "$reset" ] || { echo "soak.sh: $reset is missing; ./test builds it" >&2; exit 2; }
 LD_PRELOAD=${seed:+$reset} build/release/bin/vantage live --stage "$out/demo/stage.toml" --headless --no-jog --past-mb 64 \
@@ -60,16 +56,12 @@ befall() {
   esac
 }
 
-# One line a process and sample: second, name, process, resident KiB, threads, file descriptors.
 [ -z "$seed" ] || RANDOM=$seed
 last=0
 while kill -0 $host 2>/dev/null; do
   sleep 2
   now=$(($(date +%s) - started))
-  for process in $host $(pgrep -P "$rigs" vantage-rig || true) ${begun[*]}; do
-    read -r kib threads < <(awk '/VmRSS/ {kib = $2} /Threads/ && kib {print kib, $2}' "/proc/$process/status" 2>/dev/null) || continue
-    echo "$now $(cat "/proc/$process/comm") $process $kib $threads $(ls "/proc/$process/fd" | wc -l)" >>"$out/samples" || true
-  done 2>/dev/null
+  sample "$now" $host $(pgrep -P "$rigs" vantage-rig || true) ${begun[*]} >>"$out/samples"
   # The last rig that was touched is back before the end.
   if [ -n "$seed" ] && [ $((now - last)) -ge 10 ] && [ "$now" -lt $((seconds - 20)) ]; then
     last=$now

@@ -8,6 +8,7 @@
 # srt-live-transmit, ffmpeg, curl and jq. Closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/demo_stage.sh
 seconds=${1:-1800}
 # A round of all that operators do takes a minute, and every third of the time is to have one.
 [[ $seconds =~ ^[0-9]+$ ]] && [ "$seconds" -ge 180 ] || {
@@ -29,18 +30,9 @@ end_all() {
 trap end_all EXIT
 trap 'exit 130' INT TERM
 
-Xvfb -displayfd 3 -nolisten tcp -screen 0 1280x720x24 3>"$out/display" 2>"$out/screen.log" &
-screen=$!
-until grep -qs '[0-9]$' "$out/display"; do sleep 0.1; kill -0 $screen; done
-DISPLAY=:$(cat "$out/display")
-export DISPLAY
+start_screen 1280x720 "$out"
 ffmpeg -v error -f lavfi -i sine=frequency=440:duration=10 "$out/music.wav"
-build/release/bin/vantage demo --folder "$out" --rigs-only >"$out/ready" 2>"$out/rigs.log" &
-rigs=$!
-until grep -q '^ready:' "$out/ready" && [ "$(grep -ls 'publishing on' "$out"/demo/rig?.log | wc -l)" -eq 4 ]; do
-  sleep 0.2
-  kill -0 $rigs
-done
+start_rigs "$out" "$out"
 osc=49100 panel=49101 mixer=49102 tracker=49103 metrics=49104 srt=49105 udp=49106 camera=49107
 mkfifo "$out/pipe"
 ffmpeg -v error -i "$out/pipe" -f null - 2>"$out/pipe.log" &
@@ -93,10 +85,7 @@ while kill -0 $host 2>/dev/null; do
     last=$((last + 1))
     [ $last -gt $((seconds - 8)) ] || act $((last % 60)) || true
   done 2>>"$out/acts.log"
-  for process in $host $(pgrep -P "$rigs" vantage-rig || true); do
-    read -r kib threads < <(awk '/VmRSS/ {kib = $2} /Threads/ && kib {print kib, $2}' "/proc/$process/status" 2>/dev/null) || continue
-    echo "$now $(cat "/proc/$process/comm") $process $kib $threads $(ls "/proc/$process/fd" | wc -l)" >>"$out/samples" || true
-  done 2>/dev/null
+  sample "$now" $host $(pgrep -P "$rigs" vantage-rig || true) >>"$out/samples"
 done
 status=0
 wait $host || status=$?
