@@ -222,6 +222,8 @@ int run(int argc, char** argv) {
     PictureSheet sheet(picture_size, sheet_columns);
     std::map<std::string, PictureSheet> strips;
     std::vector<std::string> refusals;
+    for (std::size_t i = 0; i < cases.size() && !folder.empty(); ++i)
+        write_colour_image(fmt::format("{}/truth-{}.png", folder, i), cases[i].truth.colour);
     for (const std::string& system : only.empty() ? systems() : only) {
         text << fmt::format("| `{}` |", system);
         double ms = 0;

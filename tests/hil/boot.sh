@@ -3,7 +3,7 @@
 #   boot.sh WORK JOB [NAME=VALUE...]       after prepare.sh WORK
 # JOB is a script of tests/hil/guest; NAME=VALUE goes into its environment. HIL_INIT in the environment names another
 # process 1 than guest/init, HIL_QEMU further options of QEMU, HIL_TIMEOUT_S the seconds after which a machine hangs
-# (default 1100), HIL_ACCEL=kvm uses KVM in place of emulation (nested KVM is often there
+# (default 2200), HIL_ACCEL=kvm uses KVM in place of emulation (nested KVM is often there
 # and does not boot, which is why it has to be asked for).
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,7 +23,7 @@ printf 'export %q\n' "KERNEL_ROOT=$work/kernel" "KERNEL_RELEASE=$release" "$@" >
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(sudo -n)
 boot() { # QEMU options of the accelerator
-  "${as_root[@]}" timeout -k 5 "${HIL_TIMEOUT_S:-1100}" qemu-system-x86_64 -M q35 "$@" -smp 2 -m 2560 \
+  "${as_root[@]}" timeout -k 5 "${HIL_TIMEOUT_S:-2200}" qemu-system-x86_64 -M q35 "$@" -smp 2 -m 2560 \
     -nodefaults -no-user-config -nographic -no-reboot -serial "file:$share/console" \
     -kernel "$work/vmlinux" -initrd "$work/initrd.img" \
     -append "console=ttyS0 quiet panic=-1 oops=panic mitigations=off nokaslr random.trust_cpu=on audit=0 apparmor=0 selinux=0" \

@@ -231,8 +231,8 @@ TEST_F(RigRelayTest, KeepsAHostWaitingThatComesBeforeItsRig) {
     const RigRelay relay(stage, {"tcp://127.0.0.1:*", path("relay.hosts")});
     Tap came;
     const StageReceiver host(behind(relay, "first.key"), StageReceiver::Purpose::film, came.tap());
-    ASSERT_TRUE(eventually([&] { return !of(host).unreachable.empty(); }));
-    EXPECT_THAT(of(host).unreachable, HasSubstr("relay"));
+    ASSERT_TRUE(
+        eventually([&] { return of(host).unreachable.find("relay") != std::string::npos; }));
     EXPECT_EQ(of(host).refused, "");
     rig = std::make_unique<Publisher>(stream(endpoint), "rig-a");
     ASSERT_TRUE(eventually([&] { return of(host).connected && streams(*rig); }));
