@@ -38,5 +38,6 @@ void main() {
             sum += w / z;
             weights += w;
         }
-    smoothed = weights / sum;
+    // Of half-size pixels the one that has depth may be none of those that were asked.
+    smoothed = weights > 0.0 ? weights / sum : own;
 }

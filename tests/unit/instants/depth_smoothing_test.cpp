@@ -50,7 +50,7 @@ float smoothed_at(const DepthImage& map, const ColourImage& picture, cv::Point a
             sum += w / z;
             weights += w;
         }
-    return static_cast<float>(weights / sum);
+    return weights > 0 ? static_cast<float>(weights / sum) : own;
 }
 
 class DepthSmoothingTest : public testing::TestWithParam<int> {
@@ -98,6 +98,14 @@ TEST_P(DepthSmoothingTest, IsTheWeightedMeanOfItsSurface) {
             // A filtered colour may be rounded to 8 bits; depths differ by 2 %.
             EXPECT_NEAR(result(y, x), wanted, 3e-4 * wanted) << x << ' ' << y;
         }
+}
+
+TEST_P(DepthSmoothingTest, LeavesAPixelThatHasNoOtherOfItsSurface) {
+    map_ = 0;
+    map_(13, 17) = 2;
+    const DepthImage result = drawn(GetParam());
+    EXPECT_FLOAT_EQ(result(13 / GetParam(), 17 / GetParam()), 2);
+    EXPECT_EQ(cv::countNonZero(result), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(ToTheSameSizeAndToHalf, DepthSmoothingTest, testing::Values(1, 2));
