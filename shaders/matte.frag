@@ -8,7 +8,7 @@ uniform sampler2D seen;     // from set_see.frag
 layout(location = 0) out float performer;  // 0 or 1
 
 const int reach = 2;              // steps to either side
-const float step_px = 2.0;        // of the picture
+const int step_px = 2;            // of the picture
 const float like_colour = 0.05;   // difference (0..1) at which a pixel's word counts 1/e
 const float like_set_here = 0.04; // difference below which those around decide
 const float least_around = 0.15;  // share of pixels before the set around one that is taken for one
@@ -16,21 +16,22 @@ const float most_around = 0.8;    // share from which on a pixel that looks like
 const float new_around = 0.4;     // and one that looks like a set which has just changed, among what looks like it
 
 void main() {
-    vec2 size = vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy / size;
-    vec3 now = textureLod(picture, uv, 0.0).rgb;
+    ivec2 at = ivec2(gl_FragCoord.xy), size = textureSize(picture, 0);
+    vec2 texel = 1.0 / vec2(size), uv = gl_FragCoord.xy * texel;
+    vec3 now = texelFetch(picture, at, 0).rgb;
     performer = 0.0;
     vec3 seen_here = textureLod(seen, uv, 0.0).rgb;
     float own = seen_here.r;
     float before = 0.0, count = 0.0, like_before = 0.0, like_set = 0.0;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
-            vec2 there = uv + step_px * vec2(x, y) / size;
-            float kind = textureLod(seen, there, 0.0).r;
+            ivec2 there = clamp(at + step_px * ivec2(x, y), ivec2(0), size - 1);
+            float kind = textureLod(seen, (vec2(there) + 0.5) * texel, 0.0).r;
             float is_before = is_kind(kind, before_set) ? 1.0 : 0.0, is_set = is_kind(kind, untold) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
             float is_known = is_kind(kind, new_set) ? 0.0 : is_set;
             before += is_before;
             count += is_before + is_set;
-            vec3 off = abs(textureLod(picture, there, 0.0).rgb - now);
+            vec3 off = abs(texelFetch(picture, there, 0).rgb - now);
             float w = exp(-(off.r + off.g + off.b) / (3.0 * like_colour)) + 1e-3;
             like_before += w * is_before;
             like_set += w * is_known;

@@ -4,15 +4,15 @@
 
 namespace vantage {
 
-void EdgeTrust::judge(const Texture& picture, RigSurface& surface) {
+void EdgeTrust::judge(RigSurface& surface) {
+    surface.trust().resize(surface.colour().size());
     Program& program = pass_.use();
-    program.set("picture", 0);
-    program.set("depth_map", 1);
+    program.set("depth_map", 0);
+    program.set("picture_size",
+                Eigen::Vector2i(surface.colour().width_px(), surface.colour().height_px()));
     program.set("edge_ratio", depth_edge_ratio);
-    picture.bind(0);
-    surface.depth().bind(1);
-    pass_.draw(surface.colour_target());
-    surface.finish_colour();
+    surface.depth().bind(0);
+    pass_.draw(surface.trust().target());
 }
 
 }  // namespace vantage

@@ -13,8 +13,8 @@ class EdgeTrust {
   public:
     explicit EdgeTrust(const ShaderLibrary& library) : pass_(library, "edge_trust.frag") {}
 
-    /// Fills the surface's colour() from a picture and its own depth.
-    void judge(const Texture& picture, RigSurface& surface);
+    /// Fills the surface's trust(), from its depth.
+    void judge(RigSurface& surface);
 
   private:
     FullscreenPass pass_;

@@ -16,6 +16,7 @@ void RigHistory::forget() {
 void RigHistory::hide() {
     surface_.reset();
     performers_.reset();
+    kept_shape_.reset();
     prepared_rank_.reset();
 }
 

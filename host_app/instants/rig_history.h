@@ -81,6 +81,15 @@ class RigHistory {
     const std::optional<Model>& model() const { return model_; }
     void set_model(const Model& model) { model_ = model; }
 
+    /// When the depth and the triangles of the published surface() were made, and of which model;
+    /// empty where none is kept.
+    struct KeptShape {
+        double made_s = 0;
+        std::uint64_t model = 0;
+    };
+    const std::optional<KeptShape>& kept_shape() const { return kept_shape_; }
+    void keep_shape(const std::optional<KeptShape>& kept) { kept_shape_ = kept; }
+
     /// The inverse depths that a search of the set found, 1/m, 0 = none.
     DrawnTexture& found() { return found_; }
     /// The last search: when it was, on the preparer's clock, and how long after it the next one
@@ -136,6 +145,7 @@ class RigHistory {
     SetState set_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
+    std::optional<KeptShape> kept_shape_;
     DrawnTexture found_{TextureFormat::r32f};
     std::optional<Search> search_;
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};

@@ -22,15 +22,23 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     camera_ = camera;
     camera_.release_pictures();
     samples_ = samples;
-    has_rims_ = false;
-    has_fine_grid_ = true;
     colour_.resize(colour_size);
-    drawn_.resize(depth_size);
-    if (grid_size_ == depth_size) return;
-    triangles_.emplace(triangle_indices(depth_size));
-    coarse_triangles_.emplace(triangle_indices(depth_size));
-    rims_.reset();
-    grid_size_ = depth_size;
+    if (shape_.use_count() > 1) shape_ = std::make_shared<Shape>();
+    shape_->has_rims = false;
+    shape_->has_fine_grid = true;
+    shape_->depth.resize(depth_size);
+    if (shape_->grid_size == depth_size) return;
+    shape_->triangles.emplace(triangle_indices(depth_size));
+    shape_->coarse_triangles.emplace(triangle_indices(depth_size));
+    shape_->rims.reset();
+    shape_->grid_size = depth_size;
+}
+
+void RigSurface::begin_like(const RigSurface& other, const SurfaceSamples& samples) {
+    camera_ = other.camera_;
+    samples_ = samples;
+    colour_.resize(other.colour().size());
+    shape_ = other.shape_;
 }
 
 void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
@@ -38,9 +46,9 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
     begin(view, view.colour.size(), view.has_depth() ? view.depth_size() : cv::Size(1, 1),
           surface_samples(view));
     if (view.has_depth())
-        upload_depth(view, uploader, drawn_);
+        upload_depth(view, uploader, shape_->depth);
     else
-        drawn_.texture().upload(DepthImage(1, 1, 0.0f));
+        shape_->depth.texture().upload(DepthImage(1, 1, 0.0f));
     upload_colour(view, corrector, colour_.texture());
     colour_.generate_mipmaps();
 }
@@ -48,9 +56,9 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
 const IndirectTriangles& RigSurface::rims_to_build() {
     // A quarter of a quad takes as many indices as a quad of the grid: enough for a picture a
     // quarter of whose pixels lie at edges.
-    if (!rims_) rims_.emplace(std::max(triangle_indices(depth().size()), 24));
-    has_rims_ = true;
-    return *rims_;
+    if (!shape_->rims) shape_->rims.emplace(std::max(triangle_indices(depth().size()), 24));
+    shape_->has_rims = true;
+    return *shape_->rims;
 }
 
 Eigen::Matrix3d RigSurface::K_depth() const {

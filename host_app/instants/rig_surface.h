@@ -23,18 +23,18 @@ class RigSurface {
     /// Camera, name and sizes; its pictures are empty.
     const DepthView& camera() const { return camera_; }
     /// Metres in the first channel, 0 = unknown, negative = guessed.
-    const Texture& depth() const { return drawn_.texture(); }
+    const Texture& depth() const { return shape_->depth.texture(); }
     /// rgba8, trilinear; alpha says how far the colour can be trusted.
     const Texture& colour() const { return colour_.texture(); }
 
     /// Of the depth map.
     const IndirectTriangles& triangles(QuadGrid grid = QuadGrid::fine) const {
-        return grid == QuadGrid::fine ? *triangles_ : *coarse_triangles_;
+        return grid == QuadGrid::fine ? *shape_->triangles : *shape_->coarse_triangles;
     }
     /// Whether triangles of the fine grid were built.
-    bool has_fine_grid() const { return has_fine_grid_; }
+    bool has_fine_grid() const { return shape_->has_fine_grid; }
     /// Null where none were built.
-    const IndirectTriangles* rims() const { return has_rims_ ? &*rims_ : nullptr; }
+    const IndirectTriangles* rims() const { return shape_->has_rims ? &*shape_->rims : nullptr; }
     Eigen::Matrix3d K_depth() const;
     DepthGrid grid(QuadGrid grid) const;
 
@@ -48,23 +48,34 @@ class RigSurface {
     /// Begins anew for an instant of this camera, whose picture and depth map have these sizes.
     void begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
                const SurfaceSamples& samples);
+    /// Likewise, with the depth, the triangles and the trust of another one of this camera, of
+    /// which nothing may change from then on.
+    void begin_like(const RigSurface& other, const SurfaceSamples& samples);
     /// The view as it came; without depth, its map is one unknown pixel.
     void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                 std::unique_ptr<DepthUploader>& uploader);
-    const Framebuffer& depth_target() const { return drawn_.target(); }
+    const Framebuffer& depth_target() const { return shape_->depth.target(); }
+    /// r8, of the picture's size: how far the depth lets its colours be trusted (see EdgeTrust).
+    DrawnTexture& trust() { return shape_->trust; }
     const Framebuffer& colour_target() const { return colour_.target(); }
     void finish_colour() { colour_.generate_mipmaps(); }
     const IndirectTriangles& rims_to_build();
-    void set_has_fine_grid(bool has) { has_fine_grid_ = has; }
+    void set_has_fine_grid(bool has) { shape_->has_fine_grid = has; }
 
   private:
+    /// What does not change with the colours.
+    struct Shape {
+        DrawnTexture depth{TextureFormat::r32f};
+        DrawnTexture trust{TextureFormat::r8};
+        bool has_rims = false, has_fine_grid = true;
+        std::optional<IndirectTriangles> triangles, coarse_triangles, rims;
+        cv::Size grid_size;
+    };
+
     DepthView camera_;
     SurfaceSamples samples_;
-    DrawnTexture drawn_{TextureFormat::r32f};
+    std::shared_ptr<Shape> shape_ = std::make_shared<Shape>();
     DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
-    bool has_rims_ = false, has_fine_grid_ = true;
-    std::optional<IndirectTriangles> triangles_, coarse_triangles_, rims_;
-    cv::Size grid_size_;
 };
 
 /// A view's picture, with its colour correction, into a texture of its size.

@@ -19,6 +19,8 @@ constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
 /// Between two searches for thin things in a rig's set: first, then twice as long each time, for
 /// what is found in a set that stands still hardly changes.
 constexpr double first_search_rest_s = 2, longest_search_rest_s = 30;
+/// For so long the cheapest levels keep the shape of a known set, colours change every instant.
+constexpr double shape_kept_s = 1;
 /// Instants, before which there is nothing to remember.
 constexpr int remembered_from = 3;
 /// Between two looks at how much of the sets is known, and at the mattes.
@@ -234,11 +236,15 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     return surface;
 }
 
-std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
-                                                         const Texture& performers_m,
-                                                         const PrepareLevel& level) {
-    const std::shared_ptr<RigSurface> surface = surfaces_.take();
-    surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
+bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level) const {
+    const auto& kept = rig.kept_shape();
+    return !level.is_refined && kept && kept->model == rig.model()->made &&
+           now_s_ - kept->made_s < shape_kept_s &&
+           (rig.surface()->has_fine_grid() || !level.has_fine_grid);
+}
+
+void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
+                                const PrepareLevel& level) {
     Program& show = show_.use();
     bind_set(show, rig);
     show.set("depth_map", 2);
@@ -252,8 +258,30 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     performers_m.bind(4);
     rig.colour().bind(5);
     rig.colour_mean().bind(6);
-    show_.draw(surface->depth_target());
-    colours_.resize(rig.colour().size());
+    show_.draw(surface.depth_target());
+    edge_trust_.judge(surface);
+    triangles_.build(surface.grid(QuadGrid::coarse));
+    if (level.has_fine_grid) {
+        triangles_.build(surface.grid(QuadGrid::fine));
+        triangles_.build_rims(surface);
+    }
+    surface.set_has_fine_grid(level.has_fine_grid);
+    // What is not known yet comes to light instant by instant.
+    std::optional<RigHistory::KeptShape> kept;
+    if (!level.is_refined && rig.model()->rank == 0) kept = {now_s_, rig.model()->made};
+    rig.keep_shape(kept);
+}
+
+std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
+                                                         const Texture& performers_m,
+                                                         const PrepareLevel& level) {
+    const std::shared_ptr<RigSurface> surface = surfaces_.take();
+    if (has_shape(rig, level)) {
+        surface->begin_like(*rig.surface(), rig.samples());
+    } else {
+        surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
+        make_shape(*surface, rig, performers_m, level);
+    }
     Program& now = now_.use();
     now.set("picture", 0);
     now.set("set_colour", 1);
@@ -261,6 +289,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     now.set("seen", 3);
     now.set("matte", 4);
     now.set("set_depth", 5);
+    now.set("trust", 6);
     now.set("remembered", RigSurface::remembered_trust);
     rig.fresh_colour().bind(0);
     rig.colour().bind(1);
@@ -268,14 +297,9 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     rig.set_state().seen().bind(3);
     rig.matte().texture().bind(4);
     surface->depth().bind(5);
-    now_.draw(colours_.target());
-    edge_trust_.judge(colours_.texture(), *surface);
-    triangles_.build(surface->grid(QuadGrid::coarse));
-    if (level.has_fine_grid) {
-        triangles_.build(surface->grid(QuadGrid::fine));
-        triangles_.build_rims(*surface);
-    }
-    surface->set_has_fine_grid(level.has_fine_grid);
+    surface->trust().texture().bind(6);
+    now_.draw(surface->colour_target());
+    surface->finish_colour();
     return surface;
 }
 

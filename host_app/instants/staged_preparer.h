@@ -73,6 +73,11 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
+    /// Whether at this level the shape of the rig's set is not made anew for every instant, and
+    /// that of the last one will do.
+    bool has_shape(const RigHistory& rig, const PrepareLevel& level) const;
+    void make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
+                    const PrepareLevel& level);
     void publish(RigHistory& rig, const PrepareLevel& level);
 
     RecyclePool<RigSurface> surfaces_;
@@ -91,7 +96,6 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     TriangleBuilder triangles_;
     FullscreenPass show_, now_;
     TilePass colour_performers_;
-    DrawnTexture colours_{TextureFormat::rgba8, Filter::linear};
     /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< instants' time since the first one

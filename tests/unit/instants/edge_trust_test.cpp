@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/egl_context.h"
+#include "tests/unit/instants/drawn_by.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
@@ -13,22 +14,17 @@ namespace {
 
 class EdgeTrustTest : public testing::Test {
   protected:
-    ColourImage judged(const DepthView& view) {
+    cv::Mat1b judged(const DepthView& view) {
         RigSurface surface;
         std::unique_ptr<ColourCorrector> corrector;
         std::unique_ptr<DepthUploader> uploader;
         surface.upload(view, corrector, uploader);
-        Texture picture(TextureFormat::rgba8, view.colour.cols, view.colour.rows, Filter::linear);
-        picture.upload(view.colour);
-        trust_.judge(picture, surface);
-        return surface.colour().download();
+        trust_.judge(surface);
+        return surface.trust().texture().download();
     }
-    static DepthView noise(cv::Size size, uchar alpha) {
+    static DepthView picture(cv::Size size) {
         DepthView view;
-        view.colour = ColourImage(size);
-        cv::RNG random(1);
-        random.fill(view.colour, cv::RNG::UNIFORM, 0, 256);
-        for (cv::Vec4b& c : view.colour) c[3] = alpha;
+        view.colour = ColourImage(size, cv::Vec4b(0, 0, 0, 255));
         return view;
     }
 
@@ -45,14 +41,14 @@ int trust_at(double away_px) {
 }
 
 TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
-    DepthView view = noise({41, 29}, 255);
+    DepthView view = picture({41, 29});
     view.depth_m = DepthImage(view.colour.size(), 4.0f);
     // Guessed depth is as much a surface; no depth is another one.
     view.depth_m(cv::Rect(10, 8, 9, 7)) = -2.0f;
     view.depth_m(20, 33) = 0.0f;
     // A slope that is none.
     view.depth_m.colRange(0, 4) = 3.9f;
-    const ColourImage result = judged(view);
+    const cv::Mat1b trust = judged(view);
     const auto is_other = [&](int x, int y, int u, int v) {
         const float a = std::abs(view.depth_m(y, x)), b = std::abs(view.depth_m(v, u));
         return std::max(a, b) > 1.04f * std::min(a, b);
@@ -64,30 +60,47 @@ TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
             for (int v = std::max(y - 2, 0); v <= std::min(y + 2, view.colour.rows - 1); ++v)
                 for (int u = std::max(x - 2, 0); u <= std::min(x + 2, view.colour.cols - 1); ++u)
                     if (is_other(x, y, u, v)) nearest = std::min(nearest, std::hypot(u - x, v - y));
-            EXPECT_NEAR(result(y, x)[3], trust_at(nearest), 1) << x << ' ' << y;
+            EXPECT_NEAR(trust(y, x), trust_at(nearest), 1) << x << ' ' << y;
             edges += nearest < 3;
-            for (int c = 0; c < 3; ++c) EXPECT_EQ(result(y, x)[c], view.colour(y, x)[c]);
         }
     EXPECT_GT(edges, 100);
 }
 
-TEST_F(EdgeTrustTest, IsAShareOfWhatThePictureHasThere) {
-    DepthView view = noise({16, 1}, 128);
-    view.depth_m = DepthImage(view.colour.size(), 2.0f);
-    view.depth_m.colRange(8, 16) = 3.0f;
-    const ColourImage result = judged(view);
-    for (int x = 0; x < 16; ++x)
-        EXPECT_NEAR(result(0, x)[3], 128 * trust_at(x < 8 ? 8 - x : x - 7) / 255.0, 1) << x;
+/// Of a picture whose pixels are all the set's, seen now.
+TEST_F(EdgeTrustTest, IsTheAlphaOfTheColoursOfASet) {
+    ColourImage colours(2, 8);
+    cv::RNG random(1);
+    random.fill(colours, cv::RNG::UNIFORM, 0, 256);
+    for (cv::Vec4b& c : colours) c[3] = 255;
+    cv::Mat1b trust(2, 8);
+    for (int x = 0; x < 8; ++x) trust.col(x) = 36 * x;
+    FullscreenPass pass(shaders_, "colours_now.frag");
+    const Texture set = texture_of(TextureFormat::rgba8, colours);
+    const Texture trusted = texture_of(TextureFormat::r8, trust);
+    const Texture target(TextureFormat::rgba8, 8, 2);
+    Program& program = pass.use();
+    program.set("set_colour", 0);
+    program.set("trust", 1);
+    for (const char* other : {"picture", "seen", "matte", "performers", "set_depth"})
+        program.set(other, 0);
+    set.bind(0);
+    trusted.bind(1);
+    const ColourImage now = drawn_by(pass, target);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 8; ++x) {
+            for (int c = 0; c < 3; ++c) EXPECT_EQ(now(y, x)[c], colours(y, x)[c]);
+            EXPECT_EQ(now(y, x)[3], std::max<int>(trust(y, x), 1)) << "what is there counts";
+        }
 }
 
 /// A pixel of the map spans two of the picture.
 TEST_F(EdgeTrustTest, CountsPixelsOfThePictureWhateverTheMapsSize) {
-    DepthView view = noise({32, 2}, 255);
+    DepthView view = picture({32, 2});
     view.depth_m = DepthImage(1, 16, 2.0f);
     view.depth_m.colRange(8, 16) = 3.0f;
-    const ColourImage result = judged(view);
+    const cv::Mat1b trust = judged(view);
     for (int x = 0; x < 32; ++x)
-        EXPECT_NEAR(result(0, x)[3], trust_at(x < 16 ? 16 - x : x - 15), 1) << x;
+        EXPECT_NEAR(trust(0, x), trust_at(x < 16 ? 16 - x : x - 15), 1) << x;
 }
 
 }  // namespace

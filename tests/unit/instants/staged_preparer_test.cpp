@@ -104,6 +104,28 @@ TEST_F(StagedPreparerTest, TakesTheSetOutOfTheColoursOfPerformersEdges) {
     EXPECT_GT(edges, 100);
 }
 
+/// Its depth and triangles for a second, once it was bettered; its colours never.
+TEST_F(StagedPreparerTest, KeepsTheShapeOfAKnownSetAtTheCheapestLevel) {
+    const DepthView empty = film(false);
+    const VirtualView target{staged_width_px, staged_height_px, empty.K, empty.world_from_camera};
+    const auto shown = [&](const DepthView& view) {
+        preparer_.take({&view, 1}, 0.2);
+        return preparer_.prepare(target, prepare_levels().back())->rigs.at(0).surface;
+    };
+    for (int i = 0; i < 5; ++i) (void)shown(empty);
+    preparer_.improve(target);
+    const auto first = shown(empty);
+    DepthView lit = empty;
+    for (cv::Vec4b& c : lit.colour) c = 0.9 * c;
+    const auto second = shown(lit);
+    EXPECT_EQ(&second->depth(), &first->depth());
+    EXPECT_EQ(&second->triangles(QuadGrid::coarse), &first->triangles(QuadGrid::coarse));
+    EXPECT_NE(&second->colour(), &first->colour());
+    std::shared_ptr<const RigSurface> later;
+    for (int i = 0; i < 6; ++i) later = shown(empty);
+    EXPECT_NE(&later->depth(), &first->depth()) << "made anew after a second";
+}
+
 TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
     const DepthView empty = film(false);
     for (int i = 0; i < 5; ++i) (void)prepared(empty);
