@@ -12,8 +12,7 @@ uniform sampler2D trust;       // from edge_trust.frag
 uniform float remembered;      // alpha of what is
 
 const float before = 0.97;  // share of the set's depth: what is farther than that does not stand before it
-
-const float least_alpha = 1.0 / 255.0;
+const float least_alpha = 1.0 / 255.0;  // something is better than nothing
 
 layout(location = 0) out vec4 colour;
 

@@ -16,7 +16,7 @@ void RigHistory::forget() {
 void RigHistory::hide() {
     surface_.reset();
     performers_.reset();
-    kept_shape_.reset();
+    shape_made_s_.reset();
     prepared_rank_.reset();
 }
 

@@ -79,16 +79,15 @@ class RigHistory {
         std::uint64_t made = 0;  ///< number of the instant
     };
     const std::optional<Model>& model() const { return model_; }
-    void set_model(const Model& model) { model_ = model; }
+    void set_model(const Model& model) {
+        model_ = model;
+        shape_made_s_.reset();
+    }
 
-    /// When the depth and the triangles of the published surface() were made, and of which model;
-    /// empty where none is kept.
-    struct KeptShape {
-        double made_s = 0;
-        std::uint64_t model = 0;
-    };
-    const std::optional<KeptShape>& kept_shape() const { return kept_shape_; }
-    void keep_shape(const std::optional<KeptShape>& kept) { kept_shape_ = kept; }
+    /// When the depth and the triangles of the published surface() were made of this model, on the
+    /// preparer's clock; empty where they are made anew for every instant.
+    std::optional<double> shape_made_s() const { return shape_made_s_; }
+    void set_shape_made_s(std::optional<double> made_s) { shape_made_s_ = made_s; }
 
     /// The inverse depths that a search of the set found, 1/m, 0 = none.
     DrawnTexture& found() { return found_; }
@@ -145,7 +144,7 @@ class RigHistory {
     SetState set_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
-    std::optional<KeptShape> kept_shape_;
+    std::optional<double> shape_made_s_;
     DrawnTexture found_{TextureFormat::r32f};
     std::optional<Search> search_;
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};

@@ -237,9 +237,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
 }
 
 bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level) const {
-    const auto& kept = rig.kept_shape();
-    return !level.is_refined && kept && kept->model == rig.model()->made &&
-           now_s_ - kept->made_s < shape_kept_s &&
+    return !level.is_refined && rig.shape_made_s() && now_s_ - *rig.shape_made_s() < shape_kept_s &&
            (rig.surface()->has_fine_grid() || !level.has_fine_grid);
 }
 
@@ -267,9 +265,8 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
     }
     surface.set_has_fine_grid(level.has_fine_grid);
     // What is not known yet comes to light instant by instant.
-    std::optional<RigHistory::KeptShape> kept;
-    if (!level.is_refined && rig.model()->rank == 0) kept = {now_s_, rig.model()->made};
-    rig.keep_shape(kept);
+    const bool is_kept = !level.is_refined && rig.model()->rank == 0;
+    rig.set_shape_made_s(is_kept ? std::optional(now_s_) : std::nullopt);
 }
 
 std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,

@@ -66,31 +66,44 @@ TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
     EXPECT_GT(edges, 100);
 }
 
-/// Of a picture whose pixels are all the set's, seen now.
-TEST_F(EdgeTrustTest, IsTheAlphaOfTheColoursOfASet) {
-    ColourImage colours(2, 8);
-    cv::RNG random(1);
-    random.fill(colours, cv::RNG::UNIFORM, 0, 256);
-    for (cv::Vec4b& c : colours) c[3] = 255;
+/// Where the set is seen now, and where a performer, hardly there, stands before what is
+/// remembered.
+TEST_F(EdgeTrustTest, IsAShareOfWhatTheColoursOfASetCount) {
     cv::Mat1b trust(2, 8);
     for (int x = 0; x < 8; ++x) trust.col(x) = 36 * x;
+    ColourImage colours(trust.size());
+    cv::RNG random(1);
+    random.fill(colours, cv::RNG::UNIFORM, 0, 256);
     FullscreenPass pass(shaders_, "colours_now.frag");
-    const Texture set = texture_of(TextureFormat::rgba8, colours);
-    const Texture trusted = texture_of(TextureFormat::r8, trust);
     const Texture target(TextureFormat::rgba8, 8, 2);
-    Program& program = pass.use();
-    program.set("set_colour", 0);
-    program.set("trust", 1);
-    for (const char* other : {"picture", "seen", "matte", "performers", "set_depth"})
-        program.set(other, 0);
-    set.bind(0);
-    trusted.bind(1);
-    const ColourImage now = drawn_by(pass, target);
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 8; ++x) {
-            for (int c = 0; c < 3; ++c) EXPECT_EQ(now(y, x)[c], colours(y, x)[c]);
-            EXPECT_EQ(now(y, x)[3], std::max<int>(trust(y, x), 1)) << "what is there counts";
-        }
+    const Texture trusted = texture_of(TextureFormat::r8, trust);
+    const Texture matte = texture_of(TextureFormat::r8, cv::Mat1b(trust.size(), uchar{50}));
+    const Texture performers = texture_of(TextureFormat::r32f, DepthImage(trust.size(), 2.0f));
+    const Texture behind = texture_of(TextureFormat::r32f, DepthImage(trust.size(), 4.0f));
+    for (const int counts : {255, 128, 4}) {
+        for (cv::Vec4b& c : colours) c[3] = static_cast<uchar>(counts);
+        const Texture set = texture_of(TextureFormat::rgba8, colours);
+        Program& program = pass.use();
+        int unit = 0;
+        const auto bind = [&](const char* name, const Texture& texture) {
+            texture.bind(unit);
+            program.set(name, unit++);
+        };
+        bind("set_colour", set);
+        bind("picture", set);
+        bind("seen", matte);
+        bind("matte", matte);
+        bind("performers", performers);
+        bind("set_depth", behind);
+        bind("trust", trusted);
+        const ColourImage now = drawn_by(pass, target);
+        for (int y = 0; y < now.rows; ++y)
+            for (int x = 0; x < now.cols; ++x) {
+                for (int c = 0; c < 3; ++c) EXPECT_EQ(now(y, x)[c], colours(y, x)[c]);
+                EXPECT_NEAR(now(y, x)[3], std::max(counts * trust(y, x) / 255.0, 1.0), 1);
+                EXPECT_GE(now(y, x)[3], 1) << "what is there counts";
+            }
+    }
 }
 
 /// A pixel of the map spans two of the picture.
