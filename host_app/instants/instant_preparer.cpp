@@ -7,7 +7,7 @@ std::span<const PrepareLevel> prepare_levels() {
         {0, most_drawn_rigs},
         {1, 2},
         {2, 2, false},
-        {3, 2, false, false},
+        {3, 2, false, false, 3},
     };
     return levels;
 }

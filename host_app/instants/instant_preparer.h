@@ -5,6 +5,7 @@
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/instant.h"
 #include "host_app/instants/set_memory.h"
+#include "host_app/instants/triangle_builder.h"
 #include "host_app/instants/virtual_view.h"
 
 namespace vantage {
@@ -18,6 +19,7 @@ struct PrepareLevel {
     /// depth is moved to where the rigs' pictures agree.
     bool is_refined = true;
     bool has_fine_grid = true;  ///< surfaces may be drawn by every pixel, with their rims
+    float bend = TriangleBuilder::least_bend;  ///< that their coarse grids leave out
 };
 
 /// From the best to the cheapest, by rank.

@@ -55,15 +55,13 @@ void PerformerDepth::close(const Texture& depth_m, const RigHistory& rig,
                            const Framebuffer& closed) {
     Program& depth = close_.use();
     depth.set("depth_map", 0);
-    depth.set("picture", 1);
-    depth.set("matte", 2);
-    depth.set("set_depth", 3);
+    depth.set("matte", 1);
+    depth.set("set_depth", 2);
     depth.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
-    rig.fresh_colour().bind(1);
-    rig.matte().bind(2);
-    rig.steady_depth().bind(3);
-    close_.draw(closed, rig.matte_tiles(), 4, rig.fresh_colour().size());
+    rig.matte().bind(1);
+    rig.steady_depth().bind(2);
+    close_.draw(closed, rig.matte_tiles(), 3, rig.fresh_colour().size());
 }
 
 void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all,

@@ -232,7 +232,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     colour_performers_.draw(surface->colour_target(), rig.matte_tiles().texture(), 3,
                             rig.fresh_colour().size());
     triangles_.build_where(surface->grid(QuadGrid::coarse), rig.matte_tiles().texture(),
-                           rig.fresh_colour().size());
+                           rig.fresh_colour().size(), level.bend);
     return surface;
 }
 
@@ -258,7 +258,7 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
     rig.colour_mean().bind(6);
     show_.draw(surface.depth_target());
     edge_trust_.judge(surface);
-    triangles_.build(surface.grid(QuadGrid::coarse));
+    triangles_.build(surface.grid(QuadGrid::coarse), level.bend);
     if (level.has_fine_grid) {
         triangles_.build(surface.grid(QuadGrid::fine));
         triangles_.build_rims(surface);

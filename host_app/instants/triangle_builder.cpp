@@ -12,8 +12,6 @@ namespace {
 constexpr double steepest_slope = 8.0;
 /// A step below this share of the depth never is (depth codes are quantised).
 constexpr double smallest_step = 0.0075;
-/// Of the uncertainty of inverse depth: a block of the coarse grid that bends less is flat.
-constexpr float most_bend = 0.6f;
 
 int quads_across(QuadGrid grid) { return grid == QuadGrid::fine ? 1 : 4; }
 
@@ -32,23 +30,24 @@ TriangleBuilder::TriangleBuilder(const ShaderLibrary& library)
       build_parts_(blocks(library, QuadGrid::coarse, true)),
       build_rims_(Program::compute(library, "mesh_rims.comp")) {}
 
-void TriangleBuilder::build(const DepthGrid& grid) {
-    build(grid, grid.grid == QuadGrid::fine ? build_ : build_coarse_);
+void TriangleBuilder::build(const DepthGrid& grid, float bend) {
+    build(grid, bend, grid.grid == QuadGrid::fine ? build_ : build_coarse_);
 }
 
-void TriangleBuilder::build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture) {
+void TriangleBuilder::build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
+                                  float bend) {
     build_parts_.use();
     build_parts_.set("tiles", 1);
     build_parts_.set("tile_share", TilePass::share_of(picture));
     tiles.bind(1);
-    build(grid, build_parts_);
+    build(grid, bend, build_parts_);
 }
 
-void TriangleBuilder::build(const DepthGrid& grid, Program& program) {
+void TriangleBuilder::build(const DepthGrid& grid, float bend, Program& program) {
     if (grid.triangles.capacity == 0) return;
     const int block = static_cast<int>(grid.grid) * quads_across(grid.grid);
     set_edge_filter(program, grid);
-    program.set("bend", most_bend * grid.spread);
+    program.set("bend", bend * grid.spread);
     grid.triangles.begin();
     const auto blocks = [&](int px) { return (px - 1 + block - 1) / block; };
     program.dispatch_over(blocks(grid.depth_m.width_px()), blocks(grid.depth_m.height_px()));

@@ -12,17 +12,21 @@ class TriangleBuilder {
   public:
     explicit TriangleBuilder(const ShaderLibrary& library);
 
-    /// In the coarse grid, what is flat over a block of quads becomes two triangles.
-    void build(const DepthGrid& grid);
+    /// A block of quads of the coarse grid that bends by less is flat, and becomes two triangles:
+    /// of the uncertainty of inverse depth.
+    static constexpr float least_bend = 0.6f;
+
+    void build(const DepthGrid& grid, float bend = least_bend);
     /// A coarse grid's, only where `tiles` of a picture of this size (TilePass) say so.
-    void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture);
+    void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
+                     float bend = least_bend);
 
     /// What the fine grid leaves out at the edges of surfaces: half a pixel all round, and all of
     /// what is one pixel wide. Drawn with the fine grid.
     void build_rims(RigSurface& surface);
 
   private:
-    void build(const DepthGrid& grid, Program& program);
+    void build(const DepthGrid& grid, float bend, Program& program);
     void set_edge_filter(Program& program, const DepthGrid& grid);
 
     Program build_, build_coarse_, build_parts_, build_rims_;

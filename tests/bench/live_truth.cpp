@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/gl/egl_context.h"
+#include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/played_truth.h"
 #include "tests/bench/set_truth.h"
 #include "tests/bench/size_option.h"
@@ -35,8 +36,10 @@ int main(int argc, char** argv) {
     steps->add_option("--settling", stepped.settling_s, "Seconds before the measured ones");
     steps->add_option("--seconds", stepped.measured_s, "Measured");
     steps->add_option("--start", stepped.start_s, "In the stage's loop of 24 s");
-    steps->add_option("--prepare-level", stepped.prepare_level)->check(CLI::Range(0, 3));
-    steps->add_option("--render-level", stepped.render_level)->check(CLI::Range(0, 5));
+    steps->add_option("--prepare-level", stepped.prepare_level)
+        ->check(CLI::Range(0, prepare_levels().back().rank));
+    steps->add_option("--render-level", stepped.render_level)
+        ->check(CLI::Range(0, render_levels().back().rank));
     steps->add_flag("--exact", stepped.with_exact_depth, "Depth of the stage, not of the matchers");
     std::vector<std::string> exact_in;
     steps->add_option("--exact-in", exact_in, "Regions in which depth is the stage's")

@@ -86,6 +86,9 @@ TEST_F(FlatBlocksTest, OfWhichAQuarterBendsAreTwoTrianglesAQuarterElsewhere) {
     constexpr std::size_t blocks = 8 * 6, bent = 4, quads = 4;
     EXPECT_GT(built().size(), 2 * blocks) << "nothing is seen of the bump";
     EXPECT_LE(built().size(), 2 * (blocks - bent) + bent * 2 * (3 + quads));
+    builder_.build(grid(QuadGrid::coarse), 5 * TriangleBuilder::least_bend);
+    EXPECT_EQ(built().size(), 2 * blocks) << "that much is left out";
+    builder_.build(grid(QuadGrid::coarse));
     double area = 0;
     for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
     EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
