@@ -9,14 +9,15 @@ uniform float edge_ratio;     // two depths whose ratio is larger lie on two sur
 layout(location = 0) out float performer_m;  // metres, 0 = nothing, negative = beyond the matte
 
 // Around a pixel: rings of eight.
-const int ring_taps = 8;
-const ivec2 taps[3 * ring_taps] = ivec2[](
+const int rings = 3, ring_taps = 8;
+const ivec2 taps[rings * ring_taps] = ivec2[](
     ivec2(1, 2), ivec2(-1, 2), ivec2(-2, 1), ivec2(-2, -1), ivec2(-1, -2), ivec2(1, -2), ivec2(2, -1), ivec2(2, 1),
     ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3), ivec2(4, 0),
     ivec2(2, 6), ivec2(-2, 6), ivec2(-6, 2), ivec2(-6, -2), ivec2(-2, -6), ivec2(2, -6), ivec2(6, -2), ivec2(6, 2));
 const float smooth_weight = 0.24;  // of the first ring in the mean
 const float none = 1e9;
 
+float nearer(float nearest, float z) { return z > 0.0 ? min(nearest, z) : nearest; }
 float depth_at(ivec2 at) { return texelFetch(depth_map, clamp(at, ivec2(0), textureSize(depth_map, 0) - 1), 0).r; }
 
 void main() {
@@ -25,17 +26,19 @@ void main() {
     float around[ring_taps];
     for (int k = 0; k < ring_taps; ++k) {
         around[k] = depth_at(at + taps[k]);
-        nearest = around[k] > 0.0 ? min(around[k], nearest) : nearest;
+        nearest = nearer(nearest, around[k]);
     }
-    for (int ring = 1; ring < 3; ++ring) {
+    for (int ring = 1; ring < rings; ++ring) {
         float farther = none;
-        for (int k = 0; k < ring_taps; ++k) {
-            float z = depth_at(at + taps[ring_taps * ring + k]);
-            farther = z > 0.0 ? min(z, farther) : farther;
-        }
+        for (int k = 0; k < ring_taps; ++k) farther = nearer(farther, depth_at(at + taps[ring_taps * ring + k]));
         nearest = nearest == none ? farther : nearest;
     }
     if (nearest == none) nearest = 0.0;
+    if (textureLod(matte, gl_FragCoord.xy / vec2(textureSize(depth_map, 0)), 0.0).r == 0.0) {
+        float set = texelFetch(set_depth, at, 0).r;
+        performer_m = set <= 0.0 || set > nearest ? -nearest : 0.0;
+        return;
+    }
     float depth = measured > 0.0 ? measured : nearest;
     float all = 1.0, sum = 1.0 / max(depth, 1e-3);
     for (int k = 0; k < ring_taps; ++k) {
@@ -43,7 +46,5 @@ void main() {
         sum += w / max(around[k], 1e-3);
         all += w;
     }
-    bool is_within = textureLod(matte, gl_FragCoord.xy / vec2(textureSize(depth_map, 0)), 0.0).r > 0.0;
-    float set = texelFetch(set_depth, at, 0).r;
-    performer_m = is_within ? (depth > 0.0 ? all / sum : 0.0) : set <= 0.0 || set > nearest ? -nearest : 0.0;
+    performer_m = depth > 0.0 ? all / sum : 0.0;
 }

@@ -22,7 +22,9 @@ constexpr float matte_reach_px = 6;
 /// What stands still before the set for so long is a part of it.
 constexpr double absorbed_after_s = 120;
 /// What was still for so long is the set; less may be a moment of what moves.
-constexpr double known_after_s = 0.5, shown_after_s = 0.2;
+constexpr double known_after_s = 0.5;
+/// What was still for so long is shown behind performers, where the alternative is a guess.
+constexpr double shown_after_s = 0.2;
 /// The longest means, of which certainties are shares.
 constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
 /// Pixels across that look_at() looks at.

@@ -12,10 +12,11 @@ class TriangleBuilder {
   public:
     explicit TriangleBuilder(const ShaderLibrary& library);
 
-    /// A block of quads of the coarse grid that bends by less is flat, and becomes two triangles:
-    /// of the uncertainty of inverse depth.
+    /// The usual bend, see build().
     static constexpr float least_bend = 0.6f;
 
+    /// In the coarse grid, a block of quads that bends by less than `bend`, in units of the
+    /// uncertainty of inverse depth, is flat, and becomes two triangles.
     void build(const DepthGrid& grid, float bend = least_bend);
     /// A coarse grid's, only where `tiles` of a picture of this size (TilePass) say so.
     void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
