@@ -23,8 +23,6 @@ constexpr float matte_reach_px = 6;
 constexpr double absorbed_after_s = 120;
 /// What was still for so long is the set; less may be a moment of what moves.
 constexpr double known_after_s = 0.5;
-/// What was still for so long is shown behind performers, where the alternative is a guess.
-constexpr double shown_after_s = 0.2;
 /// The longest means, of which certainties are shares.
 constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
 /// Pixels across that look_at() looks at.
@@ -134,9 +132,7 @@ float SetLearner::most_votes(const RigHistory& rig) {
     return instants_of(depth_mean_s, rig.dt_s(), 8, longest_depth_mean);
 }
 
-float SetLearner::shown_after(const RigHistory& rig) {
-    return instants_of(shown_after_s, rig.dt_s(), 2, 30);
-}
+float SetLearner::known_after(const RigHistory& rig) { return known_after_of(rig.dt_s()); }
 
 LearntRigSet SetLearner::learnt(const RigHistory& rig) {
     LearntRigSet set;
@@ -196,7 +192,7 @@ SetLearner::Look SetLearner::look_at(const RigHistory& rig) {
     Program& known = known_.use();
     known.set("set_state", 0);
     known.set("set_colour", 1);
-    known.set("known_after", known_after_of(rig.dt_s()));
+    known.set("known_after", known_after(rig));
     known.set("matte", 2);
     known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
                                               1.0f / static_cast<float>(sampled.height)));

@@ -40,9 +40,8 @@ class SetLearner {
 
     /// Instants that a pixel's depth counts at most.
     static float most_votes(const RigHistory& rig);
-    /// Instants that a pixel has to have been still for before it shows the set also where a
-    /// performer hides that. Fewer than make it known: what stands there instead is a guess.
-    static float shown_after(const RigHistory& rig);
+    /// Instants that a pixel has to have been still for before it is known to show the set.
+    static float known_after(const RigHistory& rig);
 
   private:
     FullscreenPass see_, tiles_;

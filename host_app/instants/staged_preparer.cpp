@@ -250,7 +250,7 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
     show.set("performers", 4);
     show.set("colour", 5);
     show.set("colour_mean", 6);
-    show.set("known_after", SetLearner::shown_after(rig));
+    show.set("known_after", SetLearner::known_after(rig));
     rig.depth().bind(2);
     rig.set_state().seen().bind(3);
     performers_m.bind(4);

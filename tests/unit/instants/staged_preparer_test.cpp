@@ -142,13 +142,6 @@ TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
     EXPECT_EQ(cv::countNonZero((trust != 255) & ~square(4)), 0) << "it is";
 }
 
-/// For less time than makes it known: what would be there instead is a guess.
-TEST_F(StagedPreparerTest, KeepsASetThatWasSeenForTwoInstantsBehindPerformers) {
-    for (int i = 0; i < 2; ++i) (void)prepared(film(false));
-    const DepthImage depth_m = prepared(film(true))->rigs.at(0).surface->depth().download();
-    EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), stage_wall_m), cv::NORM_INF), 0.02);
-}
-
 /// Depth that was closed but never measured is nothing to remember.
 TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
     DepthView torn = film(false);
