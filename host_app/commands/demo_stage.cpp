@@ -36,7 +36,7 @@ int free_port() {
 DemoSize demo_size(bool is_software) {
     DemoSize size;
     if (!is_software) return size;
-    size.rate_hz = 5;
+    size.rate_hz = 4.5;
     size.latency_budget_ms = 600;
     size.rate = "15";
     size.preset = "fast";

@@ -11,11 +11,12 @@ std::size_t bytes_a_side(cv::Size size) { return 3 * static_cast<std::size_t>(si
 
 }  // namespace
 
-PairLoop::PairLoop(cv::Size size, std::chrono::nanoseconds loop, std::chrono::nanoseconds period,
+PairLoop::PairLoop(cv::Size size, std::chrono::seconds loop, const PulseGrid& pulses,
                    std::size_t most_bytes)
     : size_(size), loop_(loop) {
-    if (size.empty() || loop % period != std::chrono::nanoseconds(0)) return;
-    length_ = static_cast<std::size_t>(loop / period);
+    const PulseGrid::Fraction rate = pulses.rate();
+    if (size.empty() || loop.count() * rate.pulses % rate.seconds != 0) return;
+    length_ = static_cast<std::size_t>(loop.count() * rate.pulses / rate.seconds);
     room_ = std::min(length_, most_bytes / (2 * bytes_a_side(size)));
     bytes_.resize(room_ * 2 * bytes_a_side(size));
 }

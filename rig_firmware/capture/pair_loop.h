@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/base/pulse_grid.h"
 #include "common/image/image.h"
 
 namespace vantage {
@@ -16,9 +17,9 @@ namespace vantage {
 /// that it has no room for are made every time.
 class PairLoop {
   public:
-    /// `most_bytes` hold as many pairs as fit, no more than a loop has. Nothing is kept where the
-    /// loop is no whole number of periods, for then no time of it comes twice.
-    PairLoop(cv::Size size, std::chrono::nanoseconds loop, std::chrono::nanoseconds period,
+    /// `most_bytes` hold as many pairs as fit, no more than a loop has. Nothing is kept where a
+    /// loop is no whole number of pulses, for then no time of it comes twice.
+    PairLoop(cv::Size size, std::chrono::seconds loop, const PulseGrid& pulses,
              std::size_t most_bytes);
 
     struct Pair {

@@ -27,7 +27,7 @@ class VirtualSource final : public StereoSource {
           stage_(shaders_, static_cast<std::uint64_t>(set_)),
           pacer_(PulseGrid(config.source.rate_hz)),
           // Exact depth comes with every frame anew.
-          loop_(size(), stage_loop, PulseGrid(config.source.rate_hz).period(),
+          loop_(size(), stage_loop, PulseGrid(config.source.rate_hz),
                 config.match.matcher == exact_matcher
                     ? 0
                     : static_cast<std::size_t>(config.virtual_rig.loop_mb * 1e6)),
@@ -89,10 +89,9 @@ class VirtualSource final : public StereoSource {
                 loop_.length(), size().width, size().height, loop_.room(), loop_mb,
                 loop_.room() == 0 ? " (with exact disparity none are kept)" : "");
         log_info("drawing the {} pairs of the stage's loop ahead", loop_.length());
-        const std::chrono::nanoseconds period =
-            std::chrono::nanoseconds(stage_loop) / static_cast<std::int64_t>(loop_.length());
+        const PulseGrid pulses(rate_hz_);
         for (std::size_t pair = 0; pair < loop_.length(); ++pair)
-            (void)film(static_cast<std::int64_t>(pair) * period);
+            (void)film(pulses.time_of(pair).time_since_epoch());
     }
 
     /// Without noise: as it was kept a loop of the stage ago, or else drawn.

@@ -21,7 +21,7 @@ bool same(const ColourImage& a, const ColourImage& b) {
 }
 
 TEST(PairLoop, ShowsAPairAgainWholeLoopsLaterToTheBit) {
-    PairLoop loop({17, 11}, 24s, 200ms, 120 * pair_bytes);
+    PairLoop loop({17, 11}, 24s, PulseGrid(5), 120 * pair_bytes);
     EXPECT_EQ(loop.room(), 120u);
     EXPECT_FALSE(loop.find(3s));
     loop.keep(3s, picture(1), picture(2));
@@ -37,14 +37,14 @@ TEST(PairLoop, ShowsAPairAgainWholeLoopsLaterToTheBit) {
 }
 
 TEST(PairLoop, WhatIsFoundIsTheFindersOwn) {
-    PairLoop loop({17, 11}, 24s, 200ms, 120 * pair_bytes);
+    PairLoop loop({17, 11}, 24s, PulseGrid(5), 120 * pair_bytes);
     loop.keep(0s, picture(1), picture(2));
     loop.find(0s)->left.setTo(0);
     EXPECT_TRUE(same(loop.find(0s)->left, picture(1)));
 }
 
 TEST(PairLoop, KeepsWhatFitsAndNoMore) {
-    PairLoop loop({17, 11}, 24s, 200ms, 2 * pair_bytes + pair_bytes / 2);
+    PairLoop loop({17, 11}, 24s, PulseGrid(5), 2 * pair_bytes + pair_bytes / 2);
     EXPECT_EQ(loop.room(), 2u);
     for (int i = 0; i < 4; ++i) loop.keep(i * 200ms, picture(1), picture(2));
     EXPECT_EQ(loop.kept(), 2u);
@@ -55,14 +55,25 @@ TEST(PairLoop, KeepsWhatFitsAndNoMore) {
 }
 
 TEST(PairLoop, TakesNoMemoryWhereNoTimeComesTwice) {
-    PairLoop loop({17, 11}, 24s, 33'366'667ns, 1000 * pair_bytes);
+    PairLoop loop({17, 11}, 24s, PulseGrid(29.97), 1000 * pair_bytes);
     EXPECT_EQ(loop.room(), 0u);
     loop.keep(0s, picture(1), picture(2));
     EXPECT_FALSE(loop.find(0s));
 }
 
+// The times of pulses are rounded to nanoseconds, and yet come again.
+TEST(PairLoop, RepeatsAtRatesWhosePeriodIsNoWholeNumberOfNanoseconds) {
+    const PulseGrid pulses(4.5);
+    constexpr std::uint64_t length = 108, now = 8'000'000'007;
+    PairLoop loop({17, 11}, 24s, pulses, length * pair_bytes);
+    EXPECT_EQ(loop.length(), length);
+    loop.keep(pulses.time_of(now % length).time_since_epoch(), picture(1), picture(2));
+    EXPECT_TRUE(loop.find(pulses.time_of(now).time_since_epoch()));
+    EXPECT_FALSE(loop.find(pulses.time_of(now + 1).time_since_epoch()));
+}
+
 TEST(PairLoop, KeepsNothingWithoutMemory) {
-    PairLoop loop({17, 11}, 24s, 200ms, 0);
+    PairLoop loop({17, 11}, 24s, PulseGrid(5), 0);
     loop.keep(0s, picture(1), picture(2));
     EXPECT_FALSE(loop.find(0s));
 }

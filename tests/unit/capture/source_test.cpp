@@ -103,7 +103,7 @@ TEST(VirtualSource, DrawsAheadOnlyWhatItCanKeep) {
     EXPECT_EQ(thrown_sentence([&] { make_source(config); }),
               "'loop_ahead' in [virtual_rig] asks for 480 pairs of 61x47, and 58 fit into loop_mb "
               "= 1: raise it, or leave 'loop_ahead' false");
-    config.source.rate_hz = 7;
+    config.source.rate_hz = 7.01;
     EXPECT_NE(thrown_sentence([&] { make_source(config); }).find("needs a loop that repeats"),
               std::string::npos);
 }
