@@ -5,6 +5,7 @@
 // Zhang, Soft 3D reconstruction, 2017): the next one behind it counts, if there is one for which rigs vote. A guessed
 // depth counts only where nobody measured.
 #include "rig_layers.glsl"
+#include "two_stages.glsl"
 
 uniform float softness;  // relative depth within which two surfaces are one
 
@@ -81,7 +82,10 @@ void main() {
     // Both have it: nobody is left to see through it.
     is_voted_for = is_voted_for || abs(candidates[0] - candidates[1]) < (softness + spread[0] * measured) * measured;
 #endif
-    if (!is_voted_for) is_voted_for = is_there(pixel, measured);
+    fused_depth = 0.0;
+    leave_to_second(!is_voted_for);
+#if !FIRST
+    is_voted_for = is_voted_for || is_there(pixel, measured);
     float next = measured;
     for (int k = 1; k < LAYERS && !is_voted_for; ++k) {
         float before = next * (1.0 + 2.0 * softness);
@@ -92,8 +96,8 @@ void main() {
         is_voted_for = is_there(pixel, next);
         if (is_voted_for) measured = next;
     }
+#endif
     float nearest = measured < nothing ? measured : guessed;
-    fused_depth = 0.0;
     if (nearest == nothing) return;
     float sum = 0.0, weights = 0.0;
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);

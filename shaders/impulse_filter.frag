@@ -2,6 +2,7 @@
 // in any channel than all but one of its eight neighbours, by more than a tolerance, gets the median of the nine.
 #define MEDIAN_OF vec3
 #include "stereo_median9.glsl"
+#include "two_stages.glsl"
 
 uniform sampler2D picture;
 uniform sampler2D depth_m;  // its magnitude counts; 0 = nothing
@@ -27,7 +28,9 @@ bool is_one_surface(ivec2 at) {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), most = textureSize(picture, 0) - 1;
     filtered = texelFetch(picture, at, 0);
-    if (is_one_surface(at)) return;
+#if FIRST
+    leave_to_second(!is_one_surface(at));
+#else
     // The least and the greatest two of the neighbours.
     vec3 low = vec3(1.0), next_low = vec3(1.0), high = vec3(0.0), next_high = vec3(0.0);
     for (int k = 0; k < 9; ++k) {
@@ -44,4 +47,5 @@ void main() {
         return;
     filtered.rgb = median9(around[0], around[1], around[2], around[3], around[4], around[5], around[6], around[7],
                            around[8]);
+#endif
 }

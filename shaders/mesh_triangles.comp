@@ -36,39 +36,25 @@ void write_quad(Quad q, ivec2 at, int width, ivec2 size) {
     uint first = uint(at.y * size.x + at.x);
     uint down = uint(width * size.x), across = uint(width);
     uvec4 corner = uvec4(first, first + across, first + down, first + down + across);
-    if (is_whole(q)) {
-        uint place = atomicAdd(count, 6u);
-        // The diagonal along which the surface bends less.
-        bool falls = abs(q.a - q.d) < abs(q.b - q.c);
-        write(place, falls ? corner.xyw : corner.xyz);
-        write(place + 3u, falls ? corner.xwz : corner.ywz);
-        return;
+    bool whole = is_whole(q);
+    // The diagonal along which the surface bends less.
+    bool falls = abs(q.a - q.d) < abs(q.b - q.c);
+    uvec3 upper = falls ? corner.xyw : corner.xyz, lower = falls ? corner.xwz : corner.ywz;
+    if (!whole) {
+        if (q.ab && q.ac)
+            upper = corner.xyz;
+        else if (q.bd && q.cd)
+            upper = corner.ywz;
+        else if (q.ab && q.bd)
+            upper = corner.xyw;
+        else if (q.ac && q.cd)
+            upper = corner.xwz;
+        else
+            return;
     }
-    uvec3 one;
-    if (q.ab && q.ac)
-        one = corner.xyz;
-    else if (q.bd && q.cd)
-        one = corner.ywz;
-    else if (q.ab && q.bd)
-        one = corner.xyw;
-    else if (q.ac && q.cd)
-        one = corner.xwz;
-    else
-        return;
-    write(atomicAdd(count, 3u), one);
-}
-
-// Where a quad is cut, the quads of its pixels tell more exactly where.
-void write_quads(ivec2 at, ivec2 size) {
-    Quad q = quad_at(at, STEP, size);
-    if (STEP == 1 || is_whole(q)) {
-        write_quad(q, at, STEP, size);
-        return;
-    }
-    for (int i = 0; i < STEP * STEP; ++i) {
-        ivec2 part = at + ivec2(i % STEP, i / STEP);
-        write_quad(quad_at(part, 1, size), part, 1, size);
-    }
+    uint place = atomicAdd(count, whole ? 6u : 3u);
+    write(place, upper);
+    if (whole) write(place + 3u, lower);
 }
 
 #if ACROSS > 1
@@ -95,26 +81,61 @@ bool write_if_flat(ivec2 at, int side, ivec2 size) {
 }
 #endif
 
+#if ACROSS > 1
+const int half_across = ACROSS / 2;
+const uint lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, quads = uint(half_across * half_across);
+// What a work group's blocks leave: quarters of those that are not flat, then those of them that are not flat either. Few
+// are, and so few that a software rasteriser, which takes all branches for all of its lanes, is done soon.
+shared uint quarters[4u * lanes], bent[4u * lanes], cut[quads * 4u * lanes];
+shared uint quarter_count, bent_count, cut_count;
+
+uint word_of(ivec2 at) { return uint(at.x) | uint(at.y) << 16; }
+ivec2 place_of(uint word) { return ivec2(word & 0xffffu, word >> 16); }
+#endif
+
 void main() {
     ivec2 size = textureSize(depth_map, 0);
     ivec2 at = ivec2(gl_GlobalInvocationID.xy) * ACROSS * STEP, end = (size - 1) / STEP * STEP;
-    if (at.x >= end.x || at.y >= end.y) return;
+    bool is_inside = at.x < end.x && at.y < end.y;
 #if TILES
     vec2 middle = (vec2(at) + 0.5 * float(ACROSS * STEP)) / vec2(size);
-    if (texelFetch(tiles, ivec2(middle / tile_share), 0).r == 0.0) return;
+    is_inside = is_inside && texelFetch(tiles, ivec2(middle / tile_share), 0).r > 0.0;
 #endif
 #if ACROSS > 1
-    if (write_if_flat(at, ACROSS * STEP, size)) return;
-    const int half_across = ACROSS / 2;
-    for (int part = 0; part < 4; ++part) {
-        ivec2 quarter = at + half_across * STEP * ivec2(part & 1, part >> 1);
-        if (quarter.x >= end.x || quarter.y >= end.y || write_if_flat(quarter, half_across * STEP, size)) continue;
-        for (int k = 0; k < half_across * half_across; ++k) {
-            ivec2 quad = quarter + STEP * ivec2(k % half_across, k / half_across);
-            if (quad.x < end.x && quad.y < end.y) write_quads(quad, size);
-        }
+    uint lane = gl_LocalInvocationIndex;
+    if (lane == 0u) quarter_count = bent_count = cut_count = 0u;
+    barrier();
+    if (is_inside && !write_if_flat(at, ACROSS * STEP, size)) {
+        uint place = atomicAdd(quarter_count, 4u);
+        for (int part = 0; part < 4; ++part)
+            quarters[place + uint(part)] = word_of(at + half_across * STEP * ivec2(part & 1, part >> 1));
+    }
+    barrier();
+    for (uint i = lane; i < quarter_count; i += lanes) {
+        ivec2 quarter = place_of(quarters[i]);
+        if (quarter.x < end.x && quarter.y < end.y && !write_if_flat(quarter, half_across * STEP, size))
+            bent[atomicAdd(bent_count, 1u)] = quarters[i];
+    }
+    barrier();
+    for (uint i = lane; i < quads * bent_count; i += lanes) {
+        int k = int(i % quads);
+        ivec2 quad = place_of(bent[i / quads]) + STEP * ivec2(k % half_across, k / half_across);
+        if (quad.x >= end.x || quad.y >= end.y) continue;
+        Quad q = quad_at(quad, STEP, size);
+        if (is_whole(q))
+            write_quad(q, quad, STEP, size);
+        else
+            cut[atomicAdd(cut_count, 1u)] = word_of(quad);
+    }
+    barrier();
+    // Where a quad is cut, the quads of its pixels tell more exactly where.
+    const uint parts = uint(STEP * STEP);
+    for (uint i = lane; i < parts * cut_count; i += lanes) {
+        int k = int(i % parts);
+        ivec2 part = place_of(cut[i / parts]) + ivec2(k % STEP, k / STEP);
+        write_quad(quad_at(part, 1, size), part, 1, size);
     }
 #else
-    write_quads(at, size);
+    if (is_inside) write_quad(quad_at(at, STEP, size), at, STEP, size);
 #endif
 }

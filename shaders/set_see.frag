@@ -4,6 +4,11 @@
 #include "depth_votes.glsl"
 #include "set_kinds.glsl"
 #include "set_known.glsl"
+#include "two_stages.glsl"
+
+#ifndef SAME_SIZE
+#define SAME_SIZE 0  // 1: the depth map is as large as the picture
+#endif
 
 uniform sampler2D depth_map;  // this instant's, metres, 0 = unknown
 uniform sampler2D picture;    // this instant's
@@ -41,14 +46,22 @@ bool is_shade() {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     seen = vec4(0.0);
+    leave_to_second(false);
     if (has_before == 0.0) return;
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(depth_map, 0));
+#if SAME_SIZE
+    now = texelFetch(picture, at, 0).rgb;
+    vec4 mean = texelFetch(set_colour, at, 0);
+#else
     now = textureLod(picture, uv, 0.0).rgb;
     vec4 mean = textureLod(set_colour, uv, 0.0);
+#endif
     known = mean.rgb;
     float own = largest(now - known);
     seen = vec4(the_set, 0.5 * own, own, 0.0);
-    if (own < quiet) return;
+#if FIRST
+    leave_to_second(own >= quiet);
+#else
     look_around(uv);
     float z = texelFetch(depth_map, at, 0).r, change = largest(now - known);
     vec4 state = texelFetch(set_state, at, 0);
@@ -64,4 +77,5 @@ void main() {
                                                                    : untold;
     }
     seen = vec4(kind, change, own, 0.0);
+#endif
 }

@@ -8,18 +8,24 @@
 
 namespace vantage {
 
+/// What else the target of a DrawnTexture has.
+enum class DrawnWith { nothing, depth_test };
+
 /// A texture to draw into, allocated anew only when the size changes.
 class DrawnTexture {
   public:
     explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest,
-                          bool mipmapped = false)
-        : format_(format), filter_(filter), mipmapped_(mipmapped) {}
+                          bool mipmapped = false, DrawnWith with = DrawnWith::nothing)
+        : format_(format), filter_(filter), mipmapped_(mipmapped), with_(with) {}
 
     void resize(cv::Size size) {
         if (texture_ && texture_->size() == size) return;
         target_.reset();
         texture_.emplace(format_, size.width, size.height, filter_, mipmapped_);
-        target_.emplace(std::initializer_list<const Texture*>{&*texture_});
+        if (with_ == DrawnWith::depth_test)
+            depth_test_.emplace(TextureFormat::depth24, size.width, size.height);
+        target_.emplace(std::initializer_list<const Texture*>{&*texture_},
+                        depth_test_ ? &*depth_test_ : nullptr);
     }
     bool empty() const { return !texture_; }
     const Texture& texture() const { return *texture_; }
@@ -33,7 +39,8 @@ class DrawnTexture {
     TextureFormat format_;
     Filter filter_;
     bool mipmapped_;
-    std::optional<Texture> texture_;
+    DrawnWith with_;
+    std::optional<Texture> texture_, depth_test_;
     std::optional<Framebuffer> target_;
 };
 

@@ -62,17 +62,18 @@ void SetLearner::learn(RigHistory& rig) {
         program.set("has_before", has_before ? 1.0f : 0.0f);
     };
 
-    Program& see = see_.use();
-    see.set("depth_map", 0);
-    see.set("picture", 1);
-    see.set("set_colour", 2);
-    see.set("set_state", 3);
-    set_votes(see);
     rig.depth().bind(0);
     rig.fresh_colour().bind(1);
     set_colour.bind(2);
     state_before.bind(3);
-    see_.draw(set.seen_target());
+    TwoStagePass& seeing = rig.depth().size() == picture ? see_alike_ : see_;
+    seeing.draw(set.seen_target(), [&](Program& see) {
+        see.set("depth_map", 0);
+        see.set("picture", 1);
+        see.set("set_colour", 2);
+        see.set("set_state", 3);
+        set_votes(see);
+    });
 
     Program& tiles = tiles_.use();
     tiles.set("seen", 0);

@@ -2,6 +2,7 @@
 
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/tile_pass.h"
+#include "common/gl/two_stage_pass.h"
 #include "host_app/instants/learnt_set.h"
 #include "host_app/instants/rig_history.h"
 
@@ -13,6 +14,7 @@ class SetLearner {
   public:
     explicit SetLearner(const ShaderLibrary& library)
         : see_(library, "set_see.frag"),
+          see_alike_(library, "set_see.frag", {{"SAME_SIZE", "1"}}),
           tiles_(library, "matte_tiles.frag"),
           matte_(library, "matte.frag"),
           edges_(library, "matte_edges.frag"),
@@ -44,7 +46,8 @@ class SetLearner {
     static float known_after(const RigHistory& rig);
 
   private:
-    FullscreenPass see_, tiles_;
+    TwoStagePass see_, see_alike_;  ///< the latter where depth is as large as the picture
+    FullscreenPass tiles_;
     TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
     DrawnTexture sampled_{TextureFormat::rg8};

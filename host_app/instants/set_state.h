@@ -39,7 +39,7 @@ class SetState {
 
   private:
     struct Sized {
-        Texture seen;
+        Texture seen, open;  ///< the latter for the depth test of what draws the former
         std::array<Texture, 2> states;
         Framebuffer seen_target;
         std::array<Framebuffer, 2> targets;
@@ -47,8 +47,9 @@ class SetState {
 
         explicit Sized(cv::Size size)
             : seen(TextureFormat::rgba8, size.width, size.height),
+              open(TextureFormat::depth24, size.width, size.height),
               states{state_of(size), state_of(size)},
-              seen_target{&seen},
+              seen_target({&seen}, &open),
               targets{Framebuffer{&states[0]}, Framebuffer{&states[1]}} {}
         static Texture state_of(cv::Size size) {
             return {TextureFormat::rgba32f, size.width, size.height};

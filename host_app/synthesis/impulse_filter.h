@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/gl/fullscreen_pass.h"
+#include "common/gl/two_stage_pass.h"
 #include "host_app/instants/drawn_texture.h"
 
 namespace vantage {
@@ -22,8 +22,8 @@ class ImpulseFilter {
     const Texture& filter(const Texture& picture, const Texture& depth_m);
 
   private:
-    FullscreenPass pass_;
-    DrawnTexture filtered_{TextureFormat::rgba8, Filter::linear};
+    TwoStagePass pass_;
+    DrawnTexture filtered_{TextureFormat::rgba8, Filter::linear, false, DrawnWith::depth_test};
 };
 
 }  // namespace vantage

@@ -1,5 +1,7 @@
 #include "host_app/synthesis/performer_layers.h"
 
+#include "common/gl/two_stage_pass.h"
+
 namespace vantage {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr float softness = 0.005f;
 
 PerformerLayers::PerformerLayers(const ShaderLibrary& library)
     : layers_(library),
+      find_(library, "performer_find.frag", softness),
       show_(library, "performer_show.frag", softness),
       show_plainly_(library, "performer_show.frag", softness, {{"PLAIN", "1"}}) {}
 
@@ -19,18 +22,23 @@ const DepthPicture& PerformerLayers::show(const Texture& picture, const Texture&
                                           const VirtualView& target, bool is_plain) {
     constexpr std::size_t finely = 0;
     layers_.draw(performers, target, finely);
-    shown_.resize({target.width_px, target.height_px}, shares != nullptr);
-    FullscreenPass& showing = (is_plain ? show_plainly_ : show_).use(layers_, shares != nullptr);
-    Program& program = showing.use();
-    int unit = layers_.first_free_unit();
-    const auto bind = [&](const char* name, const Texture& texture) {
-        texture.bind(unit);
-        program.set(name, unit++);
+    open_.resize({target.width_px, target.height_px});
+    shown_.resize({target.width_px, target.height_px}, shares != nullptr, &open_.texture());
+    const auto ready = [&](LayerPass& pass) -> FullscreenPass& {
+        FullscreenPass& drawing = pass.use(layers_, shares != nullptr);
+        Program& program = drawing.use();
+        int unit = layers_.first_free_unit();
+        const auto bind = [&](const char* name, const Texture& texture) {
+            texture.bind(unit);
+            program.set(name, unit++);
+        };
+        bind("picture", picture);
+        bind("set_depth", depth_m);
+        if (shares) bind("set_shares", *shares);
+        return drawing;
     };
-    bind("picture", picture);
-    bind("set_depth", depth_m);
-    if (shares) bind("set_shares", *shares);
-    showing.draw(shown_.target());
+    ready(find_).draw_depth(shown_.target());
+    TwoStagePass::draw_left(ready(is_plain ? show_plainly_ : show_), shown_.target());
     return shown_;
 }
 

@@ -23,8 +23,9 @@ class PerformerLayers {
 
   private:
     RigLayers layers_;
-    LayerPass show_, show_plainly_;
+    LayerPass find_, show_, show_plainly_;
     DepthPicture shown_;
+    DrawnDepth open_;
 };
 
 }  // namespace vantage

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/gl/fullscreen_pass.h"
+#include "common/gl/two_stage_pass.h"
 #include "host_app/instants/staged_preparer.h"
 #include "host_app/synthesis/fused_colour.h"
 #include "host_app/synthesis/impulse_filter.h"
@@ -68,11 +68,11 @@ class FusedRenderer final : public ViewRenderer {
 
   private:
     void find_depth() {
-        FullscreenPass& pass = depth_pass_[blender_.layers().used().size() - 1];
-        Program& program = pass.use();
-        blender_.layers().bind(program);
-        program.set("softness", softness);
-        pass.draw(fused_depth_.target());
+        const RigLayers& layers = blender_.layers();
+        depth_pass_[layers.used().size() - 1].draw(fused_depth_.target(), [&](Program& program) {
+            layers.bind(program);
+            program.set("softness", softness);
+        });
     }
 
     FusedColour colour_;
@@ -80,8 +80,8 @@ class FusedRenderer final : public ViewRenderer {
     ImpulseFilter impulses_;
     PerformerLayers performers_;
     std::optional<PixelOrigins> origins_;
-    std::vector<FullscreenPass> depth_pass_;  ///< one for every number of layers
-    DrawnTexture fused_depth_{TextureFormat::r32f};
+    std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers
+    DrawnTexture fused_depth_{TextureFormat::r32f, Filter::nearest, false, DrawnWith::depth_test};
 };
 
 }  // namespace
