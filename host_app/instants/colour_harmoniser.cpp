@@ -165,24 +165,34 @@ class Ratios {
     std::array<std::vector<double>, 3> logs_;
 };
 
+/// A view with some of its surface points: one a cell of a grid, another one at every look.
+struct Looked {
+    Lookup view;
+    std::vector<Lookup::Sample> samples;
+
+    Looked(const DepthView& seen, int shift) : view(seen) {
+        const cv::Size size = view.size();
+        for (int row = 0; row < grid_rows; ++row)
+            for (int column = 0; column < grid_columns; ++column)
+                if (const auto sample =
+                        view.at((column * 8 + shift % 8) * size.width / (grid_columns * 8),
+                                (row * 8 + shift / 8 % 8) * size.height / (grid_rows * 8)))
+                    samples.push_back(*sample);
+    }
+};
+
 /// How one view's surface points compare with another's.
-void compare(const Lookup& from, const Lookup& to, int shift, bool swapped, Ratios& ratios) {
-    for (int row = 0; row < grid_rows; ++row)
-        for (int column = 0; column < grid_columns; ++column) {
-            // Another point of every cell at every look.
-            const int x = (column * 8 + shift % 8) * from.size().width / (grid_columns * 8);
-            const int y = (row * 8 + shift / 8 % 8) * from.size().height / (grid_rows * 8);
-            const auto a = from.at(x, y);
-            if (!a) continue;
-            const Eigen::Vector3d ray_a = (a->point - from.centre()).normalized();
-            if (ray_a.dot((a->point - to.centre()).normalized()) < least_cosine) continue;
-            const auto b = to.at(a->point);
-            if (!b) continue;
-            if (swapped)
-                ratios.add(b->colour, a->colour);
-            else
-                ratios.add(a->colour, b->colour);
-        }
+void compare(const Looked& from, const Lookup& to, bool swapped, Ratios& ratios) {
+    for (const Lookup::Sample& a : from.samples) {
+        const Eigen::Vector3d ray = (a.point - from.view.centre()).normalized();
+        if (ray.dot((a.point - to.centre()).normalized()) < least_cosine) continue;
+        const auto b = to.at(a.point);
+        if (!b) continue;
+        if (swapped)
+            ratios.add(b->colour, a.colour);
+        else
+            ratios.add(a.colour, b->colour);
+    }
 }
 
 }  // namespace
@@ -195,11 +205,11 @@ void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
     since_look_s_ = 0;
     const int shift = 11 * looks_++;
 
-    std::vector<Lookup> lookups;
+    std::vector<Looked> looked;
     std::vector<Rig*> rigs;
     for (const DepthView& view : views) {
         if (!view.has_depth() || view.colour.empty()) continue;
-        lookups.emplace_back(view);
+        looked.emplace_back(view, shift);
         rigs.push_back(&rigs_[view.name]);
         rigs.back()->samples = 0;
     }
@@ -214,8 +224,8 @@ void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
         for (Eigen::Index j = i + 1; j < count; ++j) {
             const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
             Ratios ratios;
-            compare(lookups[a], lookups[b], shift, false, ratios);
-            compare(lookups[b], lookups[a], shift, true, ratios);
+            compare(looked[a], looked[b].view, false, ratios);
+            compare(looked[b], looked[a].view, true, ratios);
             rigs[a]->samples += ratios.count();
             rigs[b]->samples += ratios.count();
             const double weight = ratios.count();
@@ -249,7 +259,7 @@ void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
 
 void ColourHarmoniser::apply(DepthView& view) const {
     const auto rig = rigs_.find(view.name);
-    if (rig == rigs_.end()) return;
+    if (rig == rigs_.end() || rig->second.log_gain.cwiseAbs().maxCoeff() <= unseen) return;
     Eigen::Matrix3d& matrix = view.colour_correction.matrix;
     matrix = rig->second.gain().asDiagonal() * Eigen::Matrix3d(matrix);
 }

@@ -88,6 +88,16 @@ TEST_F(HarmonisedRigs, AreCorrectedAfterTheirCalibration) {
     EXPECT_TRUE(view.colour_correction.matrix.isApprox(gain.asDiagonal() * of_calibration));
 }
 
+TEST_F(HarmonisedRigs, AreLeftAloneWhereNobodySeesTheDifference) {
+    distorted_ = {{"west", {1.003, 1, 0.997}}, {"middle", {1, 1, 1}}, {"east", {1, 0.998, 1}}};
+    std::vector<DepthView> views = this->views();
+    for (int look = 0; look < 100; ++look) harmoniser_.see(views, look_s);
+    for (DepthView& view : views) {
+        harmoniser_.apply(view);
+        EXPECT_TRUE(view.colour_correction.is_identity()) << view.name;
+    }
+}
+
 TEST_F(HarmonisedRigs, NeverChangeFasterThanTheEyeForgives) {
     distorted_["east"] = {0.7, 1.3, 1.0};
     const std::vector<DepthView> views = this->views();
