@@ -39,8 +39,8 @@ class TwoStagePassTest : public testing::Test {
     static void expect_stripes(const cv::Mat4b& picture) {
         for (int y = 0; y < picture.rows; ++y)
             for (int x = 0; x < picture.cols; ++x)
-                ASSERT_EQ(picture(y, x), x % 3 == 1 ? cv::Vec4b(0, 255, 255, 255)
-                                                    : cv::Vec4b(255, 0, 255, 255))
+                ASSERT_EQ(picture(y, x),
+                          x % 3 == 1 ? cv::Vec4b(0, 255, 255, 255) : cv::Vec4b(255, 0, 255, 255))
                     << x << ", " << y;
     }
 
