@@ -24,8 +24,8 @@ class ColourHarmoniser {
     static constexpr double largest = 1.5;    ///< gains are within 1 / largest to largest
     static constexpr int least_samples = 60;  ///< of a pair of rigs, at an instant
     static constexpr double look_period_s = 0.4;
-    /// Logarithms of gains up to here change no code of 8 bits by as much as a half.
-    static constexpr double unseen = 0.004;
+    /// Logarithms of gains up to here change no code of 8 bits by as much as one.
+    static constexpr double unseen = 0.008;
 
     /// Looks at an instant's views, `dt_s` after the one before; their colour corrections are those
     /// of the calibration. Views without depth give no evidence.
