@@ -79,9 +79,7 @@ bool write_if_flat(ivec2 at, int side, ivec2 size) {
     write(place + 3u, uvec3(first + right, below + right, below));
     return true;
 }
-#endif
 
-#if ACROSS > 1
 const int half_across = ACROSS / 2;
 const uint lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, quads = uint(half_across * half_across);
 // What a work group's blocks leave: quarters of those that are not flat, then those of them that are not flat either. Few

@@ -9,6 +9,7 @@
 #endif
 // Of the performers: colours are times alpha, the share of a rig's pixel; source_depth is negative beyond the matte.
 #include "rig_layers.glsl"
+#include "two_stages.glsl"
 #if !PLAIN
 #include "sharp_sample.glsl"
 #endif
@@ -86,6 +87,12 @@ void main() {
     float z[LAYERS];
 #define LOOK(i) z[i] = layer_z(layer_depth[i], at);
     FOR_LAYERS(LOOK)
+#if FIRST
+    bool has_performer = false;
+#define FIND(i) has_performer = has_performer || z[i] < nothing;
+    FOR_LAYERS(FIND)
+    leave_to_second(has_performer);
+#else
     Seen best;
     float share = 0.0, best_z = 0.0;
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
@@ -130,4 +137,5 @@ void main() {
     if (!is_most) return;
     shown_z = best_z;
     tell_origins(best.shares / best.weight);
+#endif
 }

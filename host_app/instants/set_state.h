@@ -5,6 +5,7 @@
 
 #include "common/gl/framebuffer.h"
 #include "common/gl/texture.h"
+#include "host_app/instants/drawn_texture.h"
 
 namespace vantage {
 
@@ -16,15 +17,16 @@ class SetState {
     /// Whether state() and seen() hold anything.
     bool is_drawn() const { return is_drawn_; }
     const Texture& state() const { return sized_->states[sized_->now]; }
-    const Texture& seen() const { return sized_->seen; }
+    const Texture& seen() const { return seen_.texture(); }
 
     /// Another size begins anew.
     void resize(cv::Size size) {
-        if (sized_ && sized_->seen.size() == size) return;
+        if (sized_ && seen().size() == size) return;
+        seen_.resize(size);
         sized_.emplace(size);
         is_drawn_ = false;
     }
-    const Framebuffer& seen_target() const { return sized_->seen_target; }
+    const Framebuffer& seen_target() const { return seen_.target(); }
     const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
     /// Goes on from a state, rgba32f of the size, that was read back before.
     void restore(const cv::Mat4f& state) {
@@ -39,23 +41,19 @@ class SetState {
 
   private:
     struct Sized {
-        Texture seen, open;  ///< the latter for the depth test of what draws the former
         std::array<Texture, 2> states;
-        Framebuffer seen_target;
         std::array<Framebuffer, 2> targets;
         std::size_t now = 0;
 
         explicit Sized(cv::Size size)
-            : seen(TextureFormat::rgba8, size.width, size.height),
-              open(TextureFormat::depth24, size.width, size.height),
-              states{state_of(size), state_of(size)},
-              seen_target({&seen}, &open),
+            : states{state_of(size), state_of(size)},
               targets{Framebuffer{&states[0]}, Framebuffer{&states[1]}} {}
         static Texture state_of(cv::Size size) {
             return {TextureFormat::rgba32f, size.width, size.height};
         }
     };
 
+    DrawnTexture seen_{TextureFormat::rgba8, Filter::nearest, false, DrawnWith::depth_test};
     std::optional<Sized> sized_;
     bool is_drawn_ = false;
 };

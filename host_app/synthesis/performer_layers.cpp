@@ -12,7 +12,7 @@ constexpr float softness = 0.005f;
 
 PerformerLayers::PerformerLayers(const ShaderLibrary& library)
     : layers_(library),
-      find_(library, "performer_find.frag", softness),
+      find_(library, "performer_show.frag", softness, {{"FIRST", "1"}}),
       show_(library, "performer_show.frag", softness),
       show_plainly_(library, "performer_show.frag", softness, {{"PLAIN", "1"}}) {}
 

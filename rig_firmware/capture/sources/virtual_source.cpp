@@ -25,14 +25,14 @@ class VirtualSource final : public StereoSource {
           rig_(calibration_, noise_, config.match.matcher == exact_matcher),
           set_(config.virtual_rig.set),
           stage_(shaders_, static_cast<std::uint64_t>(set_)),
-          pacer_(PulseGrid(config.source.rate_hz)),
+          pulses_(config.source.rate_hz),
+          pacer_(pulses_),
           // Exact depth comes with every frame anew.
-          loop_(size(), stage_loop, PulseGrid(config.source.rate_hz),
+          loop_(size(), stage_loop, pulses_,
                 config.match.matcher == exact_matcher
                     ? 0
                     : static_cast<std::size_t>(config.virtual_rig.loop_mb * 1e6)),
-          skew_(config, size()),
-          rate_hz_(PulseGrid(config.source.rate_hz).rate_hz()) {
+          skew_(config, size()) {
         if (config.virtual_rig.doffs_px != 0)
             fail(
                 "'doffs_px' in [virtual_rig] is {}, and the virtual source films with parallel "
@@ -71,7 +71,8 @@ class VirtualSource final : public StereoSource {
         return {fmt::format(
             "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels, keeps {} "
             "of {} pairs of its loop",
-            set_, size().width, size().height, rate_hz_, noise_.sigma, loop_.kept(), loop_.room())};
+            set_, size().width, size().height, pulses_.rate_hz(), noise_.sigma, loop_.kept(),
+            loop_.room())};
     }
 
   private:
@@ -81,7 +82,7 @@ class VirtualSource final : public StereoSource {
                 "'loop_ahead' in [virtual_rig] needs a loop that repeats, and at {} Hz that of "
                 "{:g} "
                 "s does not: leave it false, or take another rate_hz",
-                rate_hz_, std::chrono::duration<double>(stage_loop).count());
+                pulses_.rate_hz(), std::chrono::duration<double>(stage_loop).count());
         if (loop_.room() < loop_.length())
             fail(
                 "'loop_ahead' in [virtual_rig] asks for {} pairs of {}x{}, and {} fit into "
@@ -89,9 +90,8 @@ class VirtualSource final : public StereoSource {
                 loop_.length(), size().width, size().height, loop_.room(), loop_mb,
                 loop_.room() == 0 ? " (with exact disparity none are kept)" : "");
         log_info("drawing the {} pairs of the stage's loop ahead", loop_.length());
-        const PulseGrid pulses(rate_hz_);
         for (std::size_t pair = 0; pair < loop_.length(); ++pair)
-            (void)film(pulses.time_of(pair).time_since_epoch());
+            (void)film(pulses_.time_of(pair).time_since_epoch());
     }
 
     /// Without noise: as it was kept a loop of the stage ago, or else drawn.
@@ -114,10 +114,10 @@ class VirtualSource final : public StereoSource {
     VirtualRig rig_;
     int set_;
     VirtualStage stage_;
+    PulseGrid pulses_;
     PulsePacer pacer_;
     PairLoop loop_;
     VirtualSkew skew_;
-    double rate_hz_;
 };
 
 }  // namespace
