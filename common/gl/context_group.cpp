@@ -2,24 +2,36 @@
 
 #include <future>
 
+#include "common/gl/limits.h"
+
 namespace vantage {
 namespace {
 
+struct Detached {
+    std::shared_ptr<const EglContext> context;
+    bool is_software = false;
+};
+
 /// Made on a thread of its own, so that nothing becomes current on this one.
-std::shared_ptr<const EglContext> detached_context() {
+Detached detached_context() {
     return std::async(std::launch::async,
                       [] {
                           auto context = std::make_shared<const EglContext>();
+                          const bool is_software = GlInfo::query().is_software;
                           eglMakeCurrent(context->display(), EGL_NO_SURFACE, EGL_NO_SURFACE,
                                          EGL_NO_CONTEXT);
-                          return context;
+                          return Detached{std::move(context), is_software};
                       })
         .get();
 }
 
 }  // namespace
 
-ContextGroup::ContextGroup() : first_(detached_context()) {}
+ContextGroup::ContextGroup() {
+    Detached first = detached_context();
+    first_ = std::move(first.context);
+    needs_turns_ = first.is_software;
+}
 
 ContextGroup::Member ContextGroup::join() {
     const std::lock_guard lock(mutex_);
@@ -30,7 +42,7 @@ ContextGroup::Member ContextGroup::join() {
 void ContextGroup::renew(std::uint64_t lost) {
     const std::lock_guard lock(mutex_);
     if (lost != generation_) return;
-    first_ = detached_context();
+    first_ = detached_context().context;
     ++generation_;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/gl/driver_turn.h"
 
 namespace vantage {
 
@@ -28,9 +29,15 @@ Fence::~Fence() {
 
 bool Fence::reached_within(std::chrono::nanoseconds time) const {
     if (!sync_) return true;
+    const DriverTurn::Pause pause;
     const GLenum outcome = glClientWaitSync(sync_, 0, static_cast<GLuint64>(time.count()));
     if (outcome == GL_WAIT_FAILED) fail("the GPU was lost while its work was waited for");
     return outcome != GL_TIMEOUT_EXPIRED;
+}
+
+void Fence::wait() const {
+    while (!reached_within(std::chrono::seconds(1))) {
+    }
 }
 
 void Fence::hold_current_context() const {

@@ -23,6 +23,8 @@ class Fence {
     /// This thread waits until the GPU gets there, or for `time`; whether it did. Throws Error if
     /// the GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
+    /// The same, however long it takes.
+    void wait() const;
     /// The current context's later commands wait for the point; this thread does not.
     void hold_current_context() const;
 

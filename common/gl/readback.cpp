@@ -22,8 +22,7 @@ void Readback::begin(const Texture& texture) {
 
 cv::Mat Readback::take() {
     CV_Assert(layout_);
-    while (!fence_.reached_within(std::chrono::seconds(1))) {
-    }
+    fence_.wait();
     fence_ = {};
     cv::Mat pixels(size_, layout_->cv_type);
     buffer_->read(0,

@@ -6,6 +6,7 @@
 #include <GLES3/gl31.h>
 
 #include "common/base/time.h"
+#include "common/gl/driver_turn.h"
 #include "common/gl/fence.h"
 
 namespace vantage {
@@ -49,6 +50,7 @@ SlicedDrawing::~SlicedDrawing() { current_slicing = before_; }
 const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 
 void SlicedDrawing::give_way() const {
+    const DriverTurn::Pause pause;
     if (way_) {
         const MonotonicTime start = MonotonicClock::now();
         way_->give_way(may_wait_);

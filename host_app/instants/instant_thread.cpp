@@ -8,6 +8,8 @@
 #include "common/base/log.h"
 #include "common/base/time.h"
 #include "common/gl/context_loss.h"
+#include "common/gl/driver_turn.h"
+#include "common/gl/fence.h"
 #include "common/gl/limits.h"
 #include "common/gl/sliced_drawing.h"
 #include "host_app/instants/depth_views.h"
@@ -162,6 +164,7 @@ void InstantThread::run() {
 
 std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish, std::uint64_t shown_pulse,
                                                 double& share) {
+    const DriverTurn::Pause pause;
     share = 0;
     if (!wish.pulse && !wish.is_held) {
         fetched_.reset();
@@ -202,6 +205,7 @@ std::optional<FrameSet> InstantThread::past_set(const InstantWish& wish, std::ui
 }
 
 std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
+    const DriverTurn::Pause pause;
     std::vector<DepthView> views = depth_views_of(set, settings_.colours);
     if (!settings_.harmonise) return views;
     if (is_counted) {
@@ -233,7 +237,7 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
         ready.instant = joined(ready.instant, *preparer->prepare(*wish.preview, wish.level));
     ready.preparer = preparer;
     ready.generation = generations_.back().member.generation;
-    glFinish();
+    Fence::insert().wait();
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
     ++ready.number;
@@ -355,6 +359,7 @@ void InstantThread::prepare_instants() {
     else if (auto faulty = generations_.back().preparers.extract(last_.synthesiser))
         generations_.back().retired.push_back(std::move(faulty.mapped()));
     const ContextGroup::Member member = generations_.back().member;
+    const DriverTurn turn(contexts_->driver());
     const CurrentContext current(*member.context);
     require_context("instants were prepared");
     const SlicedDrawing slices(
@@ -408,6 +413,7 @@ void InstantThread::prepare_instants() {
             is_retaking_ = false;
         }
         if (!preparer) {
+            const DriverTurn::Pause pause;
             std::unique_lock lock(mutex_);
             woken_.wait_for(lock, patience, [&] { return is_stopping_; });
             continue;

@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/gl/driver_turn.h"
 #include "common/gl/limits.h"
 #include "host_app/instants/depth_views.h"
 #include "host_app/instants/surface_samples.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// Before the stage is framed by the rigs that are there.
 constexpr std::chrono::seconds patience_with_rigs{3};
+/// Between two lines that say which frames are waited for.
+constexpr std::chrono::seconds waiting_report_period{10};
 
 /// The states of the rigs that are not in the set; of all, without one.
 std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
@@ -53,6 +56,7 @@ Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
 
 std::string checked_renderer(ContextGroup& contexts) {
     const ContextGroup::Member member = contexts.join();
+    const DriverTurn turn(contexts.driver());
     const CurrentContext current(*member.context);
     const GlInfo info = GlInfo::query();
     info.require_vantage_minimum();
@@ -129,6 +133,7 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         return ready ? ready->set.get() : nullptr;
     };
     log_info("waiting for {} rigs", status().rigs.size());
+    MonotonicTime said = MonotonicClock::now();
     while (MonotonicClock::now() < deadline) {
         if (stop.wait_for(std::chrono::milliseconds(20))) {
             log_info("interrupted while waiting for the rigs, before anything was flown: {}",
@@ -143,6 +148,10 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
             std::all_of(now.rigs.begin(), now.rigs.end(),
                         [](const RigStatus& rig) { return !rig.refused.empty(); }))
             fail("every rig refuses this host: {}", states_of_missing(now, newest_set()));
+        if (MonotonicClock::now() - said >= waiting_report_period) {
+            log_info("still waiting for frames: {}", states_of_missing(now, newest_set()));
+            said = MonotonicClock::now();
+        }
     }
     const double limit_s = std::chrono::duration<double>(limit).count();
     if (!instants_.newest())

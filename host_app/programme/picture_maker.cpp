@@ -3,6 +3,7 @@
 #include "common/base/log.h"
 #include "common/base/time.h"
 #include "common/gl/context_loss.h"
+#include "common/gl/driver_turn.h"
 #include "common/gl/sliced_drawing.h"
 
 namespace vantage {
@@ -46,6 +47,7 @@ void PictureMaker::start(PictureJob job) {
     {
         const std::lock_guard lock(mutex_);
         job_ = std::move(job);
+        started_ = MonotonicClock::now();
     }
     woken_.notify_all();
 }
@@ -107,42 +109,50 @@ void PictureMaker::run() {
 }
 
 void PictureMaker::make_pictures(const ContextGroup::Member& member) {
+    const DriverTurn turn(contexts_->driver());
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
     if (manner_ == Manner::in_slices) slices.emplace(slice, way_, [this] { wait_while_paused(); });
     const ShaderLibrary shaders;
     ViewPainter painter(synthesiser_, format_, shaders);
-    std::unique_lock lock(mutex_);
-    is_ready_ = true;
-    for (;;) {
-        woken_.wait(lock, [&] { return is_stopping_ || job_; });
-        if (is_stopping_) return;
-        if (contexts_->generation() != member.generation)
-            throw ContextLost("another thread found the GPU reset");
-        if (job_->instant->generation != member.generation) {
-            job_.reset();
-            continue;
-        }
-        PictureJob job = *job_;
-        const bool is_rehearsal = std::exchange(is_rehearsal_, false);
-        lock.unlock();
+    {
+        const std::lock_guard lock(mutex_);
+        is_ready_ = true;
+    }
+    while (std::optional<Work> work = next_work(member.generation)) {
         std::shared_ptr<MadePicture> picture;
-        if (is_rehearsal) {
+        if (work->is_rehearsal) {
             for (const RenderLevel& level : render_levels()) {
-                job.level = level;
-                (void)made(painter, job);
+                work->job.level = level;
+                (void)made(painter, work->job);
             }
         } else {
-            picture = made(painter, job);
+            picture = made(painter, work->job);
         }
-        lock.lock();
+        const std::lock_guard lock(mutex_);
         job_.reset();
         if (!picture) continue;
         // The hand that moved one which nobody took waits for this one.
-        if (finished_ && finished_->job.hand && (!job.hand || *finished_->job.hand < *job.hand))
+        if (finished_ && finished_->job.hand &&
+            (!work->job.hand || *finished_->job.hand < *work->job.hand))
             picture->job.hand = finished_->job.hand;
+        picture->make_ms = ms_since(started_);
         finished_ = std::move(picture);
+    }
+}
+
+std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generation) {
+    const DriverTurn::Pause pause;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        woken_.wait(lock, [&] { return is_stopping_ || job_; });
+        if (is_stopping_) return std::nullopt;
+        if (contexts_->generation() != generation)
+            throw ContextLost("another thread found the GPU reset");
+        if (job_->instant->generation == generation)
+            return Work{*job_, std::exchange(is_rehearsal_, false)};
+        job_.reset();
     }
 }
 

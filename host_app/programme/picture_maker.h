@@ -35,6 +35,7 @@ struct MadePicture {
     ColourImage picture;               ///< rgba8 of the programme's size
     std::optional<SourceMap> sources;  ///< where it was wanted
     double render_ms = 0, readback_ms = 0;
+    double make_ms = 0;  ///< from start() on: those, and what it waited for
 };
 
 /// Renders on a thread and a context of its own, one picture at a time, so that the programme's
@@ -70,9 +71,16 @@ class PictureMaker {
     int faults() const;
 
   private:
+    struct Work {
+        PictureJob job;
+        bool is_rehearsal = false;
+    };
+
     void run();
     void wait_while_paused();
     void make_pictures(const ContextGroup::Member& member);
+    /// Waits for it; nothing at the end. Throws ContextLost if this generation of contexts is.
+    std::optional<Work> next_work(std::uint64_t generation);
     std::shared_ptr<MadePicture> made(ViewPainter& painter, const PictureJob& job) const;
 
     SynthesiserEntry synthesiser_;
@@ -83,6 +91,7 @@ class PictureMaker {
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<PictureJob> job_;
+    MonotonicTime started_{};
     bool is_ready_ = false, is_stopping_ = false, is_paused_ = false, is_rehearsal_ = false;
     std::shared_ptr<const MadePicture> finished_;
     int faults_ = 0;

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/gl/context_group.h"
+#include "common/gl/driver_turn.h"
 #include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
@@ -141,6 +142,7 @@ class SlowPreparer final : public InstantPreparer {
         : preparer_(std::move(preparer)), sleep_ms_(std::move(sleep_ms)) {}
 
     void take(std::span<const DepthView> views, double dt_s) override {
+        const DriverTurn::Pause pause;  // as one that waits for its GPU
         std::this_thread::sleep_for(std::chrono::milliseconds(*sleep_ms_));
         preparer_->take(views, dt_s);
     }

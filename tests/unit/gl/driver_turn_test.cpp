@@ -1,0 +1,93 @@
+#include "common/gl/driver_turn.h"
+
+#include <atomic>
+#include <deque>
+#include <future>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include "common/gl/context_group.h"
+#include "common/gl/fence.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/fullscreen_pass.h"
+#include "tests/unit/gl/shader_folder.h"
+
+namespace vantage {
+namespace {
+
+TEST(DriverTurn, IsOneThreadsAtATime) {
+    std::mutex driver;
+    std::atomic<bool> is_over = false;
+    auto first = std::make_unique<DriverTurn>(&driver);
+    std::thread other([&] {
+        const DriverTurn second(&driver);
+        EXPECT_TRUE(is_over);
+    });
+    is_over = true;
+    first.reset();
+    other.join();
+}
+
+TEST(DriverTurn, IsAnothersWhileItPauses) {
+    std::mutex driver;
+    const DriverTurn turn(&driver);
+    {
+        const DriverTurn::Pause pause;
+        const DriverTurn::Pause within;  // Already another's.
+        std::thread([&] { const DriverTurn others(&driver); }).join();
+    }
+    EXPECT_FALSE(std::async(std::launch::async, [&] { return driver.try_lock(); }).get());
+}
+
+TEST(DriverTurn, IsNotNeededEverywhere) {
+    const DriverTurn turn(nullptr);
+    const DriverTurn::Pause pause;
+}
+
+/// Draws from many textures, and uploads others meanwhile.
+void draw_and_upload(ContextGroup& group, const ShaderLibrary& library) {
+    constexpr int rounds = 60, textures = 40, side_px = 64;
+    const ContextGroup::Member member = group.join();
+    const DriverTurn turn(group.driver());
+    const CurrentContext current(*member.context);
+    FullscreenPass pass(library, "copy.frag");
+    Texture picture(TextureFormat::rgba8, side_px, side_px);
+    const Framebuffer target({&picture});
+    std::deque<Texture> sources;
+    for (int i = 0; i < textures; ++i) sources.emplace_back(TextureFormat::r8, side_px, side_px);
+    const cv::Mat1b white(side_px, side_px, std::uint8_t{255});
+    for (int round = 0; round < rounds; ++round) {
+        for (Texture& source : sources) {
+            pass.use().set("source", 0);
+            source.bind(0);
+            pass.draw(target);
+        }
+        const Fence drawn = Fence::insert();
+        for (Texture& source : sources) source.upload(white);
+        drawn.wait();
+    }
+    EXPECT_EQ(picture.download().at<cv::Vec4b>(side_px / 2, side_px / 2)[0], 255);
+}
+
+/// Without turns llvmpipe reads there what it has freed, and dies if that is overwritten.
+TEST(DriverTurn, KeepsContextsOfAGroupApart) {
+    mallopt(M_PERTURB, 165);
+    const ShaderFolder folder;
+    folder.write("copy.frag",
+                 "uniform sampler2D source;\n"
+                 "layout(location = 0) out vec4 colour;\n"
+                 "void main() { colour = texelFetch(source, ivec2(gl_FragCoord.xy), 0).rrrr; }");
+    const ShaderLibrary library(folder.path());
+    ContextGroup group;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i) threads.emplace_back([&] { draw_and_upload(group, library); });
+    for (std::thread& thread : threads) thread.join();
+    mallopt(M_PERTURB, 0);
+}
+
+}  // namespace
+}  // namespace vantage
