@@ -100,7 +100,7 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
                          const std::filesystem::path& move) {
     LiveOptions live;
     live.stage = stage.stage_file();
-    live.wait_s = 60;  // a processor that draws everything also compiles the programs first
+    live.wait_s = 300;  // a processor that draws everything does that for the rigs' loop first
     live.show.rate = rate;
     live.show.path = move;
     live.show.flight = folder / ("flight-" + move.filename().string());

@@ -20,9 +20,10 @@ constexpr std::chrono::milliseconds look_period{2};
 constexpr std::chrono::seconds longest_rehearsal{20}, rest_of_rehearsal{1};
 /// A camera and an instant that were left alone for so long are worth the best picture.
 constexpr std::chrono::milliseconds rest{250};
-/// Pictures that the lead before a tick is judged by, and what is added to the longest of them.
-constexpr std::size_t judged_pictures = 100;
-constexpr double lead_ratio = 1.15, lead_margin_ms = 3;
+/// Pictures that the lead before a tick is judged by, fewest and most, and what is added to the
+/// longest of them.
+constexpr std::size_t fewest_judged = 20, judged_pictures = 200;
+constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
 
 double ms_between(MonotonicTime start, MonotonicTime end) { return to_ms(end - start); }
 
@@ -105,7 +106,8 @@ void Programme::stop() {
 
 std::chrono::nanoseconds Programme::lead() const {
     const std::chrono::duration<double> period(1 / settings_.rate_hz);
-    if (make_ms_.empty()) return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
+    if (make_ms_.size() < fewest_judged)
+        return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
     const double longest_ms = *std::max_element(make_ms_.begin(), make_ms_.end());
     const std::chrono::duration<double, std::milli> lead(lead_ratio * longest_ms + lead_margin_ms);
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -339,7 +341,7 @@ void Programme::follow_synthesiser() {
 }
 
 void Programme::note(const MadePicture& made, MonotonicTime now) {
-    make_ms_.push_back(made.render_ms + made.readback_ms);
+    make_ms_.push_back(made.make_ms);
     if (make_ms_.size() > judged_pictures) make_ms_.pop_front();
     governor_.saw_render(made.job.level, made.render_ms + made.readback_ms, now);
     render_ms_.add(made.render_ms);
