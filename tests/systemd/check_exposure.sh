@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Lets systemd judge the sandbox of every unit of hw_config/systemd and fails where one is more exposed than it may be.
+# Lets systemd judge the sandbox of every unit of hw_config/systemd, those of a person's own manager included, and fails
+# where one is more exposed than it may be.
 #   tests/systemd/check_exposure.sh FOLDER_OF_UNITS
 set -euo pipefail
 units=$1
@@ -7,8 +8,16 @@ command -v systemd-analyze >/dev/null || { echo "SKIPPED: systemd-analyze is not
 
 most=20 # tenths, as --threshold takes them
 status=0
-for unit in "$units"/*.service; do
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for unit in "$units"/*.service "$units"/user/*.service; do
+  [ -e "$unit" ] || continue
   name=$(basename "$unit")
+  # Only such a manager knows that it does not run as root.
+  if [ "$(basename "$(dirname "$unit")")" = user ]; then
+    sed 's/^\[Service\]$/&\nUser=somebody/' "$unit" >"$work/$name"
+    unit=$work/$name
+  fi
   verdict=$(systemd-analyze security --offline=true --no-pager --threshold="$most" "$unit" 2>&1) || {
     echo "$verdict"
     echo "$name is more exposed than $most tenths"
