@@ -1,8 +1,10 @@
 #include "common/gl/fence.h"
 
+#include <optional>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/gl/context_loss.h"
 #include "common/gl/driver_turn.h"
 
 namespace vantage {
@@ -29,15 +31,16 @@ Fence::~Fence() {
 
 bool Fence::reached_within(std::chrono::nanoseconds time) const {
     if (!sync_) return true;
-    const DriverTurn::Pause pause;
+    // Who only asks keeps its turn: to get it back it might wait.
+    std::optional<DriverTurn::Pause> pause;
+    if (time.count() > 0) pause.emplace();
     const GLenum outcome = glClientWaitSync(sync_, 0, static_cast<GLuint64>(time.count()));
     if (outcome == GL_WAIT_FAILED) fail("the GPU was lost while its work was waited for");
     return outcome != GL_TIMEOUT_EXPIRED;
 }
 
-void Fence::wait() const {
-    while (!reached_within(std::chrono::seconds(1))) {
-    }
+void Fence::wait(const char* doing) const {
+    while (!reached_within(std::chrono::seconds(1))) require_context(doing);
 }
 
 void Fence::hold_current_context() const {

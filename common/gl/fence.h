@@ -23,8 +23,9 @@ class Fence {
     /// This thread waits until the GPU gets there, or for `time`; whether it did. Throws Error if
     /// the GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
-    /// The same, however long it takes.
-    void wait() const;
+    /// This thread waits until the GPU gets there, however long that takes. Throws ContextLost with
+    /// `doing` if it was reset, Error if it is lost.
+    void wait(const char* doing) const;
     /// The current context's later commands wait for the point; this thread does not.
     void hold_current_context() const;
 

@@ -22,7 +22,7 @@ void Readback::begin(const Texture& texture) {
 
 cv::Mat Readback::take() {
     CV_Assert(layout_);
-    fence_.wait();
+    fence_.wait("a picture was read back");
     fence_ = {};
     cv::Mat pixels(size_, layout_->cv_type);
     buffer_->read(0,

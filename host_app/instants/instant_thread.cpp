@@ -237,7 +237,7 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
         ready.instant = joined(ready.instant, *preparer->prepare(*wish.preview, wish.level));
     ready.preparer = preparer;
     ready.generation = generations_.back().member.generation;
-    Fence::insert().wait();
+    Fence::insert().wait("an instant was waited for");
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
     ++ready.number;

@@ -6,7 +6,6 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
-#include "common/gl/driver_turn.h"
 #include "common/gl/limits.h"
 #include "host_app/instants/depth_views.h"
 #include "host_app/instants/surface_samples.h"
@@ -56,7 +55,6 @@ Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
 
 std::string checked_renderer(ContextGroup& contexts) {
     const ContextGroup::Member member = contexts.join();
-    const DriverTurn turn(contexts.driver());
     const CurrentContext current(*member.context);
     const GlInfo info = GlInfo::query();
     info.require_vantage_minimum();

@@ -53,8 +53,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     // The way back is under way before this thread waits for the picture.
     const Fence rendered = Fence::insert();
     readback_.begin(texture);
-    while (!rendered.reached_within(std::chrono::seconds(1)))
-        require_context("a picture was waited for");
+    rendered.wait("a picture was waited for");
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take();
     require_context("a picture was read back");

@@ -27,6 +27,7 @@ TEST(DriverTurn, IsOneThreadsAtATime) {
         const DriverTurn second(&driver);
         EXPECT_TRUE(is_over);
     });
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // It would be over already.
     is_over = true;
     first.reset();
     other.join();
@@ -68,7 +69,7 @@ void draw_and_upload(ContextGroup& group, const ShaderLibrary& library) {
         }
         const Fence drawn = Fence::insert();
         for (Texture& source : sources) source.upload(white);
-        drawn.wait();
+        drawn.wait("drawing from many textures");
     }
     EXPECT_EQ(picture.download().at<cv::Vec4b>(side_px / 2, side_px / 2)[0], 255);
 }

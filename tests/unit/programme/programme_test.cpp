@@ -142,8 +142,7 @@ class SlowPreparer final : public InstantPreparer {
         : preparer_(std::move(preparer)), sleep_ms_(std::move(sleep_ms)) {}
 
     void take(std::span<const DepthView> views, double dt_s) override {
-        const DriverTurn::Pause pause;  // as one that waits for its GPU
-        std::this_thread::sleep_for(std::chrono::milliseconds(*sleep_ms_));
+        sleep();
         preparer_->take(views, dt_s);
     }
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
@@ -154,6 +153,12 @@ class SlowPreparer final : public InstantPreparer {
     }
 
   private:
+    /// As one that waits for its GPU.
+    void sleep() const {
+        const DriverTurn::Pause pause;
+        std::this_thread::sleep_for(std::chrono::milliseconds(*sleep_ms_));
+    }
+
     std::unique_ptr<InstantPreparer> preparer_;
     std::shared_ptr<std::atomic<int>> sleep_ms_;
 };
