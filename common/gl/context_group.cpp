@@ -2,36 +2,24 @@
 
 #include <future>
 
-#include "common/gl/limits.h"
-
 namespace vantage {
 namespace {
 
-struct Detached {
-    std::shared_ptr<const EglContext> context;
-    bool is_software = false;
-};
-
 /// Made on a thread of its own, so that nothing becomes current on this one.
-Detached detached_context() {
+std::shared_ptr<const EglContext> detached_context() {
     return std::async(std::launch::async,
                       [] {
                           auto context = std::make_shared<const EglContext>();
-                          const bool is_software = GlInfo::query().is_software;
                           eglMakeCurrent(context->display(), EGL_NO_SURFACE, EGL_NO_SURFACE,
                                          EGL_NO_CONTEXT);
-                          return Detached{std::move(context), is_software};
+                          return context;
                       })
         .get();
 }
 
 }  // namespace
 
-ContextGroup::ContextGroup() {
-    Detached first = detached_context();
-    first_ = std::move(first.context);
-    needs_turns_ = first.is_software;
-}
+ContextGroup::ContextGroup() : first_(detached_context()), driver_(first_->driver()) {}
 
 ContextGroup::Member ContextGroup::join() {
     const std::lock_guard lock(mutex_);
@@ -42,7 +30,7 @@ ContextGroup::Member ContextGroup::join() {
 void ContextGroup::renew(std::uint64_t lost) {
     const std::lock_guard lock(mutex_);
     if (lost != generation_) return;
-    first_ = detached_context().context;
+    first_ = detached_context();
     ++generation_;
 }
 

@@ -29,16 +29,16 @@ class ContextGroup {
     /// makes the next one. Throws as EglContext() does.
     void renew(std::uint64_t lost);
     /// What its threads take turns for (DriverTurn); null where they need not.
-    std::mutex* driver() { return needs_turns_ ? &driver_ : nullptr; }
+    std::mutex* driver() const { return driver_; }
     /// How often that was.
     int losses() const { return static_cast<int>(generation_ - first_generation); }
 
   private:
     static constexpr std::uint64_t first_generation = 1;
 
-    std::mutex mutex_, driver_;
-    bool needs_turns_ = false;
+    std::mutex mutex_;
     std::shared_ptr<const EglContext> first_;
+    std::mutex* driver_;
     std::atomic<std::uint64_t> generation_ = first_generation;
 };
 

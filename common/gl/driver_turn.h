@@ -8,7 +8,8 @@ namespace vantage {
 /// buffer is mapped or a texture is uploaded, through the unfinished drawing of every context of
 /// its process, without a lock against the threads that draw there, and dies of it now and then (to
 /// be read in Mesa 22.3, llvmpipe_flush_resource; 25.0 has a lock). Threads take turns at giving it
-/// work; while one waits (Fence, SlicedDrawing) it is another's turn.
+/// work; while one waits (Fence, SlicedDrawing) it is another's turn. Contexts of one display take
+/// turns, also those that share nothing.
 class DriverTurn {
   public:
     /// Waits until nobody else has the turn. `driver` must outlive it; null: the driver keeps its

@@ -13,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/unique_fd.h"
 #include "common/gl/context_loss.h"
+#include "common/gl/limits.h"
 
 namespace vantage {
 namespace {
@@ -111,8 +112,8 @@ EglContext::EglContext() {
         tried);
 }
 
-EglContext::EglContext(EGLDisplay display, EGLContext shared)
-    : display_(display), hold_(EglDisplayHold::join(display)) {
+EglContext::EglContext(EGLDisplay display, EGLContext shared, bool is_software)
+    : display_(display), hold_(EglDisplayHold::join(display)), is_software_(is_software) {
     if (!has_extension(surfaceless_extension))
         fail("no second OpenGL context: the driver lacks {}", surfaceless_extension);
     // The same configuration, so that every driver lets them share.
@@ -136,11 +137,11 @@ EglContext EglContext::sharing_with_current() {
     const EGLContext current = eglGetCurrentContext();
     if (current == EGL_NO_CONTEXT)
         fail("no second OpenGL context: none is current on this thread to share with");
-    return {eglGetCurrentDisplay(), current};
+    return {eglGetCurrentDisplay(), current, GlInfo::query().is_software};
 }
 
 EglContext EglContext::sharing_with(const EglContext& other) {
-    return {other.display_, other.context_};
+    return {other.display_, other.context_, other.is_software_};
 }
 
 EglContext::~EglContext() {
@@ -189,6 +190,7 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
     display_ = display;
     hold_ = std::move(hold);
     context_ = context;
+    is_software_ = GlInfo::query().is_software;
     attempts_.push_back({name, "ok"});
     return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -46,11 +47,14 @@ class EglContext {
     /// Of the search that the first constructor makes; empty for a sharing one.
     const std::vector<EglAttempt>& attempts() const { return attempts_; }
     EGLDisplay display() const { return display_; }
+    /// What all threads that draw on this display take turns for (DriverTurn); null where they need
+    /// not, and where a window's library opened it.
+    std::mutex* driver() const { return is_software_ ? hold_.driver() : nullptr; }
     bool has_extension(const char* egl_extension) const;
 
   private:
     friend class CurrentContext;
-    EglContext(EGLDisplay display, EGLContext shared);
+    EglContext(EGLDisplay display, EGLContext shared, bool is_software);
     bool try_platform(EGLenum platform, void* native_display, const std::string& name,
                       std::shared_ptr<void> native_owner = {});
     void try_devices();
@@ -61,6 +65,7 @@ class EglContext {
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EglDisplayHold hold_;
     EGLContext context_ = EGL_NO_CONTEXT;
+    bool is_software_ = false;
 };
 
 /// Makes a context current on this thread for its own life, and what was current before after it.

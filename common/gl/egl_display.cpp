@@ -9,8 +9,10 @@ namespace vantage {
 namespace {
 
 struct OpenDisplay {
+    explicit OpenDisplay(std::shared_ptr<void> made_from) : native(std::move(made_from)) {}
     int holders = 1;
     std::shared_ptr<void> native;
+    std::mutex driver;
 };
 
 /// What is open, for the whole process: EGL itself keeps its connections so.
@@ -29,13 +31,14 @@ OpenDisplays& open_displays() {
 EglDisplayHold EglDisplayHold::open(EGLDisplay display, std::shared_ptr<void> native) {
     OpenDisplays& open = open_displays();
     const std::scoped_lock lock(open.mutex);
-    if (const auto known = open.all.find(display); known != open.all.end())
+    auto known = open.all.find(display);
+    if (known != open.all.end())
         ++known->second.holders;
     else if (eglInitialize(display, nullptr, nullptr))
-        open.all.emplace(display, OpenDisplay{1, std::move(native)});
+        known = open.all.try_emplace(display, std::move(native)).first;
     else
         return {};
-    return EglDisplayHold(display);
+    return {display, known->second.driver};
 }
 
 EglDisplayHold EglDisplayHold::join(EGLDisplay display) {
@@ -44,14 +47,16 @@ EglDisplayHold EglDisplayHold::join(EGLDisplay display) {
     const auto known = open.all.find(display);
     if (known == open.all.end()) return {};
     ++known->second.holders;
-    return EglDisplayHold(display);
+    return {display, known->second.driver};
 }
 
 EglDisplayHold::EglDisplayHold(EglDisplayHold&& other) noexcept
-    : display_(std::exchange(other.display_, EGL_NO_DISPLAY)) {}
+    : display_(std::exchange(other.display_, EGL_NO_DISPLAY)),
+      driver_(std::exchange(other.driver_, nullptr)) {}
 
 EglDisplayHold& EglDisplayHold::operator=(EglDisplayHold&& other) noexcept {
     std::swap(display_, other.display_);
+    std::swap(driver_, other.driver_);
     return *this;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include <EGL/egl.h>
 
@@ -25,10 +26,14 @@ class EglDisplayHold {
     ~EglDisplayHold();
 
     bool held() const { return display_ != EGL_NO_DISPLAY; }
+    /// One for all who hold the display: what threads that draw there may take turns for
+    /// (DriverTurn). Null if it is not held.
+    std::mutex* driver() const { return driver_; }
 
   private:
-    explicit EglDisplayHold(EGLDisplay display) : display_(display) {}
+    EglDisplayHold(EGLDisplay display, std::mutex& driver) : display_(display), driver_(&driver) {}
     EGLDisplay display_ = EGL_NO_DISPLAY;
+    std::mutex* driver_ = nullptr;
 };
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "common/base/error.h"
+#include "common/gl/driver_turn.h"
 
 namespace vantage {
 namespace {
@@ -95,6 +96,7 @@ CameraIntake::Counts GpuStage::lent_pictures() const {
 }
 
 RigFrame GpuStage::process(StereoFrame frame) {
+    const DriverTurn turn(context_.driver());
     shaders_.poll();
     RigFrame result;
     const MonotonicTime start = MonotonicClock::now();

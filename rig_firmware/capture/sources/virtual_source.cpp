@@ -1,6 +1,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/rig_config.h"
+#include "common/gl/driver_turn.h"
 #include "common/gl/egl_context.h"
 #include "common/gl/shader_library.h"
 #include "common/virtual_stage/performer.h"
@@ -102,6 +103,7 @@ class VirtualSource final : public StereoSource {
             picture.right = std::move(known->right);
             return picture;
         }
+        const DriverTurn turn(context_.driver());
         picture = rig_.render_noiseless(stage_, time + skew_.left(), skew_.right() - skew_.left());
         loop_.keep(time, picture.left, picture.right);
         return picture;
