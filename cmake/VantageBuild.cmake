@@ -178,14 +178,12 @@ file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
 # those that only the latter does, `e2e` those that run one at a time, `faults` those that ./test leaves to ./test --all,
-# `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A test is a
-# process, but for those of TOGETHER: these suites make something costly once for all their tests, and each is a process
-# and one test of CTest. Files after APART are compiled alone.
+# `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A program is one
+# process and one test of CTest, since the start of a process, its GPU driver and its shaders take longer than most tests;
+# one of SHARDS n is n of them. Tests that start programs themselves (e2e, faults) are a process each. Files after APART
+# are compiled alone.
 function(vantage_unit_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;TOGETHER;APART" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
+  cmake_parse_arguments(ARG "" "SHARDS" "LABELS;DEPENDS;APART" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} vantage_test_support GTest::gtest_main)
@@ -209,20 +207,35 @@ function(vantage_unit_test name)
   endif()
   # One word, since test discovery takes no list; ctest -L matches parts: `unit` finds all, `threads` these.
   string(JOIN "-" labels unit ${ARG_LABELS})
-  set(properties LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+  set(properties LABELS "${labels}" ENVIRONMENT "MESA_GLES_VERSION_OVERRIDE=3.1")
+  if(NOT ARG_LABELS MATCHES "e2e|faults")
+    vantage_test_program(${name} "${ARG_SHARDS}" ${properties})
+    return()
+  endif()
   # Several processes each, which mostly wait: one show at a time beside tests that compute, and begun early. What is
   # measured in time as faults go by, or may lose no frame (`alone`), runs beside nothing.
+  list(APPEND properties TIMEOUT 300)
   if("e2e" IN_LIST ARG_LABELS AND ARG_LABELS MATCHES "faults|alone")
     list(APPEND properties RUN_SERIAL TRUE)
   elseif("e2e" IN_LIST ARG_LABELS)
     list(APPEND properties RESOURCE_LOCK show COST 800)
   endif()
-  list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE together)
-  string(JOIN ":" together ${together})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${together}" PROPERTIES ${properties})
-  foreach(suite ${ARG_TOGETHER})
-    add_test(NAME ${suite} COMMAND ${name} "--gtest_filter=${suite}.*")
-    # They are the long ones: two of them must not be what everything waits for in the end.
-    set_tests_properties(${suite} PROPERTIES ${properties} COST 1000 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# The tests of a program in one process, or in as many as it has shards, which are begun first.
+function(vantage_test_program name shards)
+  set(properties TIMEOUT 900 ${ARGN})
+  if(NOT shards)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES ${properties})
+    return()
+  endif()
+  math(EXPR last "${shards} - 1")
+  foreach(shard RANGE ${last})
+    set(test ${name}/${shard})
+    add_test(NAME ${test} COMMAND ${name})
+    set_tests_properties(${test} PROPERTIES ${properties} COST 1000)
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard})
   endforeach()
 endfunction()

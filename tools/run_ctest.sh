@@ -7,22 +7,23 @@ cd "$(dirname "$0")/.."
 preset=$1
 shift
 passed=0 failures=0 skipped=0 status=0
-
-attribute() { sed -n "s/.*[[:space:]]$1=\"\([0-9]*\)\".*/\1/p" "$results" | head -1; }
+# Of its tests GoogleTest tells what failed or was skipped, and how many there were.
+export GTEST_BRIEF=1
 
 run() { # ctest options
-  local results=build/$preset/results.xml log=build/$preset/results.log all failed left
+  local results=build/$preset/results.xml log=build/$preset/results.log own_passed own_failed own_skipped
   rm -f "$results"
   # One more than there are processors: some tests wait for networks and clocks.
-  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j $(($(nproc) + 1)) --output-junit results.xml "$@" |
+  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j $(($(nproc) + 1)) --output-junit results.xml \
+    --test-output-size-passed 10000000 "$@" |
     grep --line-buffered -vE '^ *(Start +[0-9]+:)|^$' |
     sed -uE 's/ +# GetParam\(\) = .*(Passed|Skipped|\*\*\*[A-Za-z]+)/ \1/; s/ \.{4,}/ .../' | tee "$log"
   [ "${PIPESTATUS[0]}" -eq 0 ] || status=1
   [ -f "$results" ] || exit 1
-  all=$(attribute tests) failed=$(attribute failures) left=$(grep -c 'status="notrun"' "$results")
-  failures=$((failures + failed)) skipped=$((skipped + left)) passed=$((passed + all - failed - left))
-  [ "$failed" -eq 0 ] || awk '/^ *[0-9]+\/[0-9]+ Test +#/ { telling = /\*\*\*/ && !/Skipped/; lines = 0 } telling && ++lines <= 60' "$log"
-  [ "$left" -eq 0 ] || grep -oE 'SKIPPED: [^&<]*' "$results" | sort | uniq -c | sort -rn | head -8
+  read -r own_passed own_failed own_skipped < <(awk -f tools/count_tests.awk "$results")
+  passed=$((passed + own_passed)) failures=$((failures + own_failed)) skipped=$((skipped + own_skipped))
+  [ "$own_failed" -eq 0 ] || awk -f tools/failed_tests.awk "$log"
+  [ "$own_skipped" -eq 0 ] || grep -oE 'SKIPPED: [^&<]*' "$results" | sort | uniq -c | sort -rn | head -8
 }
 
 options=()

@@ -624,7 +624,8 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.005);
+    // So slowly that what the rigs see stays in the middle for minutes.
+    pilot_.turn(0.0001);
     ASSERT_TRUE(wait_for_ticks(3));
     const std::string before = programme_->state().synthesiser;
     pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
