@@ -120,7 +120,8 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
         const std::lock_guard lock(mutex_);
         is_ready_ = true;
     }
-    while (std::optional<Work> work = next_work(member.generation)) {
+    std::optional<RightOfWay::Claim> claim;
+    while (std::optional<Work> work = next_work(member.generation, claim)) {
         std::shared_ptr<MadePicture> picture;
         if (work->is_rehearsal) {
             for (const RenderLevel& level : render_levels()) {
@@ -130,6 +131,7 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
         } else {
             picture = made(painter, work->job);
         }
+        claim.reset();
         const std::lock_guard lock(mutex_);
         job_.reset();
         if (!picture) continue;
@@ -142,7 +144,8 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
     }
 }
 
-std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generation) {
+std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generation,
+                                                          std::optional<RightOfWay::Claim>& claim) {
     const DriverTurn::Pause pause;
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -150,8 +153,11 @@ std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generati
         if (is_stopping_) return std::nullopt;
         if (contexts_->generation() != generation)
             throw ContextLost("another thread found the GPU reset");
-        if (job_->instant->generation == generation)
+        if (job_->instant->generation == generation) {
+            // Before the turn, which who prepares takes again and again.
+            if (manner_ == Manner::at_once) claim.emplace(*way_);
             return Work{*job_, std::exchange(is_rehearsal_, false)};
+        }
         job_.reset();
     }
 }
@@ -159,12 +165,9 @@ std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generati
 std::shared_ptr<MadePicture> PictureMaker::made(ViewPainter& painter, const PictureJob& job) const {
     auto made = std::make_shared<MadePicture>();
     const MonotonicTime start = MonotonicClock::now();
-    std::optional<RightOfWay::Claim> claim;
-    if (manner_ == Manner::at_once) claim.emplace(*way_);
     made->picture = painter.paint(*job.instant->instant, job.camera, job.level,
                                   job.source_map ? &made->sources : nullptr);
     made->readback_ms = painter.last_readback_ms();
-    claim.reset();
     made->render_ms = ms_since(start) - made->readback_ms;
     made->job = job;
     return made;

@@ -79,8 +79,10 @@ class PictureMaker {
     void run();
     void wait_while_paused();
     void make_pictures(const ContextGroup::Member& member);
-    /// Waits for it; nothing at the end. Throws ContextLost if this generation of contexts is.
-    std::optional<Work> next_work(std::uint64_t generation);
+    /// Waits for it, and claims the way for what is made at once; nothing at the end. Throws
+    /// ContextLost if this generation of contexts is.
+    std::optional<Work> next_work(std::uint64_t generation,
+                                  std::optional<RightOfWay::Claim>& claim);
     std::shared_ptr<MadePicture> made(ViewPainter& painter, const PictureJob& job) const;
 
     SynthesiserEntry synthesiser_;
