@@ -37,4 +37,4 @@ for word in "$@"; do
 done
 run "${options[@]}"
 echo "$passed passed, $failures failed, $skipped skipped"
-[ "$status" -eq 0 ] && [ "$failures" -eq 0 ]
+[ "$status" -eq 0 ] && [ "$failures" -eq 0 ] && [ $((passed + skipped)) -gt 0 ]

@@ -1,6 +1,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "common/base/atomic_file.h"
+#include "common/base/time.h"
 #include "common/base/timecode.h"
 #include "common/image/image_file.h"
 #include "host_app/replay/clip_file.h"
@@ -23,7 +25,7 @@
 namespace vantage {
 namespace {
 
-constexpr double show_rate_hz = 5;
+constexpr double show_rate_hz = 5, tick_rate_hz = 25;
 
 /// Everybody who has a hand in a show, each over a socket of loopback: an operator over OSC, a
 /// panel over RossTalk, a mixer over TSL UMD, a tracked camera over FreeD; and a graphics computer
@@ -73,7 +75,7 @@ class WholeShow : public testing::Test {
                                      "--size",
                                      "96x72",
                                      "--rate",
-                                     "25",
+                                     fmt::format("{}", tick_rate_hz),
                                      "--wait",
                                      "60",
                                      "--seconds",
@@ -150,6 +152,45 @@ class WholeShow : public testing::Test {
         return {};
     }
 
+    /// Where things stand: the picture of now is looked at when the film has ended.
+    void stop_for_a_picture(const std::string& name) {
+        usleep(1'000'000);
+        stops_[name] = MonotonicClock::now();
+        usleep(500'000);
+    }
+    /// Of the film, which ended at `end` with so many ticks.
+    cv::Mat picture_at(const std::string& name, MonotonicTime end, int ticks) const {
+        const std::chrono::duration<double> left = end - stops_.at(name);
+        const std::string picture = file(name + ".png");
+        const ProgramResult result = run_to_end(
+            "/usr/bin/ffmpeg",
+            {"-v", "error", "-ss", fmt::format("{:.3f}", ticks / tick_rate_hz - left.count()), "-i",
+             file("film.mkv"), "-frames:v", "1", picture});
+        EXPECT_EQ(result.status, 0) << name << ": " << result.err;
+        return read_colour_image(picture);
+    }
+    /// What was on air where things stood.
+    void expect_pictures(MonotonicTime end, int ticks) const {
+        std::map<std::string, cv::Mat> pictures;
+        for (const auto& [name, time] : stops_) {
+            pictures[name] = picture_at(name, end, ticks);
+            ASSERT_FALSE(pictures[name].empty());
+            EXPECT_GT(spread(pictures[name]), 20) << name << " shows something";
+        }
+        EXPECT_LT(difference(pictures["frozen"], pictures["frozen still"]), 2);
+        EXPECT_GT(difference(pictures["frozen"], pictures["orbited"]), 8) << "another view of it";
+        EXPECT_LT(difference(pictures["clip"], pictures["list"]), 8)
+            << "its last moment, from where the camera stood";
+    }
+    static double difference(const cv::Mat& a, const cv::Mat& b) {
+        return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total() * a.channels());
+    }
+    static double spread(const cv::Mat& picture) {
+        cv::Scalar mean, deviation;
+        cv::meanStdDev(picture, mean, deviation);
+        return deviation[0] + deviation[1] + deviation[2];
+    }
+
     TemporaryFolder folder_;
     const int camera_port_ = two_free_ports().first;
     const int panel_port_ = two_free_ports().first;
@@ -158,6 +199,7 @@ class WholeShow : public testing::Test {
     CameraOnAir on_air_{camera_port_};
     std::unique_ptr<ChildProgram> rig_;
     std::unique_ptr<SteeredShow> show_;
+    std::map<std::string, MonotonicTime> stops_;
 
   private:
     static void send(std::span<const std::byte> bytes, int port) {
@@ -195,6 +237,8 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     ASSERT_TRUE(shows("hold", "1"));
     const std::uint64_t frozen = settled_pulse();
     expect_time_code_of(frozen);
+    stop_for_a_picture("frozen");
+    stop_for_a_picture("frozen still");
     const Pose before = on_air_.newest();
     ask("orbit f 20.0");
     Pose around = on_air_.newest();
@@ -202,6 +246,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
         around = on_air_.next();
     EXPECT_GE(way_m(around, before), 0.3) << "twenty degrees";
     EXPECT_EQ(settled_pulse(), frozen) << "and the moment stands";
+    stop_for_a_picture("orbited");
 
     // A tracked camera takes over, and a hand takes it back.
     CameraState tracked;
@@ -227,6 +272,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     EXPECT_TRUE(shows("clip_left", "0"));
     EXPECT_TRUE(shows("pulse", std::to_string(marked.out - 1))) << "the out frame is excluded";
     expect_time_code_of(marked.out - 1);
+    stop_for_a_picture("clip");
     EXPECT_TRUE(shows("take", "1"));
     // Twice in a list, the second time at normal speed.
     ask("add_entry");
@@ -239,6 +285,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     EXPECT_TRUE(shows("played_entry", "2"));
     EXPECT_TRUE(shows("list_left", "0"));
     EXPECT_TRUE(shows("pulse", std::to_string(marked.out - 1)));
+    stop_for_a_picture("list");
 
     // Back to live, where the camera is.
     const Pose standing = on_air_.newest();
@@ -249,6 +296,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     tally(0);
     EXPECT_TRUE(shows("preview", "0"));
 
+    const MonotonicTime ended = MonotonicClock::now();
     show_->show().send_signal(SIGINT);
     const ProgramResult end = show_->show().wait();
     const nlohmann::json summary = nlohmann::json::parse(end.out, nullptr, false);
@@ -263,9 +311,8 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     EXPECT_EQ(film["pictures"].get<int>() + film["dropped"].get<int>(),
               summary["pictures"].get<int>())
         << "every tick is a picture of the film, or counted: " << film;
-    cv::Scalar mean, deviation;
-    cv::meanStdDev(read_colour_image(file("last.png")), mean, deviation);
-    EXPECT_GT(deviation[0] + deviation[1] + deviation[2], 20) << "a picture of something";
+    expect_pictures(ended, summary["pictures"].get<int>());
+    EXPECT_GT(spread(read_colour_image(file("last.png"))), 20) << "a picture of something";
 
     // What was recorded meanwhile is there, and other programs are given the camera.
     EXPECT_EQ(run_to_end(VANTAGE_PROGRAM, {"take", "info", file("take.mkv")}).status, 0);
