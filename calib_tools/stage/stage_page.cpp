@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double deg_a_rad = 180 / std::numbers::pi;
 
 std::string drawing(const StageCalibration& stage) {
     std::vector<PlacedRig> rigs;
@@ -47,7 +47,7 @@ HtmlPage stage_page(const StageCalibration& stage) {
     std::vector<std::vector<HtmlPage::Cell>> rows;
     for (const StageCalibration::Rig& rig : stage.rigs) {
         const Eigen::Vector3d at = rig.calibration.world_from_left.translation();
-        const double mm = 1000 * rig.translation_sigma_m, deg = degrees * rig.rotation_sigma_rad;
+        const double mm = 1000 * rig.translation_sigma_m, deg = deg_a_rad * rig.rotation_sigma_rad;
         rows.push_back({{rig.name},
                         {fmt::format("{:.4f}, {:.4f}, {:.4f}", at.x(), at.y(), at.z())},
                         {fmt::format("{:.2f}", mm), mark_of(mm, warn_mm, bad_mm)},

@@ -4,6 +4,7 @@
 
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
+#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {
@@ -12,7 +13,6 @@ using Eigen::Affine3f;
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
 
-constexpr float tau = 2 * std::numbers::pi_v<float>;
 constexpr float wall_radius_m = 7.4f, wall_height_m = 4.8f, ceiling_m = 5.6f;
 constexpr int panels = 16;
 

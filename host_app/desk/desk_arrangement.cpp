@@ -12,20 +12,21 @@ namespace vantage {
 namespace {
 
 constexpr int desk_file_version = 1;
-constexpr double deg = std::numbers::pi / 180;
+constexpr double rad_a_degree = std::numbers::pi / 180;
 /// Of all the monitors that one computer has.
 constexpr int farthest_px = 100'000;
 
 void read_eye(TomlTable& table, OutsideEye& eye) {
     OutsideEye read;
-    double azimuth_deg = read.azimuth_rad / deg, elevation_deg = read.elevation_rad / deg;
+    double azimuth_deg = read.azimuth_rad / rad_a_degree,
+           elevation_deg = read.elevation_rad / rad_a_degree;
     double nearness = 0;
     table.read("azimuth_deg", azimuth_deg, {-360, 360});
     table.read("elevation_deg", elevation_deg, {0, 90});
     table.read("nearness", nearness, {-10, 10});
-    eye = {azimuth_deg * deg, 0, 0};
+    eye = {azimuth_deg * rad_a_degree, 0, 0};
     // Within its own bounds.
-    eye.turn(0, elevation_deg * deg);
+    eye.turn(0, elevation_deg * rad_a_degree);
     eye.go_nearer(nearness);
 }
 
@@ -72,8 +73,8 @@ std::string to_toml(const DeskArrangement& desk) {
         "panels = {}\nrigs = {}\nrigs_apart = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
         desk_file_version, switches.panels, switches.rigs, switches.rigs_apart, switches.outside,
-        std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / deg,
-        switches.eye.elevation_rad / deg, switches.eye.nearness);
+        std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / rad_a_degree,
+        switches.eye.elevation_rad / rad_a_degree, switches.eye.nearness);
     return text + window_text("window", desk.window) + window_text("rigs_window", desk.rigs_window);
 }
 

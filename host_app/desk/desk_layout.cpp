@@ -9,18 +9,18 @@ namespace vantage {
 namespace {
 
 // In ems.
-constexpr float gap = 0.4f, status_height = 2.5f, time_line_height = 2.9f, side_width = 23;
+constexpr float cells_gap = 0.4f, status_height = 2.5f, time_line_height = 2.9f, side_width = 23;
 /// A window of less has room for the programme, its status and its time only.
 constexpr float least_width_with_side = 62, least_height_with_rigs = 32;
 
 /// Of a rig's cell: its caption, and by how much it is wider than its colour picture is high.
-constexpr float caption_height = 1.6f, cell_aspect = 2.2f;
+constexpr float cell_caption_height = 1.6f, cell_aspect = 2.2f;
 /// Of the window's height, for the pictures of all rigs.
 constexpr float most_of_height = 0.19f, least_of_height = 0.1f;
 
 float rig_picture_height(float width, float height, float rigs, float rows) {
     const float columns = std::ceil(rigs / rows);
-    return std::min((width / columns - gap) / cell_aspect, most_of_height * height / rows);
+    return std::min((width / columns - cells_gap) / cell_aspect, most_of_height * height / rows);
 }
 
 /// Of the width of pictures and side, that the programme has beside the preview; of the height,
@@ -63,39 +63,41 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
                rows < 3)
             ++rows;
         layout.rig_rows = static_cast<int>(rows);
-        const float all = rows * (rig_picture_height(width, height, count, rows) + caption_height);
+        const float all =
+            rows * (rig_picture_height(width, height, count, rows) + cell_caption_height);
         layout.rigs = {0, bottom - all, width, all};
-        bottom = layout.rigs.top - gap;
+        bottom = layout.rigs.top - cells_gap;
     }
-    layout.time_line = {gap, bottom - time_line_height, width - 2 * gap, time_line_height};
-    bottom = layout.time_line.top - gap;
-    const float top = status_height + gap;
+    layout.time_line = {cells_gap, bottom - time_line_height, width - 2 * cells_gap,
+                        time_line_height};
+    bottom = layout.time_line.top - cells_gap;
+    const float top = status_height + cells_gap;
     const float middle = std::max(bottom - top, 1.0f);
-    float right = width - gap;
+    float right = width - cells_gap;
     if (width >= least_width_with_side) {
-        const float shot_height = middle / shot_places - gap;
+        const float shot_height = middle / shot_places - cells_gap;
         const float shot_width = std::min(shot_height / aspect, 0.11f * width);
         const float bins = has_clips ? 2 : 1;
         // The side takes what the picture leaves.
-        const float both_width = right - bins * (shot_width + gap) - 2 * gap;
+        const float both_width = right - bins * (shot_width + cells_gap) - 2 * cells_gap;
         const float picture_width =
             has_preview ? std::min((middle - name_height) / aspect, programme_share * both_width)
                         : std::min(middle / aspect, both_width - side_width);
-        const float side_left = 2 * gap + picture_width + bins * (shot_width + gap);
-        layout.shots = {2 * gap + picture_width, top, shot_width, middle};
-        if (has_clips) layout.clips = {layout.shots.right() + gap, top, shot_width, middle};
+        const float side_left = 2 * cells_gap + picture_width + bins * (shot_width + cells_gap);
+        layout.shots = {2 * cells_gap + picture_width, top, shot_width, middle};
+        if (has_clips) layout.clips = {layout.shots.right() + cells_gap, top, shot_width, middle};
         layout.side = {side_left, top, right - side_left, middle};
         if (has_preview) {
             layout.preview = layout.side;
             layout.preview.height =
                 std::min(name_height + layout.side.width * aspect, preview_share * middle);
-            layout.side.top = layout.preview.bottom() + gap;
-            layout.side.height -= layout.preview.height + gap;
+            layout.side.top = layout.preview.bottom() + cells_gap;
+            layout.side.height -= layout.preview.height + cells_gap;
         }
-        right = gap + picture_width;
+        right = cells_gap + picture_width;
     }
-    layout.programme = {gap, top, right - gap, middle};
-    if (has_preview && layout.side.is_empty()) halve(layout, gap);
+    layout.programme = {cells_gap, top, right - cells_gap, middle};
+    if (has_preview && layout.side.is_empty()) halve(layout, cells_gap);
     for (DeskRect* part : {&layout.status, &layout.programme, &layout.preview, &layout.shots,
                            &layout.clips, &layout.side, &layout.time_line, &layout.rigs})
         *part = {part->left * em_px, part->top * em_px, part->width * em_px, part->height * em_px};
@@ -109,7 +111,7 @@ int best_rig_rows(float width_px, float height_px, float em_px, int rigs) {
         const float columns = std::ceil(static_cast<float>(rigs) / static_cast<float>(rows));
         const float height =
             std::min(width_px / columns / cell_aspect,
-                     height_px / static_cast<float>(rows) - caption_height * em_px);
+                     height_px / static_cast<float>(rows) - cell_caption_height * em_px);
         if (height <= largest) continue;
         largest = height;
         best = rows;

@@ -8,7 +8,7 @@ namespace vantage {
 namespace {
 
 constexpr float caption_height = 1.5f;  ///< in ems
-constexpr float usual_aspect = 9.0f / 16;
+constexpr float picture_aspect = 9.0f / 16;
 
 /// A picture under its name and a few words; returns where the picture is.
 DeskRect draw_monitor(const Pen& pen, const DeskRect& rect, const Texture* picture, float aspect,
@@ -71,7 +71,7 @@ void draw_monitors(const Pen& pen, const DeskLayout& layout, const DeskState& st
 float aspect_of(const Texture* picture) {
     return picture
                ? static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())
-               : usual_aspect;
+               : picture_aspect;
 }
 
 }  // namespace vantage

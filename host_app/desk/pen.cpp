@@ -9,8 +9,6 @@ namespace {
 
 constexpr float far_away = 1e6f;
 
-ImU32 packed(const ImVec4& colour) { return ImGui::GetColorU32(colour); }
-
 }  // namespace
 
 const ImVec4& colour_of(Mark mark) {

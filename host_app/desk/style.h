@@ -33,6 +33,9 @@ inline const ImVec4 corridor{0.16f, 0.74f, 0.57f, 0.13f};
 inline const ImVec4 corridor_edge{0.95f, 0.80f, 0.25f, 0.13f};
 }  // namespace palette
 
+/// As a draw list takes it.
+inline ImU32 packed(const ImVec4& colour) { return ImGui::GetColorU32(colour); }
+
 struct UiFonts {
     ImFont* body = nullptr;
     ImFont* strong = nullptr;

@@ -23,8 +23,6 @@ constexpr float box_width = 66, box_height = 35, pad = 1, title_height = 2.4f, f
 constexpr float empty_width = 44, empty_height = 7;
 constexpr float figure_width = 23, list_width = 19;
 
-ImU32 packed(const ImVec4& colour) { return ImGui::GetColorU32(colour); }
-
 const ImVec4& colour_of(const DeskWheel& wheel, std::size_t control) {
     if (wheel.controls[control].is_held) return palette::good;
     return control == wheel.selected ? palette::accent : palette::line;

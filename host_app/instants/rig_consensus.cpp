@@ -14,7 +14,7 @@ namespace vantage {
 namespace {
 
 /// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.02f;
+constexpr float agreeing_softness = 0.02f;
 /// Other rigs tell something new from this many of a rig's own parallaxes on.
 constexpr double least_news = 2;
 /// Steps of the two sweeps: parallax in pixels of the depth map.
@@ -273,7 +273,7 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
         TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
         Program& carve = carving.use();
         int unit = bind_others(carve, *look->view.depth_m, look);
-        carve.set("softness", softness);
+        carve.set("softness", agreeing_softness);
         carve.set("agreement", unit);
         agreement_.texture().bind(unit++);
         if (moves) {
@@ -295,7 +295,7 @@ const Texture& RigConsensus::better(const Look& look) {
         TilePass& adopting = adopt_[look->others.size() - 1];
         Program& adopt = adopting.use();
         const int unit = bind_others(adopt, *look->view.depth_m, look);
-        adopt.set("softness", softness);
+        adopt.set("softness", agreeing_softness);
         adopt.set("judged", unit);
         judged_.texture().bind(unit);
         draw(adopting, result_.target(), unit + 1, look);
@@ -328,7 +328,7 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
         const Eigen::RowVector3d inverse_z =
             pose.linear().row(1) * look->view.K_depth().inverse() / -pose.translation().y();
         program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
-        program.set("softness", softness);
+        program.set("softness", agreeing_softness);
         program.set("before", unit);
         bettered.bind(unit);
         draw(standing, with_floor_.target(), unit + 1, look);

@@ -7,14 +7,14 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::seconds period{2};
+constexpr std::chrono::seconds telling_period{2};
 
 }  // namespace
 
 void ProgressLog::tell(const LiveShow& show) {
     constexpr double deg = 180 / std::numbers::pi;
     const MonotonicTime now = MonotonicClock::now();
-    if (now - last_ < period) return;
+    if (now - last_ < telling_period) return;
     const double elapsed_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
     int giving = 0;

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double per_cent = 100;
 
-double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
-
 std::string words_of(int number, const Clip& clip) {
     return clip.name.empty() ? fmt::format("clip {}", number)
                              : fmt::format("clip {} \"{}\"", number, clip.name);

@@ -14,8 +14,6 @@ constexpr std::array speeds{-2.0, -1.0, -0.75, -0.5, -0.33, -0.25, -0.1, 0.0,
 /// A flight that leads further than so many pulses in a tick leads to elsewhere.
 constexpr double longest_lead = 25;
 
-double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
-
 }  // namespace
 
 Transport Transport::of_take(double pulse, double speed) {

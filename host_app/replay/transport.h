@@ -8,6 +8,9 @@
 
 namespace vantage {
 
+/// As the place in time that it has there.
+inline double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
+
 /// A part of the past that is played for itself: its marks, and how far beyond them hands may go.
 struct TransportPiece {
     std::uint64_t in = 0, out = 0;  ///< `out` is the first that is left out

@@ -5,8 +5,6 @@
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.005f;
 /// Depths that differ by more than this ratio lie on two surfaces.
 constexpr float edge_ratio = 1.03f;
 /// The kinds of pixels, as depths; below the first are those that are done.
@@ -18,10 +16,11 @@ const char* const fragment = "fused_colour.frag";
 
 FusedColour::FusedColour(const ShaderLibrary& library)
     : kinds_pass_(library, "fused_kinds.frag"),
-      first_rigs_(library, fragment, softness, {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}}, 1, 3),
-      inner_(library, fragment, softness, {{"EDGES", "0"}}),
-      edges_(library, fragment, softness, {{"EDGES", "1"}}),
-      plain_(library, "fused_plain.frag", softness) {}
+      first_rigs_(library, fragment, same_surface_share, {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}},
+                  1, 3),
+      inner_(library, fragment, same_surface_share, {{"EDGES", "0"}}),
+      edges_(library, fragment, same_surface_share, {{"EDGES", "1"}}),
+      plain_(library, "fused_plain.frag", same_surface_share) {}
 
 const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());

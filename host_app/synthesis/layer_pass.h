@@ -9,6 +9,9 @@
 
 namespace vantage {
 
+/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+inline constexpr float same_surface_share = 0.005f;
+
 /// A fragment shader over layers, which includes rig_layers.glsl and writes colour and depth of a
 /// DepthPicture; a program for every number of layers.
 class LayerPass {

@@ -3,18 +3,12 @@
 #include "common/gl/two_stage_pass.h"
 
 namespace vantage {
-namespace {
-
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.005f;
-
-}  // namespace
 
 PerformerLayers::PerformerLayers(const ShaderLibrary& library)
     : layers_(library),
-      find_(library, "performer_show.frag", softness, {{"FIRST", "1"}}),
-      show_(library, "performer_show.frag", softness),
-      show_plainly_(library, "performer_show.frag", softness, {{"PLAIN", "1"}}) {}
+      find_(library, "performer_show.frag", same_surface_share, {{"FIRST", "1"}}),
+      show_(library, "performer_show.frag", same_surface_share),
+      show_plainly_(library, "performer_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}
 
 const DepthPicture& PerformerLayers::show(const Texture& picture, const Texture& depth_m,
                                           const Texture* shares,

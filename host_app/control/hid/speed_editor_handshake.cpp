@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::uint8_t report_id = 6;
+constexpr std::uint8_t handshake_report = 6;
 constexpr std::size_t report_bytes = 10;
 enum Step : std::uint8_t {
     challenge = 0,
@@ -20,7 +20,7 @@ enum Step : std::uint8_t {
 };
 
 void send(JogPort& port, Step step, std::uint64_t number) {
-    std::array<std::uint8_t, report_bytes> report{report_id, step};
+    std::array<std::uint8_t, report_bytes> report{handshake_report, step};
     for (std::size_t i = 0; i < 8; ++i)
         report[2 + i] = static_cast<std::uint8_t>(number >> (8 * i));
     port.send_feature(report);
@@ -28,8 +28,8 @@ void send(JogPort& port, Step step, std::uint64_t number) {
 
 /// The number that a report of this step carries.
 std::uint64_t receive(JogPort& port, Step step) {
-    const std::vector<std::uint8_t> report = port.get_feature(report_id, report_bytes);
-    if (report.size() < report_bytes || report[0] != report_id || report[1] != step)
+    const std::vector<std::uint8_t> report = port.get_feature(handshake_report, report_bytes);
+    if (report.size() < report_bytes || report[0] != handshake_report || report[1] != step)
         fail(
             "the Speed Editor does not follow its opening procedure at step {}; unplug it, plug it "
             "in again and close other programs that use it",

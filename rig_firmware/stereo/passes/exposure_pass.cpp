@@ -5,14 +5,14 @@
 namespace vantage {
 namespace {
 
-constexpr int lanes = 64;
+constexpr int group_lanes = 64;
 
 }  // namespace
 
 ExposurePass::ExposurePass(const ShaderLibrary& library)
     : program_(
           Program::compute(library, "exposure_gain.comp",
-                           {{"LANES", std::to_string(lanes)},
+                           {{"LANES", std::to_string(group_lanes)},
                             {"COLUMNS", std::to_string(ExposureReference::columns)},
                             {"ROWS", std::to_string(ExposureReference::rows)},
                             {"MOST_FIRST_STEP", std::to_string(ExposureReference::most_first_step)},
@@ -26,7 +26,7 @@ void ExposurePass::run(const Texture& picture) {
     program_.set("has_luma", has_luma_ ? 1 : 0);
     picture.bind(0);
     exposure_.bind_storage(0);
-    program_.dispatch_over(lanes, 1);
+    program_.dispatch_over(group_lanes, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     has_luma_ = true;
 }

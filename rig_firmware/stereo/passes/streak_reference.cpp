@@ -12,14 +12,15 @@ struct Run {
     int top, bottom;  ///< disparities
 };
 
-bool are_near(int a, int b) { return std::abs(a - b) <= disparity_steps_per_px; }
+bool are_of_one_surface(int a, int b) { return std::abs(a - b) <= disparity_steps_per_px; }
 
 std::vector<Run> runs_of(const DisparityImage& disparity, int x) {
     std::vector<Run> runs;
     for (int y = 0; y < disparity.rows; ++y) {
         const int d = disparity(y, x);
         if (d == 0) continue;
-        if (runs.empty() || !are_near(runs.back().bottom, d)) runs.push_back({y, y, d, d});
+        if (runs.empty() || !are_of_one_surface(runs.back().bottom, d))
+            runs.push_back({y, y, d, d});
         runs.back().last_row = y;
         runs.back().bottom = d;
     }
@@ -65,7 +66,8 @@ DisparityImage without_streaks(const DisparityImage& disparity,
         for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
             const Run& run = runs[i];
             const int above = runs[i - 1].bottom, below = runs[i + 1].top;
-            if (run.last_row - run.first_row >= most_streak_rows || !are_near(above, below))
+            if (run.last_row - run.first_row >= most_streak_rows ||
+                !are_of_one_surface(above, below))
                 continue;
             const int surface = (above + below) / 2;
             for (int y = run.first_row; y <= run.last_row; ++y) {
