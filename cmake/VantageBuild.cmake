@@ -132,6 +132,9 @@ function(vantage_command_library name)
   vantage_compile_together(${name})
   vantage_registry(TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
     HEADER common/base/command.h SUFFIX command FILES ${commands})
+  # Commands have names of their own, unlike backends; a dozen at a time take a compiler a gigabyte.
+  set_source_files_properties(${commands} PROPERTIES SKIP_UNITY_BUILD_INCLUSION OFF)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
 
 # vantage_registry(TARGET vantage_rig_stereo TYPE MatcherEntry FUNCTION matcher_entries
@@ -177,8 +180,8 @@ add_custom_target(vantage_gl_tests)
 file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
-# Every test carries the label `unit`; `threads` marks those that the sanitizers and an emulated arm64 run too, `arm64`
-# those that only the latter does, `e2e` those that run one at a time, `faults` those that ./test leaves to ./test --all,
+# Every test carries the label `unit`; `threads` marks those that the sanitizers run too, `arm64` those that an emulated
+# arm64 does, of what a rig's package has in it, `e2e` those that run one at a time, `faults` those that ./test leaves to ./test --all,
 # `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A program is one
 # process and one test of CTest, since the start of a process, its GPU driver and its shaders take longer than most tests;
 # one of SHARDS n is n of them. Tests that start programs themselves (e2e, faults) are a process each. Files after APART
@@ -198,7 +201,7 @@ function(vantage_unit_test name)
   if("threads" IN_LIST ARG_LABELS)
     add_dependencies(vantage_thread_tests ${name})
   endif()
-  if(ARG_LABELS MATCHES "threads|arm64")
+  if("arm64" IN_LIST ARG_LABELS)
     add_dependencies(vantage_arm64_tests ${name})
   endif()
   if("gl" IN_LIST ARG_LABELS)

@@ -19,7 +19,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct PrintedBoardOptions {
     std::string kind = "charuco", size, output, dictionary = "5X5_250", paper;
     double square_m = 0, marker_m = 0, dots_per_inch = 300;
     int first_marker = 0, faces = 1;
@@ -30,7 +30,8 @@ struct Options {
 double usual_marker_m(double square_m) { return std::round(0.7e6 * square_m) / 1e6; }
 
 /// The boards to draw: one, or one a face.
-std::vector<BoardPattern> wanted_faces(const Options& options, const std::optional<Paper>& paper) {
+std::vector<BoardPattern> wanted_faces(const PrintedBoardOptions& options,
+                                       const std::optional<Paper>& paper) {
     const bool is_cut_out = options.faces > 1;
     if (options.square_m == 0 && !paper)
         fail("how large? give --square-m METRES, or --paper for the largest that fits a sheet");
@@ -73,7 +74,7 @@ void require_not_measured(const std::string& description, const std::vector<Boar
          description);
 }
 
-void run(const Options& options) {
+void run(const PrintedBoardOptions& options) {
     std::optional<Paper> paper;
     if (!options.paper.empty()) paper = paper_named(options.paper);
     const std::vector<BoardPattern> faces = wanted_faces(options, paper);
@@ -130,7 +131,7 @@ CommandEntry board_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "board", "Draw a calibration target: PDF true to scale, PNG, and its description");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<PrintedBoardOptions>();
         command->add_option("--kind", options->kind, "what to draw")
             ->check(CLI::IsMember({"chessboard", "charuco"}))
             ->capture_default_str();

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::vector<std::string> rigs;
     LiveOption live;
     std::string html, history;
@@ -22,7 +22,7 @@ struct Options {
     bool json = false;
 };
 
-void run(const Options& options) {
+void run(const CheckOptions& options) {
     // Before the long work, so that a damaged history costs no time.
     const std::vector<PastCheck> past =
         options.history.empty() ? std::vector<PastCheck>{} : load_history(options.history);
@@ -56,7 +56,7 @@ CommandEntry check_command_entry() {
             "check",
             "Say how well a stage still fits its calibration, without any board; exit status 0 for "
             "good and warn, 1 for bad, 3 where it cannot be told");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<CheckOptions>();
         command
             ->add_option("--rig", options->rigs,
                          "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png, "

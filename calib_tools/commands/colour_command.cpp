@@ -21,7 +21,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct ColourOptions {
     std::vector<std::string> rigs, charts;
     LiveOption live;
     std::string reference, output;
@@ -36,7 +36,7 @@ struct Result {
 };
 
 /// Each rig against the chart's true colours.
-Result from_charts(const Options& options) {
+Result from_charts(const ColourOptions& options) {
     Result result;
     result.reference = "chart";
     for (const RigFolder& rig : parse_rig_folders(options.charts)) {
@@ -63,7 +63,7 @@ Result from_charts(const Options& options) {
 }
 
 /// All rigs against one of them, by the surfaces that two of them see.
-Result from_overlap(const Options& options) {
+Result from_overlap(const ColourOptions& options) {
     constexpr int places = 4000;
     Result result;
     std::vector<OverlapView> views;
@@ -90,7 +90,7 @@ Result from_overlap(const Options& options) {
     return result;
 }
 
-void run(const Options& options) {
+void run(const ColourOptions& options) {
     if (options.rigs.empty() == options.charts.empty())
         fail("give either --rig (colours from what rigs see of one another) or --chart");
     const Result result = options.charts.empty() ? from_overlap(options) : from_charts(options);
@@ -134,7 +134,7 @@ CommandEntry colour_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "colour", "Make the colours of all rigs alike, from a chart or from what they share");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<ColourOptions>();
         command->add_option("--rig", options->rigs,
                             "NAME=FOLDER, once a rig: calibration.yaml (placed by `stage`), "
                             "left*N.png and right*N.png, raw pictures of one instant");

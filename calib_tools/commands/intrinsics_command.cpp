@@ -20,7 +20,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct IntrinsicsOptions {
     BoardOptions board;
     LensOption lens;
     LiveRigOption live;
@@ -36,7 +36,7 @@ struct SeenSeries {
     std::string kept;  ///< of a live film, as BoardFilm's
 };
 
-SeenSeries look(const Options& options, const BoardPattern& pattern) {
+SeenSeries look(const IntrinsicsOptions& options, const BoardPattern& pattern) {
     if (!options.live.given()) {
         std::vector<std::string> pictures = options.pictures;
         if (pictures.empty() && !options.live.rig.empty())
@@ -53,7 +53,7 @@ SeenSeries look(const Options& options, const BoardPattern& pattern) {
     return {std::move(film.pictures[0]), film.kept};
 }
 
-void run(const Options& options) {
+void run(const IntrinsicsOptions& options) {
     const BoardPattern pattern = options.board.pattern();
     RigOptions rig_options;
     rig_options.family = options.lens.family();
@@ -87,7 +87,7 @@ CommandEntry intrinsics_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "intrinsics", "Calibrate one camera's lens from pictures of a board");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<IntrinsicsOptions>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
         command->add_option("--images", options->pictures, "pictures: 'PATTERN', folder or files");

@@ -17,12 +17,12 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct RectifyOptions {
     std::string calibration, left, right, out_left, out_right;
     bool json = false;
 };
 
-void check_outputs(const Options& options) {
+void check_outputs(const RectifyOptions& options) {
     require_picture_extension(options.out_left);
     require_picture_extension(options.out_right);
     require_writable_output(options.out_left,
@@ -40,7 +40,7 @@ ColourImage rectify(const ShaderLibrary& shaders, const StereoCalibration& calib
 
 std::vector<double> numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-void run(const Options& options) {
+void run(const RectifyOptions& options) {
     check_outputs(options);
     const StereoCalibration calibration = load_calibration(options.calibration);
     const ColourImage raw_left = read_colour_image(options.left);
@@ -85,7 +85,7 @@ CommandEntry rectify_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "rectify", "Rectify one pair by a calibration, on the GPU, as the rig daemon does");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<RectifyOptions>();
         command->add_option("left", options->left, "raw left picture")->required();
         command->add_option("right", options->right, "raw right picture")->required();
         command->add_option("--calibration", options->calibration, "calibration file (YAML)")

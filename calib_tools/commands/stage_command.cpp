@@ -22,7 +22,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct StageOptions {
     BoardOptions board;
     std::vector<std::string> rigs;
     std::string output, floor_board;
@@ -77,7 +77,7 @@ struct LiveFilm {
 };
 
 /// Films the board live and gives every rig what it saw.
-LiveFilm film_live(const Options& options, const BoardSet& boards,
+LiveFilm film_live(const StageOptions& options, const BoardSet& boards,
                    const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
                    StageCalibration& notes) {
     LiveRigs live = options.live.connect(folders);
@@ -107,7 +107,7 @@ LiveFilm film_live(const Options& options, const BoardSet& boards,
     return {numbers.front(), film.kept};
 }
 
-void run(const Options& options) {
+void run(const StageOptions& options) {
     const BoardSet boards = options.board.boards();
     std::vector<StageRig> rigs;
     StageCalibration notes;
@@ -173,7 +173,7 @@ CommandEntry stage_command_entry() {
         CLI::App* command = program.add_subcommand(
             "stage",
             "Find where every rig stands, from pictures of a board that rigs saw together");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<StageOptions>();
         options->board.add_to(*command);
         command
             ->add_option("--rig", options->rigs,

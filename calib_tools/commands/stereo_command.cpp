@@ -20,7 +20,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct StereoOptions {
     BoardOptions board;
     LensOption lens;
     LiveRigOption live;
@@ -38,7 +38,7 @@ struct SeenPairs {
     std::string kept;  ///< of a live film, as BoardFilm's
 };
 
-SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) {
+SeenPairs pairs_from_files(const StereoOptions& options, const BoardPattern& pattern) {
     std::vector<std::string> lefts = options.left, rights = options.right;
     if (lefts.empty() && rights.empty() && !options.live.rig.empty()) {
         lefts = {options.live.kept_pictures("left")};
@@ -55,7 +55,7 @@ SeenPairs pairs_from_files(const Options& options, const BoardPattern& pattern) 
     return {{seen.begin(), middle}, {middle, seen.end()}, pictures.alone, {}};
 }
 
-SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
+SeenPairs pairs_from_rig(const StereoOptions& options, const BoardPattern& pattern) {
     const RigFolder rig = options.live.folder();
     LiveRigs rigs = options.live.connect({rig});
     BoardFilm film =
@@ -64,7 +64,7 @@ SeenPairs pairs_from_rig(const Options& options, const BoardPattern& pattern) {
     return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept};
 }
 
-void run(const Options& options) {
+void run(const StereoOptions& options) {
     const BoardPattern pattern = options.board.pattern();
     RigOptions rig_options;
     rig_options.family = options.lens.family();
@@ -109,7 +109,7 @@ CommandEntry stereo_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "stereo", "Calibrate a stereo rig from pairs of pictures of a board");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<StereoOptions>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
         command->add_option("--left", options->left, "left pictures: 'PATTERN', folder or files");

@@ -27,7 +27,7 @@ namespace {
 /// Often enough that a bar's period of some tenths of a second is seen at all its phases soon.
 constexpr double pictures_per_second = 5;
 
-struct Options {
+struct SyncOptions {
     std::vector<std::string> rigs;
     LiveOption live;
     std::string stage;
@@ -48,7 +48,7 @@ struct Film {
     }
 };
 
-std::vector<Film> film_live(const Options& options, std::vector<RigFolder> rigs) {
+std::vector<Film> film_live(const SyncOptions& options, std::vector<RigFolder> rigs) {
     if (rigs.empty())
         for (const StageConfig::Rig& rig : load_stage_config(options.live.stage_file).rigs)
             rigs.push_back({rig.name, {}});
@@ -113,7 +113,7 @@ SyncRecord prove(const std::vector<Film>& films, const SyncBar& bar, double rate
     return record;
 }
 
-void run(const Options& options) {
+void run(const SyncOptions& options) {
     if (!options.screen.empty()) {
         write_text_atomically(options.screen, screen_pages().front().text);
         log_info("{} written: open it in a browser, full screen", options.screen.string());
@@ -162,7 +162,7 @@ CommandEntry sync_command_entry() {
             "sync",
             "Prove by pictures of a counting bar of LEDs that all sensors expose at once; exit "
             "status 0 where they do, 1 where they do not, 3 where it cannot be told");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<SyncOptions>();
         options->live.views = 24;
         command->add_option("--rig", options->rigs,
                             "NAME=FOLDER, once a rig: left_PULSE.png and right_PULSE.png, raw "

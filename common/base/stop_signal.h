@@ -15,6 +15,9 @@ class StopSignal {
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
+    /// So often looks who waits for something else meanwhile.
+    static constexpr std::chrono::milliseconds look_period{50};
+
     bool requested() { return wait_for(std::chrono::nanoseconds(0)); }
     /// Sleeps; returns at once, and true, when the program is asked to stop.
     bool wait_for(std::chrono::nanoseconds time);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_period{200};
 
-struct Options {
+struct RelayOptions {
     std::string stage, rigs_file;
     RigRelay::Settings relay;
     bool json = false;
@@ -73,7 +73,7 @@ void print(const std::vector<RigRelay::Rig>& rigs) {
     }
 }
 
-void run(const Options& options) {
+void run(const RelayOptions& options) {
     // Before the relay's threads, so that they leave the signals to it.
     StopSignal stop;
     const RigRelay relay(load_stage_config(options.stage), options.relay);
@@ -98,7 +98,7 @@ void run(const Options& options) {
 
 CommandEntry relay_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<RelayOptions>();
         CLI::App* relay = program.add_subcommand(
             "relay",
             "Takes the rigs' frames once and serves them to several hosts, as they came, until it "

@@ -40,7 +40,7 @@ struct FetchOptions {
     bool json = false;
 };
 
-struct Options {
+struct RigsOptions {
     std::string stage;
     double wait_s = 10;
     bool json = false;
@@ -70,7 +70,7 @@ void print(const ReceiverStatus& status, const std::string& synchronisation) {
     std::cout << "signal: " << title_of(signal_of(status)) << '\n';
 }
 
-void run(const Options& options) {
+void run(const RigsOptions& options) {
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     StopSignal stop;
@@ -194,7 +194,7 @@ CommandEntry rigs_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* rigs = program.add_subcommand("rigs", "The rigs of a stage");
         rigs->require_subcommand(1);
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<RigsOptions>();
         CLI::App* status = rigs->add_subcommand("status",
                                                 "Every rig: clock, pulses, rates, temperature, "
                                                 "calibration, what became of its frames; ends "

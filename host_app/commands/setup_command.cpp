@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_every(50);
 
-struct Options {
+struct SetupOptions {
     std::string stage;
     std::vector<std::string> rigs;
     double search_s = 4, wait_s = 20;
@@ -57,7 +57,7 @@ Endpoint pairing_endpoint(const std::string& rig) {
 
 /// Everything that a session of setup talks to.
 struct Session {
-    const Options& options;
+    const SetupOptions& options;
     StopSignal& stop;
     EventTeller teller;
     StageFile stage;
@@ -244,7 +244,7 @@ void check(const Session& session) {
             blocking);
 }
 
-void set_up(const Options& options) {
+void set_up(const SetupOptions& options) {
     StopSignal stop;
     Session session{options, stop, EventTeller(options.json),
                     StageFile(options.stage.empty() ? user_folder() / "stage.toml"
@@ -268,7 +268,7 @@ void set_up(const Options& options) {
 
 CommandEntry setup_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<SetupOptions>();
         CLI::App* command = program.add_subcommand(
             "setup",
             "From rigs in the network to a stage that can be shown: finds them, pairs with those "

@@ -18,9 +18,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::milliseconds look_every(50);
-
-struct Options {
+struct CaptureOptions {
     std::string config, folder;
     int count = 20;
     std::uint64_t every = 30;
@@ -28,17 +26,18 @@ struct Options {
     bool json = false;
 };
 
-std::filesystem::path picture(const Options& options, const char* side, std::uint64_t index) {
+std::filesystem::path picture(const CaptureOptions& options, const char* side,
+                              std::uint64_t index) {
     return std::filesystem::path(options.folder) / fmt::format("{}_{}.png", side, index);
 }
 
 /// Waits for the next pulse that is to be kept; empty at the end of the material or when the
 /// program is asked to stop. Throws Error if none comes for too long.
-std::optional<StereoFrame> next_kept(StereoSource& source, const Options& options,
+std::optional<StereoFrame> next_kept(StereoSource& source, const CaptureOptions& options,
                                      StopSignal& stop) {
     auto heard = MonotonicClock::now();
     while (!stop.requested() && !source.ended()) {
-        std::optional<StereoFrame> frame = source.next(look_every);
+        std::optional<StereoFrame> frame = source.next(StopSignal::look_period);
         const MonotonicTime now = MonotonicClock::now();
         if (frame) heard = now;
         if (frame && frame->trigger_index % options.every == 0) return frame;
@@ -49,7 +48,7 @@ std::optional<StereoFrame> next_kept(StereoSource& source, const Options& option
     return std::nullopt;
 }
 
-void run(const Options& options) {
+void run(const CaptureOptions& options) {
     const RigConfig config = load_rig_config(options.config);
     make_folder(options.folder);
     StopSignal stop;
@@ -89,7 +88,7 @@ CommandEntry capture_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "capture", "Keep raw pairs as pictures numbered by pulse, for vantage-calib");
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<CaptureOptions>();
         command->add_option("--config", options->config, "the rig's rig.toml")->required();
         command
             ->add_option("--every", options->every,

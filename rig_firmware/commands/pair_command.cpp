@@ -25,9 +25,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::milliseconds look_every(50);
-
-struct Options {
+struct PairOptions {
     std::filesystem::path config = "/etc/vantage/rig.toml";
     std::string bind = fmt::format("tcp://*:{}", pairing_port);
     double minutes = 5;
@@ -41,7 +39,7 @@ int port_of(const std::string& endpoint) {
 }
 
 void tell_open(const EventTeller& teller, const PairedFiles& files, const std::string& endpoint,
-               const Options& options) {
+               const PairOptions& options) {
     teller.tell(
         {{"event", "open"}, {"rig", files.config().name}, {"endpoint", endpoint}},
         fmt::format("{} is open for pairing at port {} for {:g} minutes. At the host: "
@@ -60,7 +58,7 @@ void tell_code(const EventTeller& teller, const RigPairing& pairing, const std::
 }
 
 void tell_paired(const EventTeller& teller, const PairedFiles& files, const PairReveal& host,
-                 const std::vector<std::string>& changes, const Options& options) {
+                 const std::vector<std::string>& changes, const PairOptions& options) {
     std::string words = fmt::format("Paired with '{}', whose key now is in {}.\n", host.host,
                                     files.hosts_file().string());
     if (!changes.empty()) {
@@ -84,7 +82,7 @@ void take_answer(const std::string& line, PairingWindow& window, PairingSocket& 
                                                      : window.reject(MonotonicClock::now()));
 }
 
-void pair(const Options& options) {
+void pair(const PairOptions& options) {
     StopSignal stop;
     const EventTeller teller(options.json);
     PairedFiles files(options.config);
@@ -108,7 +106,7 @@ void pair(const Options& options) {
     while (!window.is_closed() && !stop.requested()) {
         std::vector<zmq::pollitem_t> items{{socket.socket().handle(), 0, ZMQ_POLLIN, 0}};
         if (!input.is_at_end()) items.push_back({nullptr, input.fd(), ZMQ_POLLIN, 0});
-        wait_for(items, look_every);
+        wait_for(items, StopSignal::look_period);
         socket.serve(window, MonotonicClock::now());
         socket.send(window.tick(MonotonicClock::now()));
         if (const std::string failure = window.take_failure(); !failure.empty())
@@ -131,7 +129,7 @@ void pair(const Options& options) {
 
 CommandEntry pair_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<PairOptions>();
         CLI::App* command = program.add_subcommand(
             "pair",
             "Open this rig for a host to pair with (vantage setup): both show a code, and who "

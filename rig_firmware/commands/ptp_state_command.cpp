@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::chrono::seconds ask_every(1);
 
-struct Options {
+struct PtpStateOptions {
     std::filesystem::path socket = ptp4l_socket, file;
     bool json = false;
 };
 
-void keep_state(const Options& options) {
+void keep_state(const PtpStateOptions& options) {
     std::filesystem::path file = options.file;
     if (file.empty() && !options.json) file = ptp_state_file;
     std::error_code ignored;
@@ -45,7 +45,7 @@ void keep_state(const Options& options) {
 
 CommandEntry ptp_state_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<PtpStateOptions>();
         CLI::App* command = program.add_subcommand(
             "ptp-state",
             "Ask ptp4l every second how the clock stands, for a daemon that may not ask itself");

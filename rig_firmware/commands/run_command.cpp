@@ -20,12 +20,11 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::milliseconds look_every(50);
 constexpr std::chrono::seconds status_every(5);
 /// The slowest that a thread comes round where all is well: a picture matched by a busy processor.
 constexpr std::chrono::seconds stuck_after(15);
 
-struct Options {
+struct RunOptions {
     std::string config;
     std::uint64_t frames = 0;
     bool json = false;
@@ -106,7 +105,7 @@ void tell(ServiceNotifier& service, const RigDaemon& daemon, std::string& stuck)
     stuck = worker;
 }
 
-void run(const Options& options) {
+void run(const RunOptions& options) {
     const RigConfig config = load_rig_config(options.config);
     StopSignal stop;
     RigDaemon daemon(config, options.frames);
@@ -121,7 +120,7 @@ void run(const Options& options) {
     StatusLines lines;
     std::string stuck;
     MonotonicTime next_status = MonotonicClock::now() + status_every;
-    while (daemon.running() && !stop.wait_for(look_every)) {
+    while (daemon.running() && !stop.wait_for(StopSignal::look_period)) {
         tell(service, daemon, stuck);
         if (MonotonicClock::now() < next_status) continue;
         next_status += status_every;
@@ -139,7 +138,7 @@ void run(const Options& options) {
 
 CommandEntry run_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             program.add_subcommand("run", "The rig daemon: capture, rectify, match, stream");
         command->add_option("--config", options->config, "rig.toml (see hw_config/rig.toml)")

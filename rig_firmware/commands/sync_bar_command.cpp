@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct SyncBarOptions {
     std::string chip;
     std::vector<std::string> lines;
     int leds = 12, priority = 60;
@@ -36,7 +36,7 @@ std::vector<std::string> usual_lines(int leds) {
     return lines;
 }
 
-std::unique_ptr<BarLines> open_lines(const Options& options) {
+std::unique_ptr<BarLines> open_lines(const SyncBarOptions& options) {
     if (options.pretended) return pretend_bar_lines();
     if (options.chip.empty())
         fail(
@@ -48,14 +48,14 @@ std::unique_ptr<BarLines> open_lines(const Options& options) {
     return open_bar_lines(options.chip, lines, options.active_low);
 }
 
-void run(const Options& options) {
+void run(const SyncBarOptions& options) {
     const SyncBar bar(options.leds, from_us(options.step_us));
     StopSignal stop;
     BarDriver driver(bar, open_lines(options), from_us(options.spin_us), options.priority);
     for (const std::string& line : driver.report()) log_info("{}", line);
-    constexpr std::chrono::milliseconds look_every(20);
     const MonotonicTime end = MonotonicClock::now() + from_us(1e6 * options.seconds);
-    while (!stop.wait_for(look_every) && (options.seconds == 0 || MonotonicClock::now() < end))
+    while (!stop.wait_for(StopSignal::look_period) &&
+           (options.seconds == 0 || MonotonicClock::now() < end))
         driver.rethrow_failure();
     driver.stop();
     driver.rethrow_failure();
@@ -80,7 +80,7 @@ void run(const Options& options) {
 
 CommandEntry sync_bar_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<SyncBarOptions>();
         CLI::App* command = program.add_subcommand(
             "sync-bar",
             "Count on a bar of LEDs at GPIO lines, for vantage-calib sync, until Ctrl-C");

@@ -16,14 +16,14 @@
 namespace vantage {
 namespace {
 
-struct Options {
+struct TriggerOptions {
     std::string config;
     std::uint64_t count = 0;
     bool pretended = false;
     bool json = false;
 };
 
-void run(const Options& options) {
+void run(const TriggerOptions& options) {
     RigConfig config = load_rig_config(options.config);
     if (options.pretended) {
         config.trigger.pretended = true;
@@ -38,9 +38,9 @@ void run(const Options& options) {
     PulseSender sender(config.trigger, config.source.rate_hz);
     for (const std::string& line : sender.report()) log_info("{}: {}", config.name, line);
     sender.start(0);
-    constexpr std::chrono::milliseconds look_every(5);
+    constexpr std::chrono::milliseconds progress_period(5);
     PulseStatus status = sender.status();
-    while (status.sent + status.skipped < options.count && !stop.wait_for(look_every)) {
+    while (status.sent + status.skipped < options.count && !stop.wait_for(progress_period)) {
         sender.rethrow_failure();
         status = sender.status();
     }
@@ -73,7 +73,7 @@ void run(const Options& options) {
 
 CommandEntry trigger_command_entry() {
     return {[](CLI::App& program) {
-        auto options = std::make_shared<Options>();
+        auto options = std::make_shared<TriggerOptions>();
         CLI::App* command =
             program.add_subcommand("trigger", "Pulses only; reports how late they were");
         command->add_option("--config", options->config, "rig.toml (see hw_config/rig.toml)")
