@@ -91,7 +91,8 @@ function(vantage_embed_texts)
     file(READ ${file} text)
     string(APPEND entries "    {\"${name}\", R\"~toml~(${text})~toml~\"},\n")
   endforeach()
-  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${ARG_FUNCTION}.cpp)
+  # Its name is no source's, which would be the same object.
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_${ARG_FUNCTION}.cpp)
   file(CONFIGURE OUTPUT ${embedded} @ONLY CONTENT "#include \"${ARG_HEADER}\"
 
 namespace vantage {
