@@ -131,26 +131,28 @@ function(vantage_command_library name)
   vantage_optimise_little(${name})
   vantage_use_precompiled(${name} vantage_command_headers)
   vantage_compile_together(${name})
-  vantage_registry(TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
+  vantage_registry(TOGETHER TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
     HEADER common/base/command.h SUFFIX command FILES ${commands})
-  # Commands have names of their own, unlike backends; a dozen at a time take a compiler a gigabyte.
-  set_source_files_properties(${commands} PROPERTIES SKIP_UNITY_BUILD_INCLUSION OFF)
+  # All at once would be one long job at the end of a build.
   set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
 
 # vantage_registry(TARGET vantage_rig_stereo TYPE MatcherEntry FUNCTION matcher_entries
 #                  HEADER rig_firmware/stereo/matcher.h SUFFIX matcher FILES a_matcher.cpp b_matcher.cpp)
 # Every file x_SUFFIX.cpp defines `TYPE x_SUFFIX_entry();` in namespace vantage; the generated FUNCTION
-# returns all of them in the order of their file names. Static self-registration would be dropped by the linker.
+# returns all of them in the order of their file names. Static self-registration would be dropped by the linker. Backends
+# are compiled alone, unless they have names of their own (TOGETHER).
 function(vantage_registry)
-  cmake_parse_arguments(ARG "" "TARGET;TYPE;FUNCTION;HEADER;SUFFIX" "FILES" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "TARGET;TYPE;FUNCTION;HEADER;SUFFIX" "FILES" ${ARGN})
   set(declarations "")
   set(calls "")
   list(SORT ARG_FILES)
   foreach(file ${ARG_FILES})
     get_filename_component(stem ${file} NAME_WE)
     if(stem MATCHES "_${ARG_SUFFIX}$")
-      set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      if(NOT ARG_TOGETHER)
+        set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
       string(APPEND declarations "${ARG_TYPE} ${stem}_entry();\n")
       string(APPEND calls "    entries.push_back(${stem}_entry());\n")
     endif()
@@ -182,11 +184,11 @@ file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
 # Every test carries the label `unit`; `threads` marks those that the sanitizers run too, `arm64` those that an emulated
-# arm64 does, of what a rig's package has in it, `e2e` those that run one at a time, `faults` those that ./test leaves to ./test --all,
-# `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A program is one
-# process and one test of CTest, since the start of a process, its GPU driver and its shaders take longer than most tests;
-# one of SHARDS n is n of them. Tests that start programs themselves (e2e, faults) are a process each. Files after APART
-# are compiled alone.
+# arm64 does, of what a rig's package has in it, `e2e` those that run one at a time, `faults` those that ./test leaves to
+# ./test --all, `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A
+# program is one process and one test of CTest, since the start of a process, its GPU driver and its shaders take longer
+# than most tests; one of SHARDS n is n of them. Tests that start programs themselves (e2e, faults) are a process each.
+# Files after APART are compiled alone.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "SHARDS" "LABELS;DEPENDS;APART" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)

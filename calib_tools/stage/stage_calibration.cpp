@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -252,8 +251,7 @@ void advise(StageCalibration& stage) {
             "rig {} is weakly tied (uncertain by {:.1f} mm and {:.3f} degrees; {} shared "
             "with {}, the most with any): take {} more pictures of the board where {} and {} both "
             "see it large and tilted",
-            rig.name, 1000 * rig.translation_sigma_m,
-            rig.rotation_sigma_rad * 180 / std::numbers::pi,
+            rig.name, 1000 * rig.translation_sigma_m, rig.rotation_sigma_deg(),
             counted(static_cast<std::size_t>(best->shared), "instant"), other,
             std::max(3, 2 * few_shared - best->shared), rig.name, other));
     }

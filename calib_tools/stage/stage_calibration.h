@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct StageCalibration {
         StereoCalibration calibration;  ///< with world_from_left
         /// 1 sigma, relative to the first rig (whose own are 0): the length over the three axes.
         double translation_sigma_m = 0, rotation_sigma_rad = 0;
+        double rotation_sigma_deg() const { return 180 / std::numbers::pi * rotation_sigma_rad; }
         double rms_px = 0;
         int instants = 0;         ///< in which it saw the board
         bool refined = false;     ///< lenses and baseline too, in `calibration`

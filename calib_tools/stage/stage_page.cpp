@@ -1,7 +1,6 @@
 #include "calib_tools/stage/stage_page.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,8 +11,6 @@
 
 namespace vantage {
 namespace {
-
-constexpr double deg_a_rad = 180 / std::numbers::pi;
 
 std::string drawing(const StageCalibration& stage) {
     std::vector<PlacedRig> rigs;
@@ -47,7 +44,7 @@ HtmlPage stage_page(const StageCalibration& stage) {
     std::vector<std::vector<HtmlPage::Cell>> rows;
     for (const StageCalibration::Rig& rig : stage.rigs) {
         const Eigen::Vector3d at = rig.calibration.world_from_left.translation();
-        const double mm = 1000 * rig.translation_sigma_m, deg = deg_a_rad * rig.rotation_sigma_rad;
+        const double mm = 1000 * rig.translation_sigma_m, deg = rig.rotation_sigma_deg();
         rows.push_back({{rig.name},
                         {fmt::format("{:.4f}, {:.4f}, {:.4f}", at.x(), at.y(), at.z())},
                         {fmt::format("{:.2f}", mm), mark_of(mm, warn_mm, bad_mm)},

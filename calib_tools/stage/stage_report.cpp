@@ -1,7 +1,6 @@
 #include "calib_tools/stage/stage_report.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,8 +8,6 @@
 
 namespace vantage {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 nlohmann::json rows_of(const Pose& pose) {
     const Eigen::Matrix4d m = pose.matrix();
@@ -28,7 +25,7 @@ nlohmann::json to_json(const StageCalibration& stage) {
         rigs.push_back({{"name", rig.name},
                         {"world_from_left", rows_of(rig.calibration.world_from_left)},
                         {"translation_sigma_m", rig.translation_sigma_m},
-                        {"rotation_sigma_deg", rig.rotation_sigma_rad * degrees},
+                        {"rotation_sigma_deg", rig.rotation_sigma_deg()},
                         {"rms_px", rig.rms_px},
                         {"instants", rig.instants},
                         {"refined", rig.refined},
@@ -95,7 +92,7 @@ std::string describe(const StageCalibration& stage) {
             "{}: at ({:.4f}, {:.4f}, {:.4f}) m, +- {:.2f} mm, +- {:.4f} degrees, {:.3f} px RMS, "
             "{}\n",
             rig.name, at.x(), at.y(), at.z(), 1000 * rig.translation_sigma_m,
-            rig.rotation_sigma_rad * degrees, rig.rms_px,
+            rig.rotation_sigma_deg(), rig.rms_px,
             counted(static_cast<std::size_t>(rig.instants), "instant"));
         if (rig.refined)
             text += fmt::format("   lenses refined by {:.3f} %, baseline by {:.2f} mm\n",

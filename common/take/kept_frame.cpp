@@ -1,6 +1,7 @@
 #include "common/take/kept_frame.h"
 
 #include "common/base/error.h"
+#include "common/take/take_format.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/header_fields.h"
 #include "common/wire/limits.h"
@@ -8,8 +9,6 @@
 namespace vantage {
 namespace {
 
-/// Of the head and of the record, each.
-constexpr std::size_t most_frame_text_bytes = 1 << 16;
 constexpr std::size_t most_setup_bytes = 4096;
 
 std::span<const char> chars_of(const std::vector<std::byte>& bytes) {
@@ -71,8 +70,8 @@ KeptParts encode(const KeptFrame& kept) {
 }
 
 KeptFrame decode_kept_frame(const KeptParts& parts) {
-    if (parts.head.size() > most_frame_text_bytes || parts.record.size() > most_frame_text_bytes)
-        fail("a kept frame came whose text is beyond the limit of {} bytes", most_frame_text_bytes);
+    if (parts.head.size() > most_text_bytes || parts.record.size() > most_text_bytes)
+        fail("a kept frame came whose text is beyond the limit of {} bytes", most_text_bytes);
     KeptFrame kept;
     try {
         const std::span<const char> head = chars_of(parts.head);

@@ -26,6 +26,9 @@ namespace vantage {
 /// Of a take with sound; one without is of version 1, as before there was any.
 inline constexpr int take_version = 2;
 
+/// A head, a record or a name that is longer is none of Vantage's.
+inline constexpr std::size_t most_text_bytes = 1 << 16;
+
 /// A track of pictures.
 struct TakePictures {
     enum class Codec { none, jpeg, ffv1 };

@@ -20,9 +20,8 @@ constexpr std::uint64_t ebml = 0x1A45DFA3, segment = 0x18538067, cluster = 0x1F4
                         cues = 0x1C53BB6B;
 }  // namespace id
 
-/// Of an attachment, a track's name, a record: what is larger is none of Vantage's.
+/// What is larger is no attachment of Vantage's.
 constexpr std::uint64_t most_attached_bytes = 16 << 20;
-constexpr std::uint64_t most_text_bytes = 1 << 16;
 constexpr std::size_t most_rigs = 64;
 /// Places that are named; a file that is no take at all has millions.
 constexpr std::size_t most_damage = 1000;

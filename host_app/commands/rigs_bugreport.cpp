@@ -108,7 +108,6 @@ ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolde
     StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
     StopSignal stop;
     receiver.ask_for_reports();
-    constexpr std::chrono::milliseconds look_every(50);
     constexpr std::chrono::seconds to_connect(3);
     const MonotonicTime begun = MonotonicClock::now();
     const std::chrono::nanoseconds wait = from_s(wait_s);
@@ -120,7 +119,8 @@ ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolde
     };
     ReceiverStatus status;
     bool all = false;
-    while (!all && MonotonicClock::now() - begun < wait && !stop.wait_for(look_every)) {
+    while (!all && MonotonicClock::now() - begun < wait &&
+           !stop.wait_for(StopSignal::look_period)) {
         status = receiver.status();
         all = true;
         for (std::size_t i = 0; i < status.rigs.size(); ++i)

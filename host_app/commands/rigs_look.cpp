@@ -12,14 +12,13 @@ namespace vantage {
 
 ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop) {
     StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
-    constexpr std::chrono::milliseconds look_every(50);
     const auto has_answered = [&](const RigStatus& rig) {
         if (until == LookUntil::all_send && rig.connected)
             return delivers(rig) || waits_for_a_host(rig) || !trouble_of(rig).empty();
         return rig.connected || (until != LookUntil::all_connected && !rig.refused.empty());
     };
     const MonotonicTime end = MonotonicClock::now() + from_s(wait_s);
-    while (MonotonicClock::now() < end && !stop.wait_for(look_every)) {
+    while (MonotonicClock::now() < end && !stop.wait_for(StopSignal::look_period)) {
         const ReceiverStatus status = receiver.status();
         if (std::all_of(status.rigs.begin(), status.rigs.end(), has_answered)) break;
     }

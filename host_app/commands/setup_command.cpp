@@ -30,8 +30,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::milliseconds look_every(50);
-
 struct SetupOptions {
     std::string stage;
     std::vector<std::string> rigs;
@@ -149,7 +147,7 @@ std::optional<PairOffer> pair_with(Session& session, const Endpoint& endpoint,
         std::vector<zmq::pollitem_t> items{{call.socket().handle(), 0, ZMQ_POLLIN, 0}};
         if (!session.input.is_at_end())
             items.push_back({nullptr, session.input.fd(), ZMQ_POLLIN, 0});
-        wait_for(items, look_every);
+        wait_for(items, StopSignal::look_period);
         if (session.stop.requested()) {
             call.refuse("the host's person has ended it");
             return std::nullopt;

@@ -53,9 +53,9 @@ void run(const SyncBarOptions& options) {
     StopSignal stop;
     BarDriver driver(bar, open_lines(options), from_us(options.spin_us), options.priority);
     for (const std::string& line : driver.report()) log_info("{}", line);
+    constexpr std::chrono::milliseconds check_period(20);
     const MonotonicTime end = MonotonicClock::now() + from_us(1e6 * options.seconds);
-    while (!stop.wait_for(StopSignal::look_period) &&
-           (options.seconds == 0 || MonotonicClock::now() < end))
+    while (!stop.wait_for(check_period) && (options.seconds == 0 || MonotonicClock::now() < end))
         driver.rethrow_failure();
     driver.stop();
     driver.rethrow_failure();

@@ -156,7 +156,7 @@ class WholeShow : public testing::Test {
     void stop_for_a_picture(const std::string& name) {
         usleep(1'000'000);
         stops_[name] = MonotonicClock::now();
-        usleep(500'000);
+        usleep(1'000'000);
     }
     /// Of the film, which ended at `end` with so many ticks.
     cv::Mat picture_at(const std::string& name, MonotonicTime end, int ticks) const {
