@@ -223,6 +223,14 @@ bool Programme::look(double time_s, MonotonicTime now) {
         books_.render_shares = governor_.render_shares(now);
         books_.prepare_shares = governor_.prepare_shares(now);
     }
+    const bool is_due = is_picture_due();
+    // An input that changes no picture waits for none, and a jump's time is counted by its own
+    // name.
+    if (!is_due) hand_.reset();
+    return is_due;
+}
+
+bool Programme::is_picture_due() const {
     if (!instant_ || instant_->synthesiser != renderer_->synthesiser.name) return false;
     const PictureJob job{instant_, camera_, governor_.render(), source_map_};
     if (shown_ && shown_->job.level.rank < job.level.rank) {

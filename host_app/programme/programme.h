@@ -49,8 +49,9 @@ struct ProgrammeBooks {
     double duration_s = 0;       ///< since the first picture
     Percentiles interval_ms;     ///< between two new pictures
     Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
-    Percentiles hand_ms;         ///< from an input to the hand-over of the first picture with it
-    Percentiles seek_ms;         ///< from a jump in time to the hand-over of its instant's picture
+    Percentiles hand_ms;  ///< from an input to the hand-over of the first picture with it, where it
+                          ///< changes the picture; a jump in time counts in seek_ms alone
+    Percentiles seek_ms;  ///< from a jump in time to the hand-over of its instant's picture
     SeekSteps<Percentiles> seek_steps_ms;
     Percentiles rest_ms;  ///< from the last change of camera and time to the best picture
     Percentiles render_ms, readback_ms;
@@ -130,8 +131,10 @@ class Programme {
     void run();
     /// Before the first tick: pictures at all levels of the newest instant, which nobody sees.
     void rehearse();
-    /// Asks hands and plans; true if a picture is due that would differ from the last one.
+    /// Asks hands and plans; true if a picture is due.
     bool look(double time_s, MonotonicTime now);
+    /// Whether a picture of now would differ from the one that is shown.
+    bool is_picture_due() const;
     /// While a jump is waited for: what has become ready since the look is shown at the next tick,
     /// not a tick later. True if something has.
     bool take_up_sought();

@@ -681,6 +681,20 @@ TEST_F(ProgrammeTest, TellsHowLongAHandTookToThePicture) {
     EXPECT_GT(programme_->books().hand_ms.max, 0);
 }
 
+TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
+    settings_.quality = {3};  // another level would be another picture
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.next([](PilotStep& step) { step.hand = MonotonicClock::now(); });
+    ASSERT_TRUE(wait_for_ticks(3));
+    pilot_.next([](PilotStep& step) { step.view.azimuth_rad = 0.1; });
+    const std::uint64_t pictures = programme_->books().pictures;
+    ASSERT_TRUE(wait_for([&] { return programme_->books().pictures > pictures; }));
+    EXPECT_EQ(programme_->books().hand_ms.count, 0u) << "its time is not the later picture's";
+}
+
 TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
     settings_.quality = {3};
     make();
