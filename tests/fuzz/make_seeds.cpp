@@ -271,6 +271,7 @@ void write_controls(const Seeds& seeds) {
                 "\x85\x31"
                 "CAMERA 5        "sv);
     seeds.write("tsl_message", "v5", "\x0d\0\0\0\0\0\5\0\1\0\3\0VIR"sv);
+    seeds.write("tsl_message", "tcp", "\xfe\x02\x0d\0\0\0\0\0\5\0\1\0\3\0VIR"sv);
     seeds.write(
         "camera_path", "freed",
         "\0\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);

@@ -1,32 +1,13 @@
 #include <fstream>
 
-#include <netinet/in.h>
-
 #include "host_app/control/ports/rosstalk_map.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/ports/bench_test.h"
+#include "tests/unit/ports/local_caller.h"
 
 namespace vantage {
 namespace {
-
-/// Somebody who is connected.
-class Caller {
-  public:
-    explicit Caller(int port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(static_cast<std::uint16_t>(port));
-        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        EXPECT_EQ(::connect(fd_.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
-    }
-    void say(std::string_view words) const {
-        (void)::send(fd_.get(), words.data(), words.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    }
-
-  private:
-    UniqueFd fd_;
-};
 
 TEST(RossTalkLine, HasANumberOrDestinationAndSource) {
     using Kind = RossTalkOrder::Kind;
@@ -76,7 +57,7 @@ TEST_F(BenchTest, RossTalkGivesTheCommandsOfItsMap) {
     const std::string map = (folder.path() / "map.toml").string();
     std::ofstream(map) << "version = 1\n[gpi]\n4 = \"shot 7\"\n";
     const auto port = open("rosstalk", "?map=" + map);
-    const Caller caller(number_);
+    const LocalCaller caller(number_);
     caller.say("GPI 4\r\n");
     serve(*port, 1);
     EXPECT_EQ(port->books().obeyed, 1u) << port->books().last_refusal;
@@ -85,7 +66,7 @@ TEST_F(BenchTest, RossTalkGivesTheCommandsOfItsMap) {
 
 TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
     const auto port = open("rosstalk");
-    const Caller caller(number_);
+    const LocalCaller caller(number_);
     caller.say("gpi 1\r\nGPI one\r\nGPI 999\r\nGPI 1\nXPT 1:\r\n\x1b[2J\r\n");
     serve(*port, 5);
     EXPECT_EQ(port->books().unknown, 3u);
@@ -97,16 +78,16 @@ TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
 
 TEST_F(BenchTest, RossTalkClosesWhoSendsNoEndAndHearsTheOthers) {
     const auto port = open("rosstalk");
-    const Caller flood(number_), other(number_);
+    const LocalCaller flood(number_), other(number_);
     flood.say(std::string(100'000, 'x'));
     other.say("GPI 2\r\n");
     serve(*port, 2);
     EXPECT_EQ(port->books().malformed, 1u);
     EXPECT_EQ(port->books().obeyed, 1u);
     EXPECT_TRUE(hands_.take().input.toggle_freeze);
-    std::vector<std::unique_ptr<Caller>> many;
+    std::vector<std::unique_ptr<LocalCaller>> many;
     for (int i = 0; i < 12; ++i) {
-        many.push_back(std::make_unique<Caller>(number_));
+        many.push_back(std::make_unique<LocalCaller>(number_));
         port->serve(std::chrono::milliseconds(0));
     }
     serve(*port, all(port->books()) + 1);

@@ -1,5 +1,8 @@
 #include "host_app/control/ports/tsl_message.h"
+#include "host_app/control/ports/tsl_stream.h"
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/ports/bench_test.h"
+#include "tests/unit/ports/local_caller.h"
 
 namespace vantage {
 namespace {
@@ -19,6 +22,13 @@ std::string display(unsigned index, unsigned control) {
 }
 std::string v5(const std::string& displays) {
     return word(static_cast<unsigned>(displays.size() + 4)) + std::string(4, '\0') + displays;
+}
+
+/// As TCP carries it.
+std::string wrapped(const std::string& message) {
+    std::string bytes = "\xfe\x02";
+    for (const char byte : message) bytes += byte == '\xfe' ? "\xfe\xfe" : std::string(1, byte);
+    return bytes;
 }
 
 std::optional<std::vector<TslDisplay>> decoded(const std::string& bytes) {
@@ -52,6 +62,32 @@ TEST(TslMessage, OfVersionFiveHasAnyNumberOfDisplays) {
     EXPECT_FALSE(decoded(v5(word(1) + word(1) + word(6) + "VIRT1"))) << "the text is cut off";
 }
 
+TEST(TslStream, TakesMessagesApartWhereverTheirBytesAreCut) {
+    // An index that has a DLE in it.
+    const std::string first = v5(display(0x02fe, 1)), second = v5(display(7, 2));
+    const std::string bytes = wrapped(first) + wrapped(second);
+    for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+        TslStream stream;
+        std::vector<std::string> messages = stream.take(bytes.substr(0, cut));
+        for (std::string& message : stream.take(bytes.substr(cut)))
+            messages.push_back(std::move(message));
+        EXPECT_EQ(messages, (std::vector{first, second})) << cut;
+        EXPECT_EQ(stream.strays(), 0u) << cut;
+    }
+}
+
+TEST(TslStream, GoesOnAfterWhatIsNoMessage) {
+    const std::string message = v5(display(7, 2)), framed = wrapped(message);
+    const std::string too_long = std::string("\xfe\x02") + word(0x7001) + std::string(3000, 'x');
+    for (const std::string& rubbish :
+         {std::string("no tally"), std::string("\xfe\x05"), framed.substr(0, framed.size() - 1),
+          too_long, std::string("\xfe\xfe")}) {
+        TslStream stream;
+        EXPECT_EQ(stream.take(rubbish + framed), std::vector{message}) << rubbish;
+        EXPECT_EQ(stream.strays(), 1u) << rubbish;
+    }
+}
+
 TEST_F(BenchTest, TheMixerLightsTheTallyOfItsDisplayOnly) {
     const auto port = open("tsl", "?address=5");
     peer_.send(v3(4, 1), number_);
@@ -64,6 +100,25 @@ TEST_F(BenchTest, TheMixerLightsTheTallyOfItsDisplayOnly) {
     EXPECT_EQ(tally_.state(), (Tally::State{.programme = true, .preview = false}));
     EXPECT_EQ(port->books().obeyed, 3u);
     EXPECT_EQ(port->books().malformed, 1u);
+}
+
+TEST_F(BenchTest, AMixerMayTellItOverTcp) {
+    const auto port = open("tsl", "?over=tcp&address=5");
+    const LocalCaller mixer(number_), other(number_);
+    mixer.say(wrapped(v5(display(4, 2) + display(5, 1))).substr(0, 9));
+    other.say("no tally");
+    serve(*port, 1);
+    EXPECT_EQ(port->books().malformed, 1u);
+    EXPECT_EQ(tally_.state(), Tally::State{});
+    mixer.say(wrapped(v5(display(4, 2) + display(5, 1))).substr(9));
+    serve(*port, 2);
+    EXPECT_EQ(port->books().obeyed, 1u) << port->books().last_refusal;
+    EXPECT_EQ(tally_.state(), (Tally::State{.programme = true, .preview = false}));
+    mixer.say(wrapped(v5(word(1) + word(1) + word(6) + "VIRT1")));
+    serve(*port, 3);
+    EXPECT_EQ(port->books().malformed, 2u) << "the text is cut off";
+    EXPECT_NE(thrown_sentence([&] { (void)open("tsl", "?over=pigeon"); }).find("tcp"),
+              std::string::npos);
 }
 
 TEST_F(BenchTest, ThePlaceOfTheTalliesCanBeSaid) {
