@@ -432,6 +432,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
                            outputs.question(now), window.shows_outside());
             state.programme_tally = room.tally().programme;
             state.preview_tally = room.tally().preview;
+            state.programme_monitors = screens.monitors();
             const LtcBoard::State ltc = room.ltc();
             state.is_ltc_off = ltc.frames_ahead != 0;
             state.ltc =

@@ -234,6 +234,7 @@ struct DeskState {
     std::optional<DeskTake> take;    ///< nothing: no take is recorded
     std::optional<DeskSound> sound;  ///< nothing: there is none
     std::vector<DeskOutput> outputs;
+    std::vector<int> programme_monitors;                  ///< that it fills, counted from 1
     bool programme_tally = false, preview_tally = false;  ///< as the vision mixer says
     std::string question;            ///< that a second press of a key answers; empty: none
     std::optional<double> behind_s;  ///< while in a stage's past: how far

@@ -7,23 +7,10 @@
 #include "common/base/error.h"
 #include "host_app/desk/desk_parts.h"
 #include "host_app/desk/gl_window.h"
+#include "host_app/desk/rigs_place.h"
 #include "host_app/desk/window_screen.h"
 
 namespace vantage {
-namespace {
-
-/// The second monitor, all of it; else in the middle of nowhere, where the window manager likes.
-void place_at_first(GLFWwindow* window) {
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    if (count < 2) return;
-    int x = 0, y = 0, width = 0, height = 0;
-    glfwGetMonitorWorkarea(monitors[1], &x, &y, &width, &height);
-    glfwSetWindowPos(window, x, y);
-    if (width > 0 && height > 0) glfwSetWindowSize(window, width, height);
-}
-
-}  // namespace
 
 struct RigsWindow::Drawing {
     UiContext ui;
@@ -45,10 +32,12 @@ RigsWindow::RigsWindow(GLFWwindow* operators, const ShaderLibrary& shaders,
     window_.reset(
         glfwCreateWindow(place_.width, place_.height, "Vantage rigs", nullptr, operators));
     if (!window_) fail("no window can be opened for the rigs ({})", glfw_reason());
-    if (place)
+    if (place) {
         put_window(window_.get(), *place);
-    else
-        place_at_first(window_.get());
+    } else if (const std::vector<WindowPlace> monitors = monitor_places(); monitors.size() > 1) {
+        // Without a second one it is where the window manager likes.
+        put_window(window_.get(), *place_for_rigs(monitors, {}));
+    }
     const CurrentWindow current(window_.get());
     glfwSwapInterval(0);
     const UiContext::Kept kept;
@@ -71,9 +60,18 @@ void RigsWindow::give_keys(void* user, OnKey on_key, OnLetter on_letter) {
 
 bool RigsWindow::closed() const { return glfwWindowShouldClose(window_.get()) != 0; }
 
+void RigsWindow::leave(std::span<const int> filled) {
+    if (filled.empty()) return;
+    const std::vector<WindowPlace> monitors = monitor_places();
+    if (!covers_programme(place_, monitors, filled)) return;
+    if (const std::optional<WindowPlace> place = place_for_rigs(monitors, filled))
+        put_window(window_.get(), *place);
+}
+
 void RigsWindow::show(const DeskState& state) {
     glfwGetWindowPos(window_.get(), &place_.x, &place_.y);
     glfwGetWindowSize(window_.get(), &place_.width, &place_.height);
+    leave(state.programme_monitors);
     // Until the pictures are there, which the operator's context was given.
     const Fence pictures = Fence::insert();
     const CurrentWindow current(window_.get());

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "common/gl/fence.h"
 #include "common/gl/framebuffer.h"
@@ -16,8 +17,9 @@ struct GLFWwindow;
 namespace vantage {
 
 /// The rigs' pictures and state in a window of their own, as large as they get: on the second
-/// monitor where there is one. Its context shares the pictures of the operator's window, which is
-/// current whenever this is made, shown or destroyed, and is so afterwards.
+/// monitor where there is one, and never on one that the programme fills. Its context shares the
+/// pictures of the operator's window, which is current whenever this is made, shown or destroyed,
+/// and is so afterwards.
 class RigsWindow {
   public:
     /// Throws Error if it cannot be opened.
@@ -42,6 +44,9 @@ class RigsWindow {
     struct WindowDeleter {
         void operator()(GLFWwindow* window) const;
     };
+    /// Monitors that the programme fills.
+    void leave(std::span<const int> filled);
+
     /// Objects of the window's context.
     struct Drawing;
 

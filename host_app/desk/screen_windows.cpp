@@ -4,6 +4,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include "common/base/error.h"
 #include "common/gl/framebuffer.h"
@@ -45,6 +46,9 @@ class ScreenWindows::Window {
     }
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
+
+    /// GLFW makes a window of a monitor that is unplugged one of none.
+    bool is_on_monitor() const { return glfwGetWindowMonitor(window_) != nullptr; }
 
     void draw(const ColourImage& picture) {
         glfwMakeContextCurrent(window_);
@@ -89,6 +93,12 @@ ScreenWindows::~ScreenWindows() {
     if (has_glfw_) glfwMakeContextCurrent(before);
 }
 
+std::vector<int> ScreenWindows::monitors() const {
+    std::vector<int> monitors;
+    for (const auto& [feed, window] : windows_) monitors.push_back(feed->monitor());
+    return monitors;
+}
+
 void ScreenWindows::open(ScreenFeed& feed) {
     try {
         if (!has_glfw_ && !glfw_) glfw_.emplace();
@@ -98,6 +108,17 @@ void ScreenWindows::open(ScreenFeed& feed) {
         windows_.erase(&feed);
         feed.fail(error.what());
     }
+}
+
+void ScreenWindows::show(ScreenFeed& feed) {
+    Window& window = *windows_.at(&feed);
+    if (!window.is_on_monitor()) {
+        windows_.erase(&feed);
+        feed.fail(
+            fmt::format("monitor {} is gone: it was unplugged or switched off", feed.monitor()));
+        return;
+    }
+    if (const ColourImage picture = feed.take(); !picture.empty()) window.draw(picture);
 }
 
 void ScreenWindows::follow(std::span<const std::shared_ptr<ScreenFeed>> feeds) {
@@ -112,8 +133,7 @@ void ScreenWindows::follow(std::span<const std::shared_ptr<ScreenFeed>> feeds) {
                 open(*feed);
                 break;
             case ScreenFeed::State::shown:
-                if (const ColourImage picture = feed->take(); !picture.empty())
-                    windows_.at(feed.get())->draw(picture);
+                show(*feed);
                 break;
             case ScreenFeed::State::closed:
             case ScreenFeed::State::failed:

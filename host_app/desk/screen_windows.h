@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host_app/desk/operator_window.h"
 #include "host_app/output/screen_feed.h"
@@ -23,10 +24,13 @@ class ScreenWindows {
     /// Opens and closes windows as the feeds ask, and shows what came since the last call. What
     /// goes wrong with one is told to its feed. The context that was current is so afterwards.
     void follow(std::span<const std::shared_ptr<ScreenFeed>> feeds);
+    /// That windows are on now, counted from 1.
+    std::vector<int> monitors() const;
 
   private:
     class Window;
     void open(ScreenFeed& feed);
+    void show(ScreenFeed& feed);
 
     bool has_glfw_;
     std::optional<GlfwLibrary> glfw_;

@@ -7,31 +7,10 @@
 #include <imgui.h>
 
 #include "common/gl/limits.h"
-#include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/desk_layout.h"
+#include "host_app/desk/rigs_place.h"
 
 namespace vantage {
-namespace {
-
-/// Enough of it to be taken hold of.
-bool is_on_a_monitor(const WindowPlace& place) {
-    constexpr int least_px = 64;
-    const auto shared = [](int from, int length, int other_from, int other_length) {
-        return std::min(from + length, other_from + other_length) - std::max(from, other_from);
-    };
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    for (int i = 0; i < count; ++i) {
-        int x = 0, y = 0, width = 0, height = 0;
-        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
-        if (shared(place.x, place.width, x, width) >= least_px &&
-            shared(place.y, place.height, y, height) >= least_px)
-            return true;
-    }
-    return false;
-}
-
-}  // namespace
 
 void WindowScreen::present(GLFWwindow* window) const {
     const cv::Size size = target.size();
@@ -65,7 +44,10 @@ bool fit_screen(GLFWwindow* window, UiContext& ui, UiRenderer& renderer,
 
 void put_window(GLFWwindow* window, const WindowPlace& place) {
     glfwSetWindowSize(window, place.width, place.height);
-    if (is_on_a_monitor(place)) glfwSetWindowPos(window, place.x, place.y);
+    const std::vector<WindowPlace> monitors = monitor_places();
+    if (std::any_of(monitors.begin(), monitors.end(),
+                    [&](const WindowPlace& monitor) { return is_on(place, monitor); }))
+        glfwSetWindowPos(window, place.x, place.y);
     if (place.is_maximised) glfwMaximizeWindow(window);
 }
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include "common/image/image_file.h"
@@ -51,6 +53,7 @@ TEST_F(ScreenWindowsTest, ShowsThePictureOnTheWholeMonitorInItsShape) {
     feed_->ask();
     windows.follow(feeds);
     ASSERT_EQ(feed_->state(), ScreenFeed::State::shown) << feed_->failure();
+    EXPECT_EQ(windows.monitors(), std::vector{1});
     // 16:9 on 4:3: 360 rows of 480.
     ColourImage picture(90, 160, cv::Vec4b(200, 40, 40, 255));
     picture.rowRange(45, 90) = cv::Vec4b(30, 60, 220, 255);
@@ -64,6 +67,23 @@ TEST_F(ScreenWindowsTest, ShowsThePictureOnTheWholeMonitorInItsShape) {
     feed_->close();
     windows.follow(feeds);
     EXPECT_EQ(pixel_at(320, 100), cv::Vec4b(0, 0, 0, 255)) << "the window is gone";
+}
+
+TEST_F(ScreenWindowsTest, TellsThatItsMonitorIsGoneAndIsOpenedAgain) {
+    ScreenWindows windows(false);
+    const std::vector feeds{feed_};
+    feed_->ask();
+    windows.follow(feeds);
+    ASSERT_EQ(feed_->state(), ScreenFeed::State::shown) << feed_->failure();
+    // What GLFW does with the windows of a monitor that is unplugged.
+    glfwSetWindowMonitor(glfwGetCurrentContext(), nullptr, 0, 0, 64, 48, GLFW_DONT_CARE);
+    windows.follow(feeds);
+    EXPECT_EQ(feed_->state(), ScreenFeed::State::failed);
+    EXPECT_TRUE(windows.monitors().empty());
+    EXPECT_NE(feed_->failure().find("monitor 1 is gone"), std::string::npos) << feed_->failure();
+    feed_->ask();
+    windows.follow(feeds);
+    EXPECT_EQ(feed_->state(), ScreenFeed::State::shown) << feed_->failure();
 }
 
 TEST_F(ScreenWindowsTest, StandsBesideTheOperatorsWindow) {
