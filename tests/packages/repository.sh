@@ -30,7 +30,7 @@ root=$(mktemp -d "${TMPDIR:-/var/tmp}/vantage-repository.XXXXXX")
 export GNUPGHOME=$work/gnupg
 finish() {
   gpgconf --kill all
-  "${as_root[@]}" umount "$root/repository" 2>/dev/null || true
+  "${as_root[@]}" umount "$root/repository" "$root/proc" "$root/dev" 2>/dev/null || true
   "${as_root[@]}" rm -rf --one-file-system "$root"
 }
 trap finish EXIT
@@ -97,6 +97,11 @@ check "apt installs all three from it" apt_get install "${options[@]}" vantage-r
 for program in vantage-rig vantage vantage-calib; do
   check "$program runs" inside $program --version
 done
+# The demo is no toy of the sources: who has installed the packages plays it, too.
+"${as_root[@]}" mount --bind /proc "$root/proc"
+"${as_root[@]}" mount --bind /dev "$root/dev"
+check "a user plays the demo" inside su -s /bin/sh -c 'cd /tmp && vantage demo --headless --seconds 3 --folder played' nobody
+check "which leaves a film" inside test -s /tmp/played/flight.mkv
 
 inside sh -c 'echo "# the administrator'"'"'s own line" >>/etc/vantage/rig.toml
   echo secret >/etc/vantage/rig.key && chown root:vantage /etc/vantage/rig.key && chmod 640 /etc/vantage/rig.key
