@@ -17,9 +17,20 @@ bool is_z85(char c) {
            others.find(c) != std::string_view::npos;
 }
 
-/// Runs of as many Z85 characters as a key has. One that stands among others, as in a URL, begins
-/// or ends at an '=' or ':' at the latest; a path, a date or a checksum is no key: it has a slash
-/// at its begin, or no capital, digit and small letter each.
+/// It has none of the characters that only keys have, and begins with a scheme or a slash. A key
+/// may begin with one, too: what is as long as a key has more slashes than that.
+bool is_url_or_path(std::string_view run) {
+    constexpr std::string_view others = "/.-+@=:?&%#";
+    const auto is_usual = [&](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               others.find(c) != std::string_view::npos;
+    };
+    const bool has_begin = run.front() == '/' || run.find("://") != std::string_view::npos;
+    return has_begin && std::all_of(run.begin(), run.end(), is_usual) &&
+           (run.size() != key_chars || std::count(run.begin(), run.end(), '/') > 1);
+}
+
+/// A date or a checksum has no capital, digit and small letter each.
 bool looks_like_key(std::string_view run) {
     const auto has = [&](int (*kind)(int)) {
         return std::any_of(run.begin(), run.end(),
@@ -28,14 +39,14 @@ bool looks_like_key(std::string_view run) {
     return has(std::isupper) && has(std::islower) && has(std::isdigit);
 }
 
+/// Without runs of as many Z85 characters as a key has, or more: one may stand among others.
 std::string without_keys(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = at;
         while (end < text.size() && is_z85(text[end])) ++end;
         const std::string_view run = text.substr(at, end - at);
-        if (run.size() >= key_chars && run.front() != '/' && looks_like_key(run) &&
-            run.find("://") == std::string_view::npos)
+        if (run.size() >= key_chars && looks_like_key(run) && !is_url_or_path(run))
             out += left_out;
         else
             out += run;
