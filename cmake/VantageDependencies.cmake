@@ -2,7 +2,9 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d video videoio aruco mcc)
+# Without imgcodecs, which brings GDAL with its databases and formats, some eighty libraries: two thirds of what a start of a
+# program took, and parsers that nobody asked for. common/image reads pictures by libspng and libjpeg-turbo.
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d video videoio aruco mcc)
 find_package(Ceres REQUIRED)
 find_package(Protobuf REQUIRED)
 find_package(fmt REQUIRED)
@@ -21,6 +23,7 @@ pkg_check_modules(AVAHI REQUIRED IMPORTED_TARGET avahi-client)
 # It asks for threads by a definition, which the precompiled headers do not have.
 set_target_properties(PkgConfig::AVAHI PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(LIBGPIOD REQUIRED IMPORTED_TARGET libgpiodcxx>=2.0)
@@ -42,7 +45,7 @@ find_library(HPDF_LIBRARY hpdf REQUIRED)
 
 # Interfaces under the names the rest of the build uses, so that a dependency reads as what it is for.
 add_library(vantage_opencv INTERFACE)
-target_link_libraries(vantage_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
+target_link_libraries(vantage_opencv INTERFACE opencv_core opencv_imgproc)
 target_include_directories(vantage_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 
 add_library(vantage_hpdf INTERFACE)

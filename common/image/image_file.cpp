@@ -1,87 +1,104 @@
 #include "common/image/image_file.h"
 
-#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
+#include <fstream>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/image/jpeg.h"
+#include "common/image/netpbm.h"
+#include "common/image/png.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::size_t max_file_bytes = std::size_t{1} << 30;
 
-/// A JPEG without the end-of-image marker after its last scan was cut short; the decoder would fill
-/// the rest with grey and say nothing.
-bool is_jpeg_cut_short(std::span<const std::byte> bytes) {
-    const auto last = [&](unsigned char marker) {
-        const std::array pattern = {std::byte{0xff}, std::byte{marker}};
-        return std::find_end(bytes.begin(), bytes.end(), pattern.begin(), pattern.end());
-    };
-    constexpr unsigned char start_of_image = 0xd8, start_of_scan = 0xda, end_of_image = 0xd9;
-    const bool is_jpeg =
-        bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{start_of_image};
-    return is_jpeg &&
-           (last(end_of_image) == bytes.end() || last(end_of_image) < last(start_of_scan));
+enum class Format { png, jpeg, netpbm };
+
+/// By the first bytes; nothing: none that is known.
+std::optional<Format> format_of(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG")) return Format::png;
+    if (text.starts_with("\xff\xd8")) return Format::jpeg;
+    if (text.starts_with("P5") || text.starts_with("P6")) return Format::netpbm;
+    return std::nullopt;
 }
 
-cv::Mat decode(const std::filesystem::path& path, int flags) {
+/// One channel of grey or R, G, B, of 8 or 16 bits.
+cv::Mat decode(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = read_file(path, max_file_bytes);
-    cv::Mat image;
-    if (is_jpeg_cut_short(bytes))
-        fail("{} is damaged: it is cut off, the end of the JPEG data is missing", path.string());
-    if (!bytes.empty()) {
-        try {
-            image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U,
-                                         const_cast<std::byte*>(bytes.data())),
-                                 flags);
-        } catch (const cv::Exception&) {
-            image.release();
+    const std::optional<Format> format = format_of(bytes);
+    if (!format)
+        fail("{} is not a picture that can be read: PNG, JPEG, PGM and PPM can", path.string());
+    try {
+        switch (*format) {
+            case Format::png:
+                return decode_png(bytes);
+            case Format::jpeg:
+                return decode_jpeg(bytes);
+            case Format::netpbm:
+                return decode_netpbm(bytes);
         }
+    } catch (const Error& error) {
+        fail("{} is not a picture that can be read: {}", path.string(), error.what());
     }
-    if (image.empty())
-        fail("{} is not a picture that can be read (damaged, or an unknown format)", path.string());
-    if (image.cols > max_image_side_px || image.rows > max_image_side_px)
-        fail("{} is {}x{}; pictures up to {} pixels a side are taken", path.string(), image.cols,
-             image.rows, max_image_side_px);
-    return image;
+    return {};
+}
+
+/// In which a picture is written; nothing: none goes by the extension.
+std::optional<Format> format_by_name(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".png") return Format::png;
+    if (extension == ".jpg" || extension == ".jpeg") return Format::jpeg;
+    return std::nullopt;
 }
 
 void encode(const std::filesystem::path& path, const cv::Mat& image) {
     require_picture_extension(path);
-    std::vector<unsigned char> bytes;
-    bool encoded = false;
+    std::vector<std::byte> bytes;
     try {
-        encoded = cv::imencode(path.extension().string(), image, bytes);
-    } catch (const cv::Exception&) {
-        encoded = false;
+        bytes = *format_by_name(path) == Format::png ? encode_png(image) : encode_jpeg(image);
+    } catch (const Error& error) {
+        fail("cannot write {}: {}", path.string(), error.what());
     }
-    if (!encoded) fail("cannot write {}: its format does not take this picture", path.string());
-    write_file_atomically(path, std::as_bytes(std::span(bytes)));
+    write_file_atomically(path, bytes);
 }
 
 }  // namespace
 
+bool is_picture_file(const std::filesystem::path& path) {
+    std::array<std::byte, 4> first{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(first.data()), first.size());
+    return format_of(std::span(first).first(static_cast<std::size_t>(file.gcount()))).has_value();
+}
+
 ColourImage read_colour_image(const std::filesystem::path& path) {
+    cv::Mat image = decode(path);
+    constexpr double byte_of_word = 255.0 / 65535;
+    if (image.depth() == CV_16U) image.convertTo(image, CV_8U, byte_of_word);
     ColourImage rgba;
-    cv::cvtColor(decode(path, cv::IMREAD_COLOR), rgba, cv::COLOR_BGR2RGBA);
+    cv::cvtColor(image, rgba, image.channels() == 1 ? cv::COLOR_GRAY2RGBA : cv::COLOR_RGB2RGBA);
     return rgba;
 }
 
 cv::Mat1w read_code_image(const std::filesystem::path& path) {
-    cv::Mat image = decode(path, cv::IMREAD_UNCHANGED);
-    if (image.depth() != CV_8U && image.depth() != CV_16U)
-        fail("{} is neither an 8-bit nor a 16-bit picture", path.string());
+    cv::Mat image = decode(path);
     if (image.channels() > 1) {
         std::vector<cv::Mat> channels;
         cv::split(image, channels);
-        for (std::size_t i = 1; i < channels.size() && i < 3; ++i)
+        for (std::size_t i = 1; i < channels.size(); ++i)
             if (cv::norm(channels[0], channels[i], cv::NORM_INF) != 0)
                 fail("{} is a colour picture where one channel of codes is expected",
                      path.string());
@@ -93,15 +110,15 @@ cv::Mat1w read_code_image(const std::filesystem::path& path) {
 }
 
 void require_picture_extension(const std::filesystem::path& path) {
-    if (path.has_extension() && cv::haveImageWriter(path.string())) return;
+    if (format_by_name(path)) return;
     fail("cannot write {}: no picture format goes by the extension '{}'; use .png or .jpg",
          path.string(), path.extension().string());
 }
 
 void write_colour_image(const std::filesystem::path& path, const ColourImage& image) {
-    cv::Mat bgr;
-    cv::cvtColor(image, bgr, cv::COLOR_RGBA2BGR);
-    encode(path, bgr);
+    cv::Mat rgb;
+    cv::cvtColor(image, rgb, cv::COLOR_RGBA2RGB);
+    encode(path, rgb);
 }
 
 void write_grey_image(const std::filesystem::path& path, const cv::Mat& one_channel_8_or_16_bit) {

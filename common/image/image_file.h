@@ -3,12 +3,15 @@
 #include <filesystem>
 
 #include "common/image/image.h"
+#include "common/image/picture_size.h"
 
 namespace vantage {
 
-/// Reads any 8-bit picture OpenCV's codecs know (PNG, JPEG, TIFF, ...) as RGBA. Throws Error naming
-/// the file and what is wrong with it: missing, not a picture, or wider or higher than
-/// max_image_side_px.
+/// Whether it begins as one of the formats that are read.
+bool is_picture_file(const std::filesystem::path& path);
+
+/// Reads a PNG, JPEG, PGM or PPM as RGBA, 8 bits a channel. Throws Error naming the file and what
+/// is wrong with it: missing, not a picture, damaged, or wider or higher than max_image_side_px.
 ColourImage read_colour_image(const std::filesystem::path& path);
 
 /// Reads a one-channel picture of 8 or 16 bits without scaling its values (for disparity and depth
@@ -24,7 +27,5 @@ void write_grey_image(const std::filesystem::path& path, const cv::Mat& one_chan
 
 /// RGBA to luma with the weights of ITU-R BT.601, rounded, as the shaders do it.
 GreyImage to_grey(const ColourImage& image);
-
-inline constexpr int max_image_side_px = 16384;
 
 }  // namespace vantage

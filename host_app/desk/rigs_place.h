@@ -15,8 +15,8 @@ std::vector<WindowPlace> monitor_places();
 bool is_on(const WindowPlace& window, const WindowPlace& monitor);
 
 /// Where the rigs' window goes: to the first free monitor but the operator's, which is the first,
-/// or else into a corner of that; never onto one that the programme fills (`filled`, counted from 1). Nothing:
-/// there is no such place.
+/// or else into a corner of that; never onto one that the programme fills (`filled`, counted from
+/// 1). Nothing: there is no such place.
 std::optional<WindowPlace> place_for_rigs(std::span<const WindowPlace> monitors,
                                           std::span<const int> filled);
 

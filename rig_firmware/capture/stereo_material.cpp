@@ -1,8 +1,7 @@
 #include "rig_firmware/capture/stereo_material.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "common/base/error.h"
+#include "common/image/image_file.h"
 
 namespace vantage {
 
@@ -28,7 +27,7 @@ std::unique_ptr<StereoMaterial> open_material(const RigConfig::Source& source) {
     const bool is_one_file = source.left.find('%') == std::string::npos;
     if (is_one_file && !std::filesystem::exists(source.left))
         fail("there is no file {}", source.left);
-    if (!is_one_file || cv::haveImageReader(source.left)) return open_pictures(source);
+    if (!is_one_file || is_picture_file(source.left)) return open_pictures(source);
     if (!source.right.empty() && !std::filesystem::is_regular_file(source.right))
         fail(
             "'left' is the video {} and 'right', {}, is no file: give two videos, or one with both "

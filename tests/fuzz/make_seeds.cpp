@@ -9,6 +9,7 @@
 #include "common/base/atomic_file.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
+#include "common/image/png.h"
 #include "common/pairing/pair_code.h"
 #include "common/take/frame_storage.h"
 #include "common/take/kept_frame.h"
@@ -79,6 +80,15 @@ void write_pictures(const Seeds& seeds) {
     seeds.write("colour_codec", "jpeg",
                 with_size(width, height, JpegEncoder().encode(frame.colour, 85, Chroma::quarter)));
     write_pfm(seeds.place("pfm", "plain"), cv::Mat1f(3, 4, 2.0f));
+    seeds.write("picture", "pgm", "P5 # comment\n2 1\n255\nab");
+    seeds.write("picture", "ppm", std::string("P6\n1 1 65535\nabcdef"));
+    const auto write_png = [&](const char* name, const cv::Mat& picture) {
+        const std::vector<std::byte> bytes = encode_png(picture);
+        seeds.write("picture", name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    write_png("png_grey", cv::Mat1b(3, 4, uchar{7}));
+    write_png("png_wide", cv::Mat1w(3, 4, ushort{700}));
+    write_png("png_colour", cv::Mat3b(3, 4, cv::Vec3b(1, 2, 3)));
 }
 
 void write_messages(const Seeds& seeds) {

@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
 #include "common/config/calibration_file.h"
+#include "common/image/image_file.h"
 #include "rig_firmware/capture/pixel_conversion.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "tests/hil/devices/rig_process.h"
@@ -35,19 +35,13 @@ ColourImage seen(const std::filesystem::path& file) {
                       .bytes = std::as_bytes(std::span(picture.data, picture.total() * 2))});
 }
 
-void write_png(const std::string& file, const ColourImage& picture) {
-    cv::Mat bgr;
-    cv::cvtColor(picture, bgr, cv::COLOR_RGBA2BGR);
-    cv::imwrite(file, bgr);
-}
-
 /// Two USB cameras that see teddy, on the ports 1 (left) and 2 of one controller.
 class TeddyOnUsb : public testing::Test {
   protected:
     void SetUp() override {
         VANTAGE_REQUIRE_DATA(data);
-        write_png(file("left.png"), seen(data / "middlebury2003/teddy/im2.png"));
-        write_png(file("right.png"), seen(data / "middlebury2003/teddy/im6.png"));
+        write_colour_image(file("left.png"), seen(data / "middlebury2003/teddy/im2.png"));
+        write_colour_image(file("right.png"), seen(data / "middlebury2003/teddy/im6.png"));
         save_calibration(file("rig.yaml"), ideal_rig(RigConfig{}, sensor_size), {});
     }
 

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
 #include "common/config/calibration_file.h"
+#include "common/image/image_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "tests/hil/devices/rig_process.h"
 #include "tests/hil/devices/vivid_loop.h"
@@ -22,8 +22,7 @@ const cv::Size sensor_size(640, 480);
 
 /// A grey picture of the data set, mirrored at its borders to the sensors' size.
 cv::Mat sensor_picture(const std::filesystem::path& file) {
-    const cv::Mat grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-    if (grey.empty()) fail("{} cannot be read", file.string());
+    const GreyImage grey = to_grey(read_colour_image(file));
     cv::Mat picture;
     cv::copyMakeBorder(grey, picture, 0, sensor_size.height - grey.rows, 0,
                        sensor_size.width - grey.cols, cv::BORDER_REFLECT);
@@ -37,8 +36,8 @@ class TeddyOnVivid : public testing::Test {
         VANTAGE_REQUIRE_DATA(data);
         left_ = sensor_picture(data / "middlebury2003/teddy/im2.png");
         right_ = sensor_picture(data / "middlebury2003/teddy/im6.png");
-        cv::imwrite(file("left.png"), left_);
-        cv::imwrite(file("right.png"), right_);
+        write_grey_image(file("left.png"), left_);
+        write_grey_image(file("right.png"), right_);
         save_calibration(file("rig.yaml"), ideal_rig(RigConfig{}, sensor_size), {});
     }
 

@@ -1,17 +1,14 @@
 #include "tests/hil/usb_camera/yuyv_picture.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/base/error.h"
+#include "common/image/image_file.h"
 
 namespace vantage {
 
 cv::Mat2b yuyv_picture(const std::filesystem::path& file, const cv::Size& size) {
-    const cv::Mat grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-    if (grey.empty()) fail("{} cannot be read", file.string());
     cv::Mat small;
-    cv::resize(grey, small, size, 0, 0, cv::INTER_AREA);
+    cv::resize(to_grey(read_colour_image(file)), small, size, 0, 0, cv::INTER_AREA);
     constexpr double luma_range = 219.0 / 255.0, luma_black = 16;
     constexpr uchar no_colour = 128;
     small.convertTo(small, CV_8U, luma_range, luma_black);

@@ -1,9 +1,9 @@
 #include "rig_firmware/capture/pixel_conversion.h"
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "common/base/error.h"
+#include "common/image/jpeg.h"
 
 namespace vantage {
 namespace {
@@ -77,17 +77,13 @@ TEST(PixelFormat, Nv12SharesItsColourAmongFourPixels) {
 }
 
 TEST(PixelFormat, MjpgIsDecodedInRedGreenBlueOrder) {
-    const cv::Mat3b orange(16, 16, cv::Vec3b(0, 128, 255));  // OpenCV's files take blue first
-    std::vector<uchar> jpeg;
-    ASSERT_TRUE(cv::imencode(".jpg", orange, jpeg));
-    const ColourImage colour =
-        to_colour({PixelFormat::mjpg, 16, 16, 0, std::as_bytes(std::span(jpeg))});
+    const std::vector<std::byte> jpeg = encode_jpeg(cv::Mat3b(16, 16, cv::Vec3b(255, 128, 0)));
+    const ColourImage colour = to_colour({PixelFormat::mjpg, 16, 16, 0, jpeg});
     EXPECT_NEAR(colour(8, 8)[0], 255, 4);
     EXPECT_NEAR(colour(8, 8)[1], 128, 4);
     EXPECT_NEAR(colour(8, 8)[2], 0, 4);
-    EXPECT_THROW(to_colour({PixelFormat::mjpg, 16, 8, 0, std::as_bytes(std::span(jpeg))}), Error);
-    EXPECT_THROW(
-        to_colour({PixelFormat::mjpg, 16, 16, 0, std::as_bytes(std::span(jpeg)).first(40)}), Error);
+    EXPECT_THROW(to_colour({PixelFormat::mjpg, 16, 8, 0, jpeg}), Error);
+    EXPECT_THROW(to_colour({PixelFormat::mjpg, 16, 16, 0, std::span(jpeg).first(40)}), Error);
 }
 
 TEST(PixelFormat, RefusesTooFewBytesAndOddSides) {

@@ -1,9 +1,11 @@
 #include "common/image/image_file.h"
 
+#include <cstring>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "common/base/atomic_file.h"
 #include "tests/support/data_folder.h"
@@ -47,6 +49,66 @@ TEST_F(ImageFileTest, JpegComesCloseToTheOriginal) {
                                      static_cast<unsigned char>(3 * y), 100, 255);
     write_colour_image(path("a.jpg"), smooth);
     EXPECT_LT(cv::norm(read_colour_image(path("a.jpg")), smooth, cv::NORM_INF), 16);
+}
+
+// What another program wrote.
+TEST_F(ImageFileTest, ReadsWhatOpenCvWrites) {
+    const ColourImage image = some_picture(37, 21);
+    cv::Mat bgr, bgra, wide, grey;
+    cv::cvtColor(image, bgr, cv::COLOR_RGBA2BGR);
+    cv::cvtColor(image, bgra, cv::COLOR_RGBA2BGRA);
+    bgra.forEach<cv::Vec4b>([](cv::Vec4b& pixel, const int*) { pixel[3] = 100; });
+    bgr.convertTo(wide, CV_16U, 257);
+    cv::extractChannel(bgr, grey, 1);
+    const auto difference = [&](const char* name, const cv::Mat& written) {
+        EXPECT_TRUE(cv::imwrite(path(name).string(), written));
+        EXPECT_TRUE(is_picture_file(path(name))) << name;
+        return cv::norm(read_colour_image(path(name)), image, cv::NORM_INF);
+    };
+    EXPECT_EQ(difference("rgb.png", bgr), 0);
+    EXPECT_EQ(difference("rgba.png", bgra), 0) << "alpha is left out";
+    EXPECT_EQ(difference("wide.png", wide), 0);
+    EXPECT_EQ(difference("rgb.ppm", bgr), 0);
+    EXPECT_EQ(difference("wide.ppm", wide), 0);
+    ASSERT_TRUE(cv::imwrite(path("rgb.jpg").string(), bgr));
+    const cv::Mat jpeg = cv::imread(path("rgb.jpg").string());
+    ColourImage same;
+    cv::cvtColor(jpeg, same, cv::COLOR_BGR2RGBA);
+    EXPECT_LE(cv::norm(read_colour_image(path("rgb.jpg")), same, cv::NORM_INF), 2);
+    ASSERT_TRUE(cv::imwrite(path("grey.jpg").string(), grey));
+    EXPECT_LT(cv::norm(to_grey(read_colour_image(path("grey.jpg"))), grey, cv::NORM_INF), 40);
+    cv::Mat1w codes(5, 7);
+    cv::randu(codes, 0, 65536);
+    for (const char* name : {"codes.png", "codes.pgm"}) {
+        ASSERT_TRUE(cv::imwrite(path(name).string(), codes));
+        EXPECT_EQ(cv::norm(read_code_image(path(name)), codes, cv::NORM_INF), 0) << name;
+    }
+    EXPECT_FALSE(is_picture_file(path("none.png")));
+}
+
+TEST_F(ImageFileTest, BelievesNoPngThatIsTooSmallForItsSize) {
+    write_grey_image(path("a.png"), cv::Mat1b(cv::Mat1b::zeros(200, 200)));
+    std::vector<std::byte> bytes = read_file(path("a.png"), 1 << 20);
+    // Width and height, 16384 each, and the checksum that goes with them.
+    const std::string head("\0\0\x40\0\0\0\x40\0\x8\0\0\0\0\x8c\xa3\x4f\x58", 17);
+    std::memcpy(bytes.data() + 16, head.data(), head.size());
+    write_bytes(path("a.png"), bytes);
+    EXPECT_NE(thrown_sentence([&] { read_colour_image(path("a.png")); }).find("too few for 16384"),
+              std::string::npos);
+}
+
+TEST_F(ImageFileTest, NamesWhatIsWrongWithAPgm) {
+    const auto refusal = [&](const std::string& text) {
+        write_bytes(path("a.pgm"), std::as_bytes(std::span(text)));
+        return thrown_sentence([&] { read_code_image(path("a.pgm")); });
+    };
+    EXPECT_EQ(refusal("P5 # a comment\n2 1\n# another\n255\nab"), "");
+    EXPECT_NE(refusal("P5 2 2 255\nab").find("2 of its 4 bytes are missing"), std::string::npos);
+    EXPECT_NE(refusal("P5 2 1 1023\nabcd").find("1023"), std::string::npos);
+    EXPECT_NE(refusal("P5 2 99999 255\nab").find("16384"), std::string::npos);
+    for (const char* damaged :
+         {"P5", "P5 2", "P5 -2 1 255\nab", "P5 2 1 255", "P5 2 1 255ab", "P5#"})
+        EXPECT_NE(refusal(damaged).find("header"), std::string::npos) << damaged;
 }
 
 TEST_F(ImageFileTest, GreyFilesBecomeColour) {
