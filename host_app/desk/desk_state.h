@@ -225,8 +225,8 @@ struct DeskState {
     const Texture* picture = nullptr;  ///< the virtual view
     std::string timecode;
     std::string ltc;  ///< that comes in, and by how much it differs; empty: none
-    bool is_ltc_off = false;
     std::uint64_t pulse = 0;
+    bool is_ltc_off = false;
     bool waiting = true;  ///< no set has come yet
     SignalState signal = SignalState::live;
     bool recording = false;  ///< a film
@@ -254,8 +254,8 @@ struct DeskState {
     std::vector<DeskStep> steps;
     std::vector<DeskRig> rigs;
     std::string synchronisation;  ///< what light last said of it; empty: of no stage
+    OrbitView view;               ///< of the programme's camera
     bool is_sync_doubtful = false;
-    OrbitView view;  ///< of the programme's camera
     bool follows_performer = false, holds_horizon = true;
     std::optional<DeskPlan> plan;         ///< nothing: the stage is not known yet
     std::optional<Coverage> coverage;     ///< of the view by the rigs; nothing: not known
