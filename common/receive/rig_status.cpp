@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base/counted.h"
 #include "common/base/pulse_grid.h"
 
 namespace vantage {
@@ -30,8 +31,7 @@ std::string clock_text(const RigStatus& rig) {
 std::string clock_step_text(const RigSync& sync) {
     if (sync.clock_steps == 0) return {};
     return fmt::format("its clock was set {}, by {:+.1f} ms the last time",
-                       sync.clock_steps == 1 ? "once" : fmt::format("{} times", sync.clock_steps),
-                       sync.clock_step_ms);
+                       counted_times(sync.clock_steps), sync.clock_step_ms);
 }
 
 std::string tai_worry(const RigStatus& rig) {

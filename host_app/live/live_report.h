@@ -118,5 +118,7 @@ std::string counters_legend();
 
 /// What of a connected rig a technician should look after, a few words each: heat, supply, clock.
 std::vector<std::string> worries_of(const RigStatus& status);
+/// Of those heat and supply alone.
+std::vector<std::string> computer_worries_of(const RigStatus& status);
 
 }  // namespace vantage

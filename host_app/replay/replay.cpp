@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/base/counted.h"
+
 namespace vantage {
 namespace {
 
@@ -329,7 +331,7 @@ void Replay::delete_clip(const Span& span) {
     const std::string clip = words_of(number, book_->clips.at(number));
     const std::size_t entries = list_.count_of(number);
     std::string what = clip_ == number && plays() ? ", which plays" : "";
-    if (entries > 0) what += fmt::format(", which the play list has {} times", entries);
+    if (entries > 0) what += ", which the play list has " + counted_times(entries);
     if (!confirms(fmt::format("again to delete {}{}", clip, what))) return;
     const bool was_playing = list_.remove_clip(number);
     if (clip_ == number && !was_playing) leave_piece();

@@ -305,7 +305,7 @@ TEST_F(ReplayTest, DeletingAClipAsksAndTakesItsEntriesAlong) {
     pass(2);
     ask(Action::hold_clip, 1);
     ask(Action::delete_clip);
-    EXPECT_NE(state().question.find("delete clip 1, which plays, which the play list has 1 times"),
+    EXPECT_NE(state().question.find("delete clip 1, which plays, which the play list has once"),
               std::string::npos)
         << state().question;
     ask(Action::delete_clip);
