@@ -92,16 +92,7 @@ void Programme::stop() {
     if (thread_.joinable()) thread_.join();
     renderers_.clear();
     preview_.end();
-    for (Sink& sink : sinks_) {
-        if (!sink.state.failure.empty()) continue;
-        try {
-            sink.sink->finish();
-        } catch (const std::exception& error) {
-            sink.state.failure = error.what();
-            log_error("{}: {}", sink.state.name, error.what());
-        }
-    }
-    note_sinks();
+    sinks_.finish();
 }
 
 std::chrono::nanoseconds Programme::lead() const {
@@ -135,7 +126,6 @@ void Programme::rehearse() {
 }
 
 void Programme::run() {
-    for (Sink& sink : sinks_) sink.state.name = sink.sink->name();
     rehearse();
     const MonotonicTime start = MonotonicClock::now();
     TickClock clock(settings_.rate_hz, start);
@@ -154,7 +144,7 @@ void Programme::run() {
             }
             better_what_is_held(now);
             if (now >= due) break;
-            const bool is_done = is_begun || !(was_due || seek_);
+            const bool is_done = is_begun || !(was_due || seek_.is_on());
             sleep_until(is_done ? due : std::min(due, now + look_period));
         }
         follow_synthesiser();
@@ -189,12 +179,14 @@ bool Programme::look(double time_s, MonotonicTime now) {
     // Where time stands, it stands between two pulses if it came there slowly, and not by a jump.
     if (transport().state().speed != 0)
         moments_a_pulse_ = governor_.moments_a_pulse(transport().state().speed);
-    else if (seen_jumps_ != transport().jumps())
+    else if (seek_.has_jumped(transport().jumps()))
         moments_a_pulse_ = 1;
-    follow_seek(now);
+    seek_.follow(transport().jumps(), past_pulse(),
+                 shown_ ? std::optional(shown_->job.instant->set->trigger_index) : std::nullopt,
+                 now);
     // What is held was left: its better picture waits for the first one of where time jumped to.
-    if (renderer_->still) renderer_->still->pause(seek_.has_value());
-    preview_.pause(seek_.has_value());
+    if (renderer_->still) renderer_->still->pause(seek_.is_on());
+    preview_.pause(seek_.is_on());
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_) begin_next_synthesiser();
     const CameraState camera = step.camera.value_or(step.view.camera());
@@ -241,19 +233,12 @@ bool Programme::is_picture_due() const {
     return !shown_ || !is_same_picture(job, shown_->job);
 }
 
-void Programme::follow_seek(MonotonicTime now) {
-    if (!transport().pulse()) seek_.reset();
-    if (std::exchange(seen_jumps_, transport().jumps()) == transport().jumps()) return;
-    const std::optional<std::uint64_t> pulse =
-        transport().pulse() ? instants_.past_pulse_at(*transport().pulse()) : std::nullopt;
-    if (pulse && shown_ && shown_->job.instant->set->trigger_index != *pulse)
-        seek_ = {now, *pulse};
-    else
-        seek_.reset();
+std::optional<std::uint64_t> Programme::past_pulse() const {
+    return transport().pulse() ? instants_.past_pulse_at(*transport().pulse()) : std::nullopt;
 }
 
 bool Programme::take_up_sought() {
-    if (!seek_) return false;
+    if (!seek_.is_on()) return false;
     std::shared_ptr<const ReadyInstant> newest = instants_.newest();
     if (!newest || newest->synthesiser != renderer_->synthesiser.name || newest == instant_)
         return false;
@@ -269,7 +254,7 @@ double Programme::shown_in_s() const {
 
 void Programme::wish_for_instant(MonotonicTime now) {
     const bool is_resting = !transport().is_moving() && now - changed_ > rest;
-    const PrepareLevel& level = seek_ ? governor_.prepare_sought()
+    const PrepareLevel& level = seek_.is_on() ? governor_.prepare_sought()
                                 : is_resting && !settings_.quality.level ? prepare_levels().front()
                                                                          : governor_.prepare();
     const cv::Size size(settings_.format.width_px, settings_.format.height_px);
@@ -328,7 +313,7 @@ void Programme::begin_next_synthesiser() {
 void Programme::follow_preview() {
     const MonotonicTime now = MonotonicClock::now();
     preview_.follow(preview_view_, renderer_->synthesiser, instant_,
-                    renderer_->maker->is_idle() && !seek_, now);
+                    renderer_->maker->is_idle() && !seek_.is_on(), now);
     const std::lock_guard lock(mutex_);
     state_.preview.picture = preview_.picture();
     if (books_.preview_pictures != preview_.pictures()) preview_ms_.add(preview_.last_make_ms());
@@ -358,7 +343,7 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     last_new_ = now;
     if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     const ReadyInstant& instant = *made.job.instant;
-    note_seek(instant, now);
+    if (seek_.is_on() && transport().pulse()) seek_.saw(instant, past_pulse(), now);
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
         const double latency_ms = to_ms(TaiClock::now() - *instant.exposure);
@@ -372,27 +357,6 @@ void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
     if (!is_best || transport().is_moving() || rest_noted_ == changed_) return;
     rest_noted_ = changed_;
     rest_ms_.add(ms_between(changed_, now));
-}
-
-void Programme::note_seek(const ReadyInstant& instant, MonotonicTime now) {
-    if (!seek_ || !transport().pulse()) return;
-    // Time goes on meanwhile.
-    const auto wanted = instants_.past_pulse_at(*transport().pulse()).value_or(seek_->pulse);
-    const std::uint64_t shown = instant.set->trigger_index;
-    if (shown < std::min(seek_->pulse, wanted) || shown > std::max(seek_->pulse, wanted)) return;
-    const double all_ms = ms_between(seek_->since, now);
-    // What was done of it before the jump is not counted.
-    const double begun_ms = ms_between(seek_->since, instant.taken_up);
-    const double taken_up_ms = std::clamp(begun_ms, 0.0, all_ms);
-    const double fetched_ms = std::clamp(begun_ms + instant.fetch_ms, 0.0, all_ms);
-    const double prepared_ms =
-        std::clamp(begun_ms + instant.fetch_ms + instant.prepare_ms, 0.0, all_ms);
-    seek_ms_.add(all_ms);
-    seek_steps_ms_.wait.add(taken_up_ms);
-    seek_steps_ms_.fetch.add(fetched_ms - taken_up_ms);
-    seek_steps_ms_.prepare.add(prepared_ms - fetched_ms);
-    seek_steps_ms_.picture.add(all_ms - prepared_ms);
-    seek_.reset();
 }
 
 void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due) {
@@ -469,26 +433,8 @@ void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks, Mon
             shown.job.camera,
             title_of(shown, static_cast<double>(sink_ticks_) / settings_.rate_hz),
             settings_.sound ? settings_.sound->next(sound_tick(due, i)) : nullptr};
-        for (Sink& sink : sinks_) {
-            if (!sink.state.failure.empty()) continue;
-            try {
-                sink.sink->take(picture);
-                ++sink.state.pictures;
-            } catch (const std::exception& error) {
-                sink.state.failure = error.what();
-                log_error("{} is closed, and the programme goes on: {}", sink.state.name,
-                          error.what());
-            }
-        }
+        sinks_.give(picture);
     }
-    note_sinks();
-}
-
-void Programme::note_sinks() {
-    const std::lock_guard lock(mutex_);
-    books_.sinks.clear();
-    for (const Sink& sink : sinks_)
-        if (!sink.state.name.empty()) books_.sinks.push_back(sink.state);
 }
 
 ProgrammeState Programme::state() const {
@@ -499,13 +445,13 @@ ProgrammeState Programme::state() const {
 ProgrammeBooks Programme::books() const {
     const std::lock_guard lock(mutex_);
     ProgrammeBooks books = books_;
+    books.sinks = sinks_.states();
     books.interval_ms = interval_ms_.summary();
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hand_ms_.summary();
-    books.seek_ms = seek_ms_.summary();
+    books.seek_ms = seek_.all_ms();
+    books.seek_steps_ms = seek_.steps_ms();
     books.rest_ms = rest_ms_.summary();
-    books.seek_steps_ms = {seek_steps_ms_.wait.summary(), seek_steps_ms_.fetch.summary(),
-                           seek_steps_ms_.prepare.summary(), seek_steps_ms_.picture.summary()};
     books.preview_ms = preview_ms_.summary();
     books.render_ms = render_ms_.summary();
     books.readback_ms = readback_ms_.summary();

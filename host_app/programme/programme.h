@@ -16,30 +16,15 @@
 #include "host_app/flight/camera_forecast.h"
 #include "host_app/flight/pilot.h"
 #include "host_app/instants/instant_thread.h"
-#include "host_app/output/picture_sink.h"
 #include "host_app/programme/governor.h"
 #include "host_app/programme/picture_maker.h"
+#include "host_app/programme/picture_sinks.h"
 #include "host_app/programme/preview.h"
+#include "host_app/programme/seek_watch.h"
 #include "host_app/replay/replay.h"
 #include "host_app/sound/picture_sound.h"
 
 namespace vantage {
-
-/// A sink as the programme sees it.
-struct SinkState {
-    std::string name;
-    std::uint64_t pictures = 0;
-    std::string failure;  ///< empty: it works
-};
-
-/// Where the time goes between a jump in time and its picture.
-template <class Time>
-struct SeekSteps {
-    Time wait;     ///< for the instant that was being prepared
-    Time fetch;    ///< the set: read, decoded
-    Time prepare;  ///< its instant
-    Time picture;  ///< rendering, and the waits for its turn and for the tick
-};
 
 /// What the programme counted and measured.
 struct ProgrammeBooks {
@@ -105,7 +90,7 @@ class Programme {
     Programme& operator=(const Programme&) = delete;
 
     /// Before start().
-    void add(std::unique_ptr<PictureSink> sink) { sinks_.push_back({std::move(sink), {}}); }
+    void add(std::unique_ptr<PictureSink> sink) { sinks_.add(std::move(sink)); }
     /// `is_over` is asked at every tick: pictures so far and seconds since the first tick.
     void start(std::function<bool(std::uint64_t pictures, double time_s)> is_over);
     /// Whether it ended by itself. Throws what ended it.
@@ -117,10 +102,6 @@ class Programme {
     ProgrammeBooks books() const;
 
   private:
-    struct Sink {
-        std::unique_ptr<PictureSink> sink;
-        SinkState state;
-    };
     /// Makes a synthesiser's pictures. Kept when another takes over: drivers give back little of
     /// what a renderer has taken, and who comes back need not compile again.
     struct Renderer {
@@ -142,7 +123,8 @@ class Programme {
     /// Until the middle of the time for which an instant that is wished for now will be shown.
     double shown_in_s() const;
     void begin_picture();
-    void follow_seek(MonotonicTime now);
+    /// Of the past, that time stands at; nothing: there is none.
+    std::optional<std::uint64_t> past_pulse() const;
     void better_what_is_held(MonotonicTime now);
     /// Compiles where it is asked for the first time.
     Renderer& renderer_of(const SynthesiserEntry& synthesiser);
@@ -155,9 +137,7 @@ class Programme {
     /// Of the tick that was due then, so many ticks after the one for which time was looked at.
     PictureSound::Tick sound_tick(MonotonicTime due, std::uint64_t later) const;
     void note_sound_delay(const ReadyInstant& instant);
-    void note_sinks();
     void note(const MadePicture& made, MonotonicTime now);
-    void note_seek(const ReadyInstant& instant, MonotonicTime now);
     void note_rest(const MadePicture& made, MonotonicTime now);
     const Transport& transport() const { return replay_.transport(); }
     /// How long before a tick its picture is to be begun.
@@ -166,7 +146,7 @@ class Programme {
     Settings settings_;
     InstantThread& instants_;
     Pilot& pilot_;
-    std::vector<Sink> sinks_;
+    PictureSinks sinks_;
     std::function<bool(std::uint64_t, double)> is_over_;
 
     // Of the programme's thread.
@@ -182,13 +162,7 @@ class Programme {
     CameraState camera_;
     CameraForecast forecast_;
     std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
-    /// A jump in time of which no picture is there yet.
-    struct Seek {
-        MonotonicTime since;
-        std::uint64_t pulse;  ///< that it led to
-    };
-    std::optional<Seek> seek_;
-    std::uint64_t seen_jumps_ = 0;
+    SeekWatch seek_;
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_still_;
     std::shared_ptr<const MadePicture> shown_;
@@ -203,9 +177,8 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, seek_ms_, rest_ms_, render_ms_,
-        readback_ms_, preview_ms_;
-    SeekSteps<PercentileRecorder> seek_steps_ms_;
+    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, rest_ms_, render_ms_, readback_ms_,
+        preview_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;
