@@ -38,21 +38,23 @@ started=$(date +%s)
 
 declare -A times=()
 port_of() { sed -n 's/^bind = "tcp:\/\/.*:\([0-9]*\)"$/\1/p' "$out/demo/$1.toml"; }
+# Nobody waits for what goes on beside: with numbers of processes that come again after some hours a shell took a new one for
+# one of those that it remembered, and waited for ever.
 befall() {
   local what=$((RANDOM % 5)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
   names=(hangs killed resets garbage silence)
   times[${names[what]}]=$((${times[${names[what]}]:-0} + 1))
   echo "$(($(date +%s) - started)) s: ${names[what]} $rig, $length s" >>"$out/faults.log"
   case $what in
-    0) kill -STOP "$(rig_process "$rig")"; (sleep $length; kill -CONT "$(rig_process "$rig")") & ;;
+    0) kill -STOP "$(rig_process "$rig")"; (sleep $length; kill -CONT "$(rig_process "$rig")") & disown ;;
     1) kill -CONT "$(rig_process "$rig")" || true
       kill -KILL "$(rig_process "$rig")"
       sleep $length
       LP_NUM_THREADS=1 build/release/bin/vantage-rig run --config "$out/demo/$rig.toml" >>"$out/$rig.log" 2>&1 &
       begun[$rig]=$! ;;
     2) kill -USR2 $host ;;
-    3) (for _ in {1..20}; do head -c 5000 /dev/urandom >"/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done) 2>/dev/null & ;;
-    4) (for file in {100..160}; do eval "exec $file<>/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done; sleep $length) 2>/dev/null & ;;
+    3) (for _ in {1..20}; do head -c 5000 /dev/urandom >"/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done) 2>/dev/null & disown ;;
+    4) (for file in {100..160}; do eval "exec $file<>/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done; sleep $length) 2>/dev/null & disown ;;
   esac
 }
 
