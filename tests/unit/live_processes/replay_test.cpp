@@ -111,8 +111,9 @@ class ReplayShow : public testing::Test {
             last = row;
         }
         EXPECT_GT(farthest_m, 0.3) << "a hand has turned it";
-        // A jump of that way in one tick would be more than 15 m/s.
-        EXPECT_LT(fastest_m_s, 8);
+        // A jump of that way in one tick would be more than 15 m/s; it flies at 6, and twice as far
+        // in a tick before which a busy computer left one out.
+        EXPECT_LT(fastest_m_s, 12.5);
     }
 
     TemporaryFolder folder_;
