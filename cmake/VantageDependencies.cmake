@@ -2,8 +2,8 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-# Without imgcodecs, which brings GDAL with its databases and formats, some eighty libraries: two thirds of what a start of a
-# program took, and parsers that nobody asked for. common/image reads pictures by libspng and libjpeg-turbo.
+# Without imgcodecs, which brings GDAL with its databases and formats, seventy libraries and more: two thirds of what a start
+# of a program took, and parsers that nobody asked for. common/image reads pictures by libspng and libjpeg-turbo.
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d video videoio aruco mcc)
 find_package(Ceres REQUIRED)
 find_package(Protobuf REQUIRED)

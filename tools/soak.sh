@@ -38,8 +38,8 @@ started=$(date +%s)
 
 declare -A times=()
 port_of() { sed -n 's/^bind = "tcp:\/\/.*:\([0-9]*\)"$/\1/p' "$out/demo/$1.toml"; }
-# Nobody waits for what goes on beside: with numbers of processes that come again after some hours a shell took a new one for
-# one of those that it remembered, and waited for ever.
+# Nobody waits for what goes on beside, nor remembers it: once, when numbers of processes had begun to come again, this shell
+# hung in its own wait. Whether it took a process for one that it remembered was not found out.
 befall() {
   local what=$((RANDOM % 5)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
   names=(hangs killed resets garbage silence)

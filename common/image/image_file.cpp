@@ -55,20 +55,21 @@ cv::Mat decode(const std::filesystem::path& path) {
     return {};
 }
 
-/// In which a picture is written; nothing: none goes by the extension.
-std::optional<Format> format_by_name(const std::filesystem::path& path) {
+/// In which a picture is written, by its name.
+Format format_by_name(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (extension == ".png") return Format::png;
     if (extension == ".jpg" || extension == ".jpeg") return Format::jpeg;
-    return std::nullopt;
+    fail("cannot write {}: no picture format goes by the extension '{}'; use .png or .jpg",
+         path.string(), path.extension().string());
 }
 
 void encode(const std::filesystem::path& path, const cv::Mat& image) {
-    require_picture_extension(path);
+    const Format format = format_by_name(path);
     std::vector<std::byte> bytes;
     try {
-        bytes = *format_by_name(path) == Format::png ? encode_png(image) : encode_jpeg(image);
+        bytes = format == Format::png ? encode_png(image) : encode_jpeg(image);
     } catch (const Error& error) {
         fail("cannot write {}: {}", path.string(), error.what());
     }
@@ -109,11 +110,7 @@ cv::Mat1w read_code_image(const std::filesystem::path& path) {
     return codes;
 }
 
-void require_picture_extension(const std::filesystem::path& path) {
-    if (format_by_name(path)) return;
-    fail("cannot write {}: no picture format goes by the extension '{}'; use .png or .jpg",
-         path.string(), path.extension().string());
-}
+void require_picture_extension(const std::filesystem::path& path) { (void)format_by_name(path); }
 
 void write_colour_image(const std::filesystem::path& path, const ColourImage& image) {
     cv::Mat rgb;

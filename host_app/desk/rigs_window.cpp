@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "host_app/desk/desk_parts.h"
 #include "host_app/desk/gl_window.h"
-#include "host_app/desk/rigs_place.h"
+#include "host_app/desk/window_places.h"
 #include "host_app/desk/window_screen.h"
 
 namespace vantage {

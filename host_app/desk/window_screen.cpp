@@ -8,7 +8,7 @@
 
 #include "common/gl/limits.h"
 #include "host_app/desk/desk_layout.h"
-#include "host_app/desk/rigs_place.h"
+#include "host_app/desk/window_places.h"
 
 namespace vantage {
 

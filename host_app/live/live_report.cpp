@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/base/counted.h"
-#include "common/wire/status_report.h"
 
 namespace vantage {
 

@@ -1,7 +1,5 @@
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "common/wire/status_report.h"
 #include "host_app/live/live_report.h"
 

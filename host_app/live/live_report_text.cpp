@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "common/base/counted.h"
-#include "common/wire/status_report.h"
 #include "host_app/live/live_report.h"
 
 namespace vantage {

@@ -343,7 +343,7 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     last_new_ = now;
     if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     const ReadyInstant& instant = *made.job.instant;
-    if (seek_.is_on() && transport().pulse()) seek_.saw(instant, past_pulse(), now);
+    if (seek_.is_on()) seek_.saw(instant, past_pulse(), now);
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
         const double latency_ms = to_ms(TaiClock::now() - *instant.exposure);

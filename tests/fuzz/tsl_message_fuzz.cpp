@@ -22,11 +22,10 @@ void decode(std::span<const std::byte> bytes) {
 
 /// The input is a datagram, and what a connection brings.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using vantage::TslStream;
     vantage::decode(std::as_bytes(std::span(data, size)));
-    TslStream stream;
+    vantage::TslStream stream;
     for (const std::string& message : stream.take({reinterpret_cast<const char*>(data), size})) {
-        if (message.size() > TslStream::most_message_bytes) std::abort();
+        if (message.size() > vantage::most_tsl_bytes) std::abort();
         vantage::decode(std::as_bytes(std::span(message)));
     }
     if (stream.strays() > size) std::abort();

@@ -97,7 +97,7 @@ check "apt installs all three from it" apt_get install "${options[@]}" vantage-r
 for program in vantage-rig vantage vantage-calib; do
   check "$program runs" inside $program --version
 done
-# The demo is no toy of the sources: who has installed the packages plays it, too.
+# Whoever installs the packages can play the demo.
 "${as_root[@]}" mount --bind /proc "$root/proc"
 "${as_root[@]}" mount --bind /dev "$root/dev"
 check "a user plays the demo" inside su -s /bin/sh -c 'cd /tmp && vantage demo --headless --seconds 3 --folder played' nobody

@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t v3_bytes = 18, v5_most_bytes = 2048;
+constexpr std::size_t v3_bytes = 18;
 constexpr unsigned v3_first_address = 0x80, v3_most_address = 126;
 
 unsigned byte_at(std::span<const std::byte> bytes, std::size_t at) {
@@ -31,7 +31,7 @@ std::optional<std::vector<TslDisplay>> decode_v5(std::span<const std::byte> byte
     // the text and the text.
     constexpr std::size_t head_bytes = 6, display_head_bytes = 6;
     constexpr unsigned screen_control = 2, control_data = 0x8000;
-    if (bytes.size() < head_bytes || bytes.size() > v5_most_bytes ||
+    if (bytes.size() < head_bytes || bytes.size() > most_tsl_bytes ||
         word_at(bytes, 0) != bytes.size() - 2 || byte_at(bytes, 2) != 0)
         return std::nullopt;
     std::vector<TslDisplay> displays;

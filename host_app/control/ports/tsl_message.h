@@ -15,6 +15,9 @@ struct TslDisplay {
     unsigned tallies = 0;
 };
 
+/// Of version 5.0, by its standard.
+inline constexpr std::size_t most_tsl_bytes = 2048;
+
 /// The displays of a datagram, version 3.1 (18 bytes, which begin with 0x80 + address) or 5.0.
 /// Nothing: it is neither.
 std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> datagram);

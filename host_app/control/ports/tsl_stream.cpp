@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "host_app/control/ports/tsl_message.h"
+
 namespace vantage {
 namespace {
 
@@ -44,7 +46,7 @@ void TslStream::append(char byte, std::vector<std::string>& whole) {
     constexpr std::size_t count_bytes = 2;
     if (message_.size() < count_bytes) return;
     const std::size_t size = count_bytes + (byte_at(message_, 0) | byte_at(message_, 1) << 8);
-    if (size > most_message_bytes) {
+    if (size > most_tsl_bytes) {
         stray();
     } else if (message_.size() == size) {
         whole.push_back(std::move(message_));

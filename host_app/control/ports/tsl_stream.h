@@ -17,8 +17,6 @@ class TslStream {
     /// Runs of bytes so far that were no message: before one, broken off, or too long.
     std::uint64_t strays() const { return strays_; }
 
-    static constexpr std::size_t most_message_bytes = 2048;
-
   private:
     enum class Place { outside, inside, stray };
 

@@ -1,4 +1,4 @@
-#include "host_app/desk/rigs_place.h"
+#include "host_app/desk/window_places.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@ namespace {
 
 const WindowPlace first{0, 0, 1920, 1080}, second{1920, 0, 1024, 768}, third{-800, 0, 800, 600};
 
-TEST(RigsPlace, IsTheSecondMonitorAllOfIt) {
+TEST(PlaceForRigs, IsTheSecondMonitorAllOfIt) {
     EXPECT_EQ(place_for_rigs(std::vector{first, second, third}, {}), second);
 }
 
-TEST(RigsPlace, IsNeverOneThatTheProgrammeFills) {
+TEST(PlaceForRigs, IsNeverOneThatTheProgrammeFills) {
     const std::vector<int> on_second{2}, on_both{2, 3}, everywhere{1, 2};
     EXPECT_EQ(place_for_rigs(std::vector{first, second, third}, on_second), third);
     EXPECT_EQ(place_for_rigs(std::vector{first, second, third}, on_both),
@@ -21,7 +21,7 @@ TEST(RigsPlace, IsNeverOneThatTheProgrammeFills) {
     EXPECT_FALSE(place_for_rigs({}, {})) << "no monitor is there";
 }
 
-TEST(RigsPlace, CoversTheProgrammeWherePartOfItIsOnItsMonitor) {
+TEST(WindowPlace, CoversTheProgrammeWherePartOfItIsOnItsMonitor) {
     const std::vector monitors{first, second};
     const std::vector<int> filled{2};
     EXPECT_TRUE(covers_programme(second, monitors, filled));

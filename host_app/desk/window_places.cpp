@@ -1,4 +1,4 @@
-#include "host_app/desk/rigs_place.h"
+#include "host_app/desk/window_places.h"
 
 #include <algorithm>
 
