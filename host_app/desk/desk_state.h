@@ -250,7 +250,7 @@ struct DeskState {
     std::optional<double> age_s;      ///< of what is shown, while it is live
     std::vector<float> latencies_ms;  ///< oldest first
     std::string synthesiser, renderer;
-    int render_level = 0, prepare_level = 0;  ///< of quality; 0 is the best
+    int render_level = 0, prepare_level = 0;  ///< of the picture's quality; 0 is the best
     std::vector<DeskStep> steps;
     std::vector<DeskRig> rigs;
     std::string synchronisation;  ///< what light last said of it; empty: of no stage

@@ -210,8 +210,6 @@ bool Programme::look(double time_s, MonotonicTime now) {
                                                              *transport().pulse()) /
                                                                 settings_.pulse_rate_hz))
                               : std::nullopt;
-        state_.render_level = governor_.render().rank;
-        state_.prepare_level = governor_.prepare().rank;
         books_.render_shares = governor_.render_shares(now);
         books_.prepare_shares = governor_.prepare_shares(now);
     }
@@ -387,6 +385,8 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         if (fresh) {
             note_rest(*fresh, now);
             shown_ = state_.picture = std::move(fresh);
+            state_.render_level = shown_->job.level.rank;
+            state_.prepare_level = shown_->job.instant->instant->level;
         }
         if (!shown_) return;
         books_.ticks += passed_ticks;

@@ -63,7 +63,7 @@ struct ProgrammeState {
     std::optional<PastSets::Span> past;  ///< that there is
     std::optional<double> behind_s;      ///< in a stage's past: how far
     std::string synthesiser;
-    int render_level = 0, prepare_level = 0;
+    int render_level = 0, prepare_level = 0;  ///< of the picture
     double latency_ms = 0;
 };
 
