@@ -128,9 +128,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         {"width_px", report.format.width_px}, {"height_px", report.format.height_px},
         {"rate_hz", report.rate_hz},          {"pictures_a_second", pictures_a_second(programme)},
         {"duration_s", programme.duration_s}, {"repeated_ticks", programme.repeated},
-        {"synthesiser", report.synthesiser},  {"renderer", report.renderer},
-        {"signal", key_of(report.signal)}};
+        {"missed_ticks", programme.missed},   {"synthesiser", report.synthesiser},
+        {"renderer", report.renderer},        {"signal", key_of(report.signal)}};
     json["time"] = time_json(report);
+    json["tick_late_ms"] = to_json(programme.late_ms);
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
     json["hand_to_picture_ms"] = to_json(programme.hand_ms);

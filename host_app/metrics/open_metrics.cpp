@@ -24,6 +24,8 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.pictures));
     text.counter("repeated_ticks", "Ticks for which a new picture was due and not ready.");
     text.sample(number(programme.repeated));
+    text.counter("missed_ticks", "Ticks that passed before the programme came to them.");
+    text.sample(number(programme.missed));
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
     text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");
@@ -31,6 +33,8 @@ void write_programme(const LiveReport& report, MetricText& text) {
          {std::pair("render", &programme.render_shares), {"prepare", &programme.prepare_shares}})
         for (std::size_t level = 0; level < shares->size(); ++level)
             text.sample((*shares)[level], {{"work", work}, {"level", std::to_string(level)}});
+    text.summary("tick_lateness_seconds", "From a tick to the hand-over of its picture.");
+    text.percentiles(programme.late_ms);
     text.summary("picture_interval_seconds", "Between two new pictures.");
     text.percentiles(programme.interval_ms);
     text.summary("exposure_to_picture_seconds", "From exposure to the hand-over of its picture.");

@@ -390,6 +390,8 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         }
         if (!shown_) return;
         books_.ticks += passed_ticks;
+        books_.missed += passed_ticks - 1;
+        late_ms_.add(ms_between(due, now));
         books_.repeated += passed_ticks - 1 + (was_due && !is_new ? 1 : 0);
         books_.duration_s = ms_between(*first_picture_, now) / 1000;
     }
@@ -446,6 +448,7 @@ ProgrammeBooks Programme::books() const {
     const std::lock_guard lock(mutex_);
     ProgrammeBooks books = books_;
     books.sinks = sinks_.states();
+    books.late_ms = late_ms_.summary();
     books.interval_ms = interval_ms_.summary();
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hand_ms_.summary();

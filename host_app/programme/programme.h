@@ -31,6 +31,9 @@ struct ProgrammeBooks {
     std::uint64_t ticks = 0;     ///< since the first picture
     std::uint64_t pictures = 0;  ///< ticks with a new one
     std::uint64_t repeated = 0;  ///< ticks for which a new one was due and not ready
+    std::uint64_t missed = 0;    ///< of those, ticks that had passed before the programme came to
+                                 ///< them; sinks were given them late
+    Percentiles late_ms;         ///< from a tick to the hand-over of its picture
     double duration_s = 0;       ///< since the first picture
     Percentiles interval_ms;     ///< between two new pictures
     Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
@@ -177,8 +180,8 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder interval_ms_, latency_ms_, hand_ms_, rest_ms_, render_ms_, readback_ms_,
-        preview_ms_;
+    PercentileRecorder late_ms_, interval_ms_, latency_ms_, hand_ms_, rest_ms_, render_ms_,
+        readback_ms_, preview_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

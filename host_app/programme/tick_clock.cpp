@@ -18,7 +18,6 @@ std::uint64_t TickClock::next_tick(MonotonicTime now) {
     // The small addition keeps a tick that is just due from rounding down to the one before.
     const auto due = static_cast<std::uint64_t>(std::max(0.0, elapsed_s * rate_hz_ + 1e-6));
     const std::uint64_t tick = std::max(next_, due);
-    skipped_ += tick - next_;
     next_ = tick + 1;
     return tick;
 }

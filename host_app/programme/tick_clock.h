@@ -8,8 +8,7 @@
 namespace vantage {
 
 /// The beat of the output: tick n is due at start + n / rate. Whoever is late for a tick gets the
-/// newest one that is due, and the ones in between are counted, so that the flight keeps real time
-/// whatever a picture costs.
+/// newest one that is due, so that the flight keeps real time whatever a picture costs.
 class TickClock {
   public:
     /// Precondition: rate_hz > 0.
@@ -22,13 +21,10 @@ class TickClock {
     /// The tick to show at `now`: the newest due one, but never one that was given before.
     std::uint64_t next_tick(MonotonicTime now);
 
-    std::uint64_t skipped() const { return skipped_; }
-
   private:
     double rate_hz_;
     MonotonicTime start_;
     std::uint64_t next_ = 0;
-    std::uint64_t skipped_ = 0;
 };
 
 }  // namespace vantage

@@ -128,6 +128,13 @@ class ShowFaults : public testing::Test {
         ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
     }
 
+    /// Who waited for a rig, a network or a person would miss ten a second.
+    static void expect_ticks_held(const nlohmann::json& summary) {
+        EXPECT_GE(summary["pictures"], 20);
+        EXPECT_LE(summary["missed_ticks"].get<double>(),
+                  1 + 0.02 * summary["pictures"].get<double>())
+            << summary["tick_late_ms"];
+    }
     static void expect_balanced(const nlohmann::json& rig) {
         const auto count = [&](const char* place, const char* what) {
             return rig[place][what].get<std::int64_t>();
@@ -179,8 +186,7 @@ TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);
-    EXPECT_NEAR(summary["pictures"].get<double>(), 10 * summary["duration_s"].get<double>(), 1.5)
-        << "ticks are held";
+    expect_ticks_held(summary);
     const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
     EXPECT_GE(far["outages"]["count"], 3) << result.err;
     EXPECT_EQ(far["outages"]["restarts"], 1);
@@ -252,8 +258,7 @@ TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);
-    EXPECT_NEAR(summary["pictures"].get<double>(), 10 * summary["duration_s"].get<double>(), 1.5)
-        << "ticks are held";
+    expect_ticks_held(summary);
     const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
     EXPECT_GT(far["host"]["out_of_step"], 0) << "ahead: " << result.err;
     EXPECT_GT(far["host"]["late"], 0) << "back: " << result.err;

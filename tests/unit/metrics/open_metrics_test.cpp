@@ -22,6 +22,7 @@ LiveReport example() {
     report.renderer = "llvm\"pipe\\";
     report.rate_hz = 25;
     report.programme.ticks = 1'234'567;
+    report.programme.missed = 89;
     report.programme.latency_ms = {.count = 7, .p50 = 84, .p95 = 90, .p99 = 99, .max = 120};
     report.programme.interval_ms = report.programme.hand_ms = report.programme.seek_ms =
         report.programme.latency_ms;
@@ -89,7 +90,7 @@ TEST(OpenMetrics, AreWellFormed) {
 TEST(OpenMetrics, SayWhatTheReportSays) {
     const std::string text = to_open_metrics(example());
     for (const char* line :
-         {"vantage_ticks_total 1234567\n",
+         {"vantage_ticks_total 1234567\n", "vantage_missed_ticks_total 89\n",
           "vantage_exposure_to_picture_seconds{quantile=\"0.5\"} 0.084\n",
           "vantage_exposure_to_picture_seconds_count 7\n", "vantage_coverage_ratio 0.5\n",
           "vantage_rig_frames_total{rig=\"north\",place=\"host\",result=\"received\"} 99\n",

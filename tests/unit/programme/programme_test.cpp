@@ -133,6 +133,19 @@ class FailingSink final : public PictureSink {
     std::shared_ptr<Seen> seen_;
 };
 
+/// Holds the programme up once.
+class SlowSink final : public PictureSink {
+  public:
+    explicit SlowSink(std::chrono::milliseconds time) : time_(time) {}
+    std::string name() const override { return "slow line"; }
+    void take(const ProgrammePicture& picture) override {
+        if (picture.tick == 3) std::this_thread::sleep_for(time_);
+    }
+
+  private:
+    std::chrono::milliseconds time_;
+};
+
 /// The preparer of a synthesiser that takes as long as it is told to, and whose instants say the
 /// level that they were asked for.
 class SlowPreparer final : public InstantPreparer {
@@ -460,6 +473,19 @@ TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
     programme_->stop();
     EXPECT_EQ(programme_->books().sinks.at(1).failure, "the line did not end well");
     EXPECT_TRUE(seen_->is_finished);
+}
+
+TEST_F(ProgrammeTest, CountsTicksThatPassedBeforeItCameToThem) {
+    make();
+    programme_->add(std::make_unique<SlowSink>(500ms));
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_ticks(8));
+    programme_->stop();
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_GE(static_cast<double>(books.missed), 0.5 * rate_hz - 2);
+    EXPECT_GE(books.late_ms.max, 400);
+    expect_every_tick_once();
 }
 
 TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {

@@ -16,16 +16,13 @@ TEST(TickClock, TicksAtTheRate) {
     EXPECT_EQ(clock.until_next(start + 1ms), 39ms);
     EXPECT_EQ(clock.next_tick(start + 40ms), 1u);
     EXPECT_EQ(clock.time_of(7), 280ms);
-    EXPECT_EQ(clock.skipped(), 0u);
 }
 
-TEST(TickClock, CountsTheTicksThatALatePictureMisses) {
+TEST(TickClock, PassesTheTicksThatALatePictureMisses) {
     TickClock clock(25, start);
     EXPECT_EQ(clock.next_tick(start), 0u);
     EXPECT_EQ(clock.next_tick(start + 130ms), 3u);
-    EXPECT_EQ(clock.skipped(), 2u);
     EXPECT_EQ(clock.next_tick(start + 160ms), 4u);
-    EXPECT_EQ(clock.skipped(), 2u);
 }
 
 TEST(TickClock, NeverGivesATickTwice) {
