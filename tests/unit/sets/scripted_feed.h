@@ -41,14 +41,23 @@ class ScriptedFeed {
         }
         queue_.push(set);
     }
-    void set_refused(const std::string& sentence) { refused_ = sentence; }
+    void set_refused(const std::string& sentence) {
+        const std::lock_guard lock(mutex_);
+        refused_ = sentence;
+    }
     /// The feed throws this from now on.
-    void fail_with(std::string sentence) { failure_ = std::move(sentence); }
+    void fail_with(std::string sentence) {
+        const std::lock_guard lock(mutex_);
+        failure_ = std::move(sentence);
+    }
     bool drained() const { return queue_.size() == 0; }
 
     StageFeed feed() {
         return {[this](std::chrono::nanoseconds timeout) {
-                    if (!failure_.empty()) throw Error(failure_);
+                    {
+                        const std::lock_guard lock(mutex_);
+                        if (!failure_.empty()) throw Error(failure_);
+                    }
                     return queue_.pop_for(timeout);
                 },
                 [this] {
