@@ -55,6 +55,7 @@ DeskArrangement load_desk(const std::filesystem::path& path) {
         top.read("panels", switches.panels);
         top.read("rigs", switches.rigs);
         top.read("rigs_apart", switches.rigs_apart);
+        top.read("figures", switches.figures);
         top.read("outside", switches.outside);
         top.read_table("eye", [&](TomlTable& table) { read_eye(table, switches.eye); });
         top.read_table("window",
@@ -70,9 +71,11 @@ std::string to_toml(const DeskArrangement& desk) {
     std::string text = fmt::format(
         "# How the desk of Vantage is arranged; docs/desk_file.md explains the keys.\nversion = "
         "{}\n"
-        "panels = {}\nrigs = {}\nrigs_apart = {}\noutside = {}\n\n[eye]\nazimuth_deg = {:.1f}\n"
+        "panels = {}\nrigs = {}\nrigs_apart = {}\nfigures = {}\noutside = {}\n\n[eye]\nazimuth_deg "
+        "= {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
-        desk_file_version, switches.panels, switches.rigs, switches.rigs_apart, switches.outside,
+        desk_file_version, switches.panels, switches.rigs, switches.rigs_apart, switches.figures,
+        switches.outside,
         std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / rad_a_degree,
         switches.eye.elevation_rad / rad_a_degree, switches.eye.nearness);
     return text + window_text("window", desk.window) + window_text("rigs_window", desk.rigs_window);

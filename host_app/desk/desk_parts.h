@@ -6,6 +6,7 @@
 
 #include "host_app/desk/desk_layout.h"
 #include "host_app/desk/desk_state.h"
+#include "host_app/desk/desk_switches.h"
 #include "host_app/desk/outside_view.h"
 #include "host_app/desk/pen.h"
 
@@ -55,9 +56,8 @@ void draw_stage_outside(const Pen& pen, const DeskRect& rect, const DeskState& s
                         const OutsideEye& eye);
 /// In place of either.
 void draw_unknown_stage(const Pen& pen, const DeskRect& rect);
-/// `outside`: the stage is seen from there; null: from above.
 void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
-               const OutsideEye* outside, DeskSpots& spots);
+               const DeskSwitches& switches, DeskSpots& spots);
 void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_clips(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);
 void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots);

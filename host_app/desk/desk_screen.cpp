@@ -19,7 +19,7 @@ DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const 
         draw_status(pen, layout.status, state);
         draw_shots(pen, layout.shots, state, drawn.spots);
         draw_clips(pen, layout.clips, state, drawn.spots);
-        draw_side(pen, layout.side, state, switches.outside ? &switches.eye : nullptr, drawn.spots);
+        draw_side(pen, layout.side, state, switches, drawn.spots);
         draw_time_line(pen, layout.time_line, state, drawn.spots);
         draw_multiview(pen, layout.rigs, layout.rig_rows, state);
     }

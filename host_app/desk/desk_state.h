@@ -45,6 +45,11 @@ struct DeskStep {
     bool at_rig = false;
 };
 
+/// Something that the programme counted or measured since its start.
+struct DeskFigure {
+    std::string name, value;
+};
+
 /// What the source map's colours say.
 struct DeskSources {
     struct Row {
@@ -252,6 +257,7 @@ struct DeskState {
     std::string synthesiser, renderer;
     int render_level = 0, prepare_level = 0;  ///< of the picture's quality; 0 is the best
     std::vector<DeskStep> steps;
+    std::vector<DeskFigure> figures;
     std::vector<DeskRig> rigs;
     std::string synchronisation;  ///< what light last said of it; empty: of no stage
     OrbitView view;               ///< of the programme's camera

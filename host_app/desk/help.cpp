@@ -40,15 +40,17 @@ std::vector<HelpRow> help_rows() {
         if (std::string words = key_words(command); !words.empty())
             rows.push_back({std::move(words), command.does});
     }
-    rows.insert(rows.end(), {{"", "Desk"},
-                             {"Tab", "the picture alone, or the desk"},
-                             {"Shift + Tab", "the rigs' pictures and state, or none"},
-                             {"Ctrl + Shift + Tab", "the rigs in a window of their own, or here"},
-                             {"Ctrl + Tab", "the stage from outside, or the plan of it"},
-                             {"Ctrl + arrows, + -", "around it from outside, nearer, farther"},
-                             {"Enter", "type a command with its argument, or a time"},
-                             {"F1", "this help, page by page"},
-                             {"Esc", "end; asks first"}});
+    rows.insert(rows.end(),
+                {{"", "Desk"},
+                 {"Tab", "the picture alone, or the desk"},
+                 {"Shift + Tab", "the rigs' pictures and state, or none"},
+                 {"Ctrl + Shift + Tab", "the rigs in a window of their own, or here"},
+                 {"Ctrl + F1", "how the show went since its start, or camera and outputs"},
+                 {"Ctrl + Tab", "the stage from outside, or the plan of it"},
+                 {"Ctrl + arrows, + -", "around it from outside, nearer, farther"},
+                 {"Enter", "type a command with its argument, or a time"},
+                 {"F1", "this help, page by page"},
+                 {"Esc", "end; asks first"}});
     return rows;
 }
 

@@ -228,6 +228,10 @@ std::string OperatorWindow::question_of(const ControlCommand& command, int numbe
 void OperatorWindow::take_key(int key, int modifiers) {
     switch (key) {
         case GLFW_KEY_F1:
+            if ((modifiers & GLFW_MOD_CONTROL) != 0) {
+                switches_.figures ^= true;
+                break;
+            }
             switches_.help = switches_.help == 0                  ? 1
                              : switches_.help < drawn_.help_pages ? switches_.help + 1
                                                                   : 0;

@@ -214,14 +214,26 @@ void draw_way(Column& column, const DeskState& state) {
                           : fmt::format("at worst {:.0f} ms", worst));
 }
 
+void draw_figures(Column& column, const DeskState& state) {
+    if (state.figures.empty()) return;
+    column.heading("SINCE THE START");
+    for (const DeskFigure& figure : state.figures)
+        column.row_of_two(figure.name, palette::text, figure.value);
+}
+
 /// Most important first: what has no room is cut off at the end. Returns where it ends.
-float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots* spots) {
+float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, bool figures,
+                 DeskSpots* spots) {
     const float pad = 0.6f * pen.em();
     Column column{pen, rect.left + pad, rect.right() - pad, rect.top};
-    draw_camera(column, state);
-    draw_play_list(column, state.replay, spots);
-    draw_outputs(column, state, spots);
-    if (state.sources) draw_sources(column, *state.sources);
+    if (figures) {
+        draw_figures(column, state);
+    } else {
+        draw_camera(column, state);
+        draw_play_list(column, state.replay, spots);
+        draw_outputs(column, state, spots);
+        if (state.sources) draw_sources(column, *state.sources);
+    }
     draw_worries(column, state);
     draw_way(column, state);
     return column.y + 0.4f * pen.em();
@@ -230,7 +242,7 @@ float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, D
 }  // namespace
 
 void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
-               const OutsideEye* outside, DeskSpots& spots) {
+               const DeskSwitches& switches, DeskSpots& spots) {
     if (rect.is_empty()) return;
     const float gap = 0.4f * pen.em();
     DeskRect plan = rect, words = rect;
@@ -242,23 +254,23 @@ void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
         plan.width = words.left - gap - plan.left;
     } else {
         const float words_height =
-            draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, nullptr);
+            draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, switches.figures, nullptr);
         // Who looks from outside wants to see something.
         const float least_plan =
-            outside ? 0.5f * rect.height : std::min(11 * pen.em(), 0.45f * rect.height);
+            switches.outside ? 0.5f * rect.height : std::min(11 * pen.em(), 0.45f * rect.height);
         plan.height = std::max(least_plan, rect.height - words_height - gap);
         words.top = plan.bottom() + gap;
         words.height = rect.bottom() - words.top;
     }
-    if (outside) {
-        draw_stage_outside(pen, plan, state, *outside);
+    if (switches.outside) {
+        draw_stage_outside(pen, plan, state, switches.eye);
         spots.outside = plan;
     } else {
         draw_stage_plan(pen, plan, state);
     }
     const Clipping clipping(pen, words);
     pen.fill(words, palette::panel);
-    draw_words(pen, words, state, &spots);
+    draw_words(pen, words, state, switches.figures, &spots);
 }
 
 }  // namespace vantage

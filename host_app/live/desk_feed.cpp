@@ -7,6 +7,7 @@
 
 #include "common/gl/limits.h"
 #include "host_app/desk/shot_places.h"
+#include "host_app/live/desk_figures.h"
 #include "host_app/live/desk_replay.h"
 #include "host_app/live/desk_wheel.h"
 #include "host_app/live/live_report.h"
@@ -193,6 +194,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     state_.steps.clear();
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
+    state_.figures = desk_figures(report);
     state_.picture_rate_hz = picture_rate_.per_second();
     state_.tick_rate_hz = show.settings().rate_hz;
     state_.repeat_rate_hz = repeat_rate_.per_second();

@@ -122,15 +122,6 @@ std::string output_text(const OutputState& output) {
     return text + '\n';
 }
 
-std::string shares_text(const std::vector<double>& shares) {
-    std::string text;
-    for (std::size_t level = 0; level < shares.size(); ++level)
-        if (shares[level] > 0.005)
-            text +=
-                fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
-    return text.empty() ? "none" : text;
-}
-
 std::string line_of(const char* what, const Percentiles& ms) {
     return fmt::format("{}: p50 {:.0f} ms, p95 {:.0f}, p99 {:.0f}, max {:.0f}\n", what, ms.p50,
                        ms.p95, ms.p99, ms.max);
@@ -196,6 +187,15 @@ of the stage), out of step (counts pulses differently from the other rigs), in s
 picture), superseded (a newer set came before a picture was due), set dropped
 (before anything took sets).
 )";
+}
+
+std::string shares_text(const std::vector<double>& shares) {
+    std::string text;
+    for (std::size_t level = 0; level < shares.size(); ++level)
+        if (shares[level] > 0.005)
+            text +=
+                fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
+    return text.empty() ? "none" : text;
 }
 
 std::string to_text(const LiveReport& report) {

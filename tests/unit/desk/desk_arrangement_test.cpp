@@ -28,6 +28,7 @@ class DeskFile : public testing::Test {
         desk.switches.outside = true;
         desk.switches.eye = {-1, 0.8, 0.25};
         desk.switches.rigs_apart = true;
+        desk.switches.figures = true;
         desk.window = WindowPlace{-1920, 40, 1600, 900, true};
         desk.rigs_window = WindowPlace{0, 0, 1920, 1080, false};
         return desk;

@@ -36,6 +36,13 @@ class ExampleDesk {
             state.latencies_ms.push_back(80.0f + static_cast<float>(i % 13));
         state.synthesiser = "mesh";
         state.steps = {{"capture", 2.1, true}, {"match", 18.4, true}, {"decode", 3.2, false}};
+        state.figures = {{"ticks, repeated, missed", "5520, 3, 0"},
+                         {"between pictures", "33 ms, 99 % 34, at worst 67"},
+                         {"exposure to picture", "82 ms, 99 % 95, at worst 130"},
+                         {"hand to picture", "41 ms, 99 % 62, at worst 66"},
+                         {"instants, skipped", "5498, 2"},
+                         {"rendering, by level", "0 97 %, 1 3 %"},
+                         {"preparing, by level", "0 100 %"}};
         state.rigs = {rig("north", RigState::present), rig("south", RigState::late),
                       rig("east", RigState::disconnected)};
         state.rigs[1].lost_on_the_way = 17;

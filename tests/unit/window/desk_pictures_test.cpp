@@ -71,6 +71,10 @@ TEST_P(DeskStatePictures, OfAPreviewAreThoseThatWereLookedAt) {
     expect_as_looked_at("preview", [](ExampleDesk& desk) { desk.show_preview(); });
 }
 
+TEST_P(DeskStatePictures, OfTheFiguresAreThoseThatWereLookedAt) {
+    expect_as_looked_at("figures", nullptr, {.figures = true});
+}
+
 TEST_P(DeskStatePictures, OfTheStageFromOutsideAreThoseThatWereLookedAt) {
     expect_as_looked_at("outside", [](ExampleDesk& desk) { desk.add_points(); }, {.outside = true});
 }
