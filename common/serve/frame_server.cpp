@@ -24,11 +24,10 @@ constexpr int send_high_water_mark = 4 * static_cast<int>(max_credit_window);
 constexpr int receive_high_water_mark = 64;
 /// A host that talks without end does not keep frames from leaving.
 constexpr int messages_per_turn = 64;
-constexpr std::chrono::seconds handshake_limit{5};
 /// At the end, for hosts to take what was sent. Without it ZeroMQ aborts where a host leaves at
 /// that moment with a frame half sent (libzmq issue 3442).
 constexpr std::chrono::milliseconds farewell{200};
-/// Between lines about messages that are no host's.
+/// Between lines about messages that are no host's, and between those about slow hosts.
 constexpr std::chrono::seconds complaint_period{10};
 
 /// The key a message came under, as HostAdmission let it in; empty without keys.
@@ -45,7 +44,9 @@ FrameServer::FrameServer(const Settings& settings, std::string rig, std::uint64_
     : rig_(std::move(rig)),
       links_(rig_, session, static_cast<std::size_t>(std::max(settings.queue_frames, 1))),
       complaints_(complaint_period),
-      router_(context_, zmq::socket_type::router) {
+      overruns_(complaint_period),
+      router_(context_, zmq::socket_type::router),
+      strangers_(context_, router_, rig_) {
     bind(settings);
     thread_ = std::thread([this] { run(); });
 }
@@ -73,13 +74,14 @@ void FrameServer::bind(const Settings& settings) {
     router_.set(zmq::sockopt::sndhwm, send_high_water_mark);
     router_.set(zmq::sockopt::rcvhwm, receive_high_water_mark);
     router_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
-    router_.set(zmq::sockopt::handshake_ivl, option_ms(handshake_limit));
+    router_.set(zmq::sockopt::handshake_ivl, option_ms(StrangerWatch::handshake_limit));
     watch_for_dead_connections(router_);
     router_.set(zmq::sockopt::ipv6, wanted.ipv6);
     if (!settings.key_file.empty()) {
         const CurveKeys keys = load_key_file(settings.key_file);
         public_key_ = keys.public_key;
         admission_.emplace(context_, settings.authorized_hosts);
+        strangers_.expect_keys();
         router_.set(zmq::sockopt::zap_domain, "vantage");
         router_.set(zmq::sockopt::curve_server, true);
         router_.set(zmq::sockopt::curve_secretkey, keys.secret_key);
@@ -112,19 +114,36 @@ void FrameServer::turn() {
     const MonotonicTime now = MonotonicClock::now();
     if (now >= next_heartbeat_) {
         next_heartbeat_ = now + heartbeat_period;
-        const std::lock_guard lock(mutex_);
-        links_.expire(now);
-        links_.ring();
+        beat(now);
     }
     send_all();
     std::vector<zmq::pollitem_t> items{{nullptr, wake_.fd(), ZMQ_POLLIN, 0},
-                                       {router_.handle(), 0, ZMQ_POLLIN, 0}};
+                                       {router_.handle(), 0, ZMQ_POLLIN, 0},
+                                       {strangers_.socket().handle(), 0, ZMQ_POLLIN, 0}};
     if (admission_) items.push_back({admission_->socket().handle(), 0, ZMQ_POLLIN, 0});
     vantage::wait_for(items, next_heartbeat_ - MonotonicClock::now());
     wake_.clear();
     if (admission_) admission_->answer();
+    strangers_.look(MonotonicClock::now());
+    refused_connections_ = strangers_.refused();
     for (int i = 0; i < messages_per_turn && receive(); ++i) {
     }
+}
+
+void FrameServer::beat(MonotonicTime now) {
+    HostLinks::Overrun overrun;
+    {
+        const std::lock_guard lock(mutex_);
+        links_.expire(now);
+        links_.ring();
+        overrun = links_.take_overrun();
+    }
+    if (overrun.frames > 0) slow_host_ = overrun.host;
+    if (const auto frames = overruns_.count(overrun.frames, now))
+        log_warning(
+            "rig {}: frames made room for newer ones that hosts were too slow to take: {}; "
+            "the last was for {}",
+            rig_, *frames, slow_host_);
 }
 
 bool FrameServer::receive() {
@@ -132,6 +151,7 @@ bool FrameServer::receive() {
     if (!zmq::recv_multipart(router_, std::back_inserter(parts), zmq::recv_flags::dontwait))
         return false;
     if (parts.empty()) return true;
+    strangers_.hear(parts.back());
     const std::string route = parts.front().to_string();
     const MonotonicTime now = MonotonicClock::now();
     try {

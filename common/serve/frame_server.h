@@ -16,6 +16,7 @@
 #include "common/base/time.h"
 #include "common/serve/host_admission.h"
 #include "common/serve/host_links.h"
+#include "common/serve/stranger_watch.h"
 #include "common/wire/wake_event.h"
 
 namespace vantage {
@@ -69,6 +70,8 @@ class FrameServer {
     std::uint64_t announced_pulse() const { return announced_pulse_; }
     /// Messages that were no host's. Any thread.
     std::uint64_t malformed() const;
+    /// Connections that came to nothing, since whoever opened them is no host. Any thread.
+    std::uint64_t refused_connections() const { return refused_connections_; }
 
     /// With the port that was bound, where the settings left it open.
     const std::string& endpoint() const { return endpoint_; }
@@ -79,6 +82,7 @@ class FrameServer {
     void bind(const Settings& settings);
     void run();
     void turn();
+    void beat(MonotonicTime now);
     bool receive();
     void send_all();
     bool send(const HostLinks::Outgoing& outgoing);
@@ -92,12 +96,15 @@ class FrameServer {
     std::string failure_;
     std::uint64_t malformed_ = 0;
     std::condition_variable heard_;
-    LogLimiter complaints_;  ///< the thread's
+    LogLimiter complaints_, overruns_;  ///< the thread's
+    std::string slow_host_;
     std::atomic<std::uint64_t> announced_pulse_ = 0;
 
     zmq::context_t context_;
     std::optional<HostAdmission> admission_;
     zmq::socket_t router_;
+    StrangerWatch strangers_;
+    std::atomic<std::uint64_t> refused_connections_ = 0;
     WakeEvent wake_;
     MonotonicTime next_heartbeat_{};
     std::atomic<bool> stopping_ = false;

@@ -21,13 +21,16 @@ enum RequestPart { version, request_id, domain, address, identity, mechanism, ke
 
 /// A host that keeps knocking is logged this often.
 constexpr std::chrono::seconds log_period{10};
+/// And so many of them each for itself: one that makes a new key each time does not fill the log.
+constexpr std::size_t most_told = 8;
 
 }  // namespace
 
 HostAdmission::HostAdmission(zmq::context_t& context, std::filesystem::path authorized_hosts)
     : path_(std::move(authorized_hosts)),
       hosts_(load_authorized_hosts(path_)),
-      socket_(context, zmq::socket_type::rep) {
+      socket_(context, zmq::socket_type::rep),
+      others_(log_period) {
     std::error_code gone;
     read_version_ = std::filesystem::last_write_time(path_, gone);
     if (hosts_.empty()) log_warning("{} lists no host: none is admitted", path_.string());
@@ -75,11 +78,15 @@ bool HostAdmission::admits(const std::string& key, const std::string& address) {
     read_list_if_changed();
     if (hosts_.contains(key)) return true;
     const MonotonicTime now = MonotonicClock::now();
-    if (key != last_refused_ || now - last_refused_time_ > log_period) {
+    std::erase_if(told_, [&](const auto& told) { return now - told.second > log_period; });
+    if (told_.contains(key)) return false;
+    if (told_.size() < most_told) {
         log_warning("a host at {} with key {} is refused; add the key to {} to admit it", address,
                     key, path_.string());
-        last_refused_ = key;
-        last_refused_time_ = now;
+        told_[key] = now;
+    } else if (const auto times = others_.count(1, now)) {
+        log_warning("hosts with ever other keys are refused: {}; the last is at {}", *times,
+                    address);
     }
     return false;
 }

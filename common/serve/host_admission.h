@@ -5,6 +5,7 @@
 #include <string>
 #include <zmq.hpp>
 
+#include "common/base/log_limiter.h"
 #include "common/base/time.h"
 
 namespace vantage {
@@ -19,7 +20,8 @@ class HostAdmission {
 
     zmq::socket_t& socket() { return socket_; }
 
-    /// Answers one request, if one is there. Refused keys are logged.
+    /// Answers one request, if one is there. Refused keys are logged, a few by name and once in a
+    /// while.
     void answer();
 
   private:
@@ -30,8 +32,8 @@ class HostAdmission {
     std::filesystem::file_time_type read_version_;
     std::map<std::string, std::string> hosts_;
     zmq::socket_t socket_;
-    std::string last_refused_;
-    MonotonicTime last_refused_time_{};
+    std::map<std::string, MonotonicTime> told_;  ///< of which keys, and when: a few
+    LogLimiter others_;
 };
 
 }  // namespace vantage

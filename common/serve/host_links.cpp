@@ -45,7 +45,11 @@ void HostLinks::pass_on(const std::shared_ptr<const PackedFrame>& frame) {
             ++link.counters.thinned;
             continue;
         }
-        if (link.queue.size() == queue_frames_) drop_oldest(link);
+        if (link.queue.size() == queue_frames_) {
+            drop_oldest(link);
+            ++overrun_.frames;
+            overrun_.host = display_name(link.host_key);
+        }
         link.queue.push_back(frame);
     }
 }
@@ -280,6 +284,8 @@ std::vector<HostLinks::HostStatus> HostLinks::hosts() const {
                        link.attached && link.streaming});
     return all;
 }
+
+HostLinks::Overrun HostLinks::take_overrun() { return std::exchange(overrun_, {}); }
 
 HostLinks::Link* HostLinks::find(const std::string& host_key, std::uint64_t host_id) {
     for (Link& link : links_)

@@ -142,6 +142,13 @@ class HostLinks {
 
     std::vector<HostStatus> hosts() const;
 
+    /// Frames since the last call that made room for newer ones, as hosts were too slow for them.
+    struct Overrun {
+        std::uint64_t frames = 0;
+        std::string host;  ///< the one that lost the last of them, for people
+    };
+    Overrun take_overrun();
+
   private:
     struct Fetch {
         FetchWish wish;
@@ -193,6 +200,7 @@ class HostLinks {
     std::uint64_t last_served_ = 0;  ///< the link whose job was the last
     std::vector<Link> links_;
     std::vector<Outgoing> refusals_;
+    Overrun overrun_;
 };
 
 }  // namespace vantage

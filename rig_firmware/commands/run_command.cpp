@@ -50,6 +50,7 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
                     {"hosts", hosts},
                     {"refused_messages", status.publisher.malformed},
                     {"refused_fetches", status.publisher.refused_fetches},
+                    {"refused_connections", status.publisher.refused_connections},
                     {"capture_ms", to_json(status.capture_ms)},
                     {"rectify_ms", to_json(status.rectify_ms)},
                     {"match_ms", to_json(status.match_ms)},

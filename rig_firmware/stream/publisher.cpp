@@ -161,9 +161,10 @@ std::uint64_t Publisher::announced_pulse() const { return impl_->server.announce
 
 PublisherStatus Publisher::status() const {
     const std::uint64_t malformed = impl_->server.malformed();
+    const std::uint64_t refused = impl_->server.refused_connections();
     return impl_->server.change([&](const HostLinks& links) {
         return PublisherStatus{links.rig_counters(), links.hosts(), malformed,
-                               links.refused_fetches()};
+                               links.refused_fetches(), refused};
     });
 }
 

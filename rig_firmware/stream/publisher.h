@@ -16,8 +16,9 @@ namespace vantage {
 struct PublisherStatus {
     RigCounters counters;  ///< the daemon's last, with `published` and `send_dropped`
     std::vector<HostLinks::HostStatus> hosts;
-    std::uint64_t malformed = 0;        ///< messages that were no host's
-    std::uint64_t refused_fetches = 0;  ///< of hosts, where this rig keeps nothing
+    std::uint64_t malformed = 0;            ///< messages that were no host's
+    std::uint64_t refused_fetches = 0;      ///< of hosts, where this rig keeps nothing
+    std::uint64_t refused_connections = 0;  ///< of strangers
 };
 
 /// The first frame that is kept of the pulses `from` to before `to`; null if none is. May take its

@@ -64,7 +64,7 @@ class PeerFaults : public testing::Test {
         stream.jpeg_quality = 0;
         stream.key_file = folder_.path() / "rig.key";
         stream.authorized_hosts = folder_.path() / "hosts.keys";
-        rig_ = std::make_unique<Publisher>(stream, "rig-a");
+        rig_ = std::make_unique<Publisher>(stream, name_);
         place_.sin_family = AF_INET;
         place_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         place_.sin_port = htons(static_cast<std::uint16_t>(
@@ -76,7 +76,7 @@ class PeerFaults : public testing::Test {
 
     StageConfig stage_at(const std::string& endpoint) const {
         StageConfig stage;
-        stage.rigs.push_back({"rig-a", endpoint, rig_->public_key()});
+        stage.rigs.push_back({name_, endpoint, rig_->public_key()});
         stage.key_file = folder_.path() / "host.key";
         return stage;
     }
@@ -106,6 +106,20 @@ class PeerFaults : public testing::Test {
         return 1 + static_cast<std::size_t>(so_far / 10s);
     }
 
+    /// Connections were refused, and the log says so in these words, as often as a line may come.
+    void is_in_the_log(const std::string& words) const {
+        const auto lines = [&] {
+            const std::vector<std::string> all = recent_log_lines();
+            return static_cast<std::size_t>(
+                std::count_if(all.begin(), all.end(), [&](const std::string& line) {
+                    return line.find(" rig " + name_ + ": ") != line.npos &&
+                           line.find(words) != line.npos;
+                }));
+        };
+        EXPECT_TRUE(comes_true([&] { return lines() > 0; })) << words;
+        EXPECT_LE(lines(), most_lines()) << words;
+    }
+
     /// The host has every frame, by the connection that it always had, and is the only one.
     void nothing_was_noticed() const {
         const RigStatus status = host_->status().rigs[0];
@@ -118,6 +132,8 @@ class PeerFaults : public testing::Test {
         EXPECT_EQ(rig.hosts[0].host_key, host_keys_.public_key);
     }
 
+    /// Its own for each test: those of one process share the log.
+    const std::string name_ = testing::UnitTest::GetInstance()->current_test_info()->name();
     TemporaryFolder folder_;
     const CurveKeys host_keys_ = generate_curve_keys();
     std::unique_ptr<Publisher> rig_;
@@ -146,6 +162,9 @@ TEST_F(PeerFaults, GarbageIsLeftAlone) {
     }
     beat(beats_beside);
     nothing_was_noticed();
+    is_in_the_log("says what no host says");
+    is_in_the_log("comes without a key");
+    EXPECT_EQ(rig_->status().refused_connections, 20u);
 }
 
 TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
@@ -166,8 +185,47 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     // Who is welcome still comes in.
     const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::look_on);
     EXPECT_TRUE(comes_true([&] { return second.status().rigs[0].connected; }));
+    is_in_the_log("from 127.0.0.1, had not greeted as hosts do after 5 s");
+    EXPECT_TRUE(comes_true([&] { return rig_->status().refused_connections == 1000; }));
     strangers.clear();
     beat();
+}
+
+TEST_F(PeerFaults, ConnectionsThatComeAndGoAreServedAround) {
+    for (int i = 0; i < 1000; ++i) {
+        ASSERT_TRUE(connected_socket()) << i;
+        if (i % 50 == 0) beat();
+    }
+    beat(beats_beside);
+    nothing_was_noticed();
+    is_in_the_log("left before it had greeted");
+    EXPECT_TRUE(comes_true([&] { return rig_->status().refused_connections == 1000; }));
+}
+
+TEST_F(PeerFaults, HandshakesWithoutKeyAndForgedOnesOpenNothing) {
+    // ZeroMQ's own peers without a key may leave first, as they see that keys are asked for.
+    std::array<unsigned char, 64> greeting{0xff, 0, 0, 0, 0, 0, 0, 0, 1, 0x7f, 3, 0};
+    std::copy_n("NULL", 4, greeting.begin() + 12);
+    std::vector<UniqueFd> keyless;
+    zmq::context_t context;
+    const std::string other_rig = generate_curve_keys().public_key;
+    std::vector<zmq::socket_t> forgers;
+    for (int i = 0; i < 25; ++i) {
+        keyless.push_back(connected_socket());
+        ASSERT_GT(::send(keyless.back().get(), greeting.data(), greeting.size(), MSG_NOSIGNAL), 0);
+        zmq::socket_t socket(context, zmq::socket_type::dealer);
+        socket.set(zmq::sockopt::linger, 0);
+        socket.set(zmq::sockopt::reconnect_ivl, 1);
+        socket.set(zmq::sockopt::curve_serverkey, other_rig);
+        socket.set(zmq::sockopt::curve_publickey, host_keys_.public_key);
+        socket.set(zmq::sockopt::curve_secretkey, host_keys_.secret_key);
+        socket.connect(rig_->endpoint());
+        forgers.push_back(std::move(socket));
+    }
+    is_in_the_log("comes without a key");
+    is_in_the_log("does not hold this rig's public key, or repeats or forges a handshake");
+    beat(beats_beside);
+    nothing_was_noticed();
 }
 
 TEST_F(PeerFaults, AFloodOfStrangersKeysIsRefusedAndSaidOnce) {
@@ -261,6 +319,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
     EXPECT_EQ(rig_->status().hosts.size(), 2u) << "no third came in";
     EXPECT_EQ(rig_->status().hosts[1].counters.sent, 0u);
     EXPECT_EQ(rig_->status().malformed, 0u);
+    is_in_the_log("does not hold this rig's public key, or repeats or forges a handshake");
     const RigStatus status = host_->status().rigs[0];
     EXPECT_EQ(status.received, beats_);
     EXPECT_EQ(status.lost + status.link.send_dropped, 0u);
@@ -297,6 +356,7 @@ TEST_F(PeerFaults, ASlowReaderLosesItsOwnFramesOnly) {
     EXPECT_GT(other.counters.send_dropped, 0u);
     EXPECT_EQ(other.counters.offered,
               other.counters.sent + other.counters.send_dropped + other.queued);
+    is_in_the_log("hosts were too slow to take");
 }
 
 }  // namespace

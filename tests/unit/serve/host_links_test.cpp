@@ -90,6 +90,17 @@ TEST_F(HostLinksTest, CreditBoundsWhatIsUnderWayAndTheQueueDropsItsOldest) {
     EXPECT_EQ(links_.rig_counters().send_dropped, 5u);
 }
 
+TEST_F(HostLinksTest, SaysOnceWhichHostWasTooSlowForHowManyFrames) {
+    attach("route", 7, 2);
+    offer(1, 8);
+    (void)links_.take();
+    EXPECT_GT(links_.hosts()[0].counters.send_dropped, 0u);
+    const HostLinks::Overrun overrun = links_.take_overrun();
+    EXPECT_EQ(overrun.frames, links_.hosts()[0].counters.send_dropped);
+    EXPECT_EQ(overrun.host, "host key");
+    EXPECT_EQ(links_.take_overrun().frames, 0u);
+}
+
 TEST_F(HostLinksTest, CreditComesBackAsTheHostHandlesFrames) {
     attach("r1", 5, 1);
     offer(1, 3);
