@@ -136,6 +136,7 @@ void FrameServer::beat(MonotonicTime now) {
         const std::lock_guard lock(mutex_);
         links_.expire(now);
         links_.ring();
+        links_.set_refused_connections(refused_connections_);
         overrun = links_.take_overrun();
     }
     if (overrun.frames > 0) slow_host_ = overrun.host;

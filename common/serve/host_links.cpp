@@ -330,6 +330,7 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.rig_counters = rig_counters();
     message.sync = sync_;
     message.health = health_;
+    message.health.refused_connections += refused_connections_;
     if (link.fetch)
         message.fetch = FetchState{link.fetch->wish.id, link.fetch->sent, link.fetch->is_over(),
                                    link.fetch->trouble};

@@ -134,6 +134,8 @@ class HostLinks {
     /// here.
     void set_rig_counters(const RigCounters& counters);
     RigCounters rig_counters() const;
+    /// Connections of strangers to this socket: reported beside those that the health has already.
+    void set_refused_connections(std::uint64_t count) { refused_connections_ = count; }
     /// As heartbeats and messages report it.
     void set_sync(RigSync sync) { sync_ = std::move(sync); }
     const RigSync& sync() const { return sync_; }
@@ -196,6 +198,7 @@ class HostLinks {
     std::uint64_t dropped_here_ = 0;  ///< of this session
     RigSync sync_;
     RigHealth health_;
+    std::uint64_t refused_connections_ = 0;
     std::uint64_t refused_fetches_ = 0;
     std::uint64_t last_served_ = 0;  ///< the link whose job was the last
     std::vector<Link> links_;

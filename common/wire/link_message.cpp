@@ -29,6 +29,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_calibration_date(health.calibration_date.substr(0, max_date_chars));
     out.set_calibration_row_rms_px(health.calibration_row_rms_px);
     out.set_program_version(health.program_version.substr(0, max_version_chars));
+    out.set_refused_connections(health.refused_connections);
 }
 
 RigHealth from_wire(const wire::Health& in) {
@@ -54,6 +55,7 @@ RigHealth from_wire(const wire::Health& in) {
     health.calibration_date = date;
     health.calibration_row_rms_px = in.calibration_row_rms_px();
     health.program_version = in.program_version();
+    health.refused_connections = in.refused_connections();
     return health;
 }
 

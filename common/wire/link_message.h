@@ -47,15 +47,16 @@ struct HostMessage {
     bool operator==(const HostMessage&) const = default;
 };
 
-/// How the rig's computer and its calibration are.
+/// How the rig's computer and its calibration are, and who knocks.
 struct RigHealth {
     std::optional<float> temperature_c;       ///< the hottest of its sensors; empty: it has none
     bool under_voltage = false;               ///< the computer says that its supply sags
     float captured_hz = 0, published_hz = 0;  ///< over the last seconds
     std::string calibration_id;
-    std::string calibration_date;      ///< ISO 8601; empty: not from a file
-    float calibration_row_rms_px = 0;  ///< row error after rectification, when it was made
-    std::string program_version;       ///< of the daemon, "0.2.0"; empty: it does not say
+    std::string calibration_date;           ///< ISO 8601; empty: not from a file
+    float calibration_row_rms_px = 0;       ///< row error after rectification, when it was made
+    std::string program_version;            ///< of the daemon, "0.2.0"; empty: it does not say
+    std::uint64_t refused_connections = 0;  ///< of strangers, at the rig and at relays on the way
 
     bool operator==(const RigHealth&) const = default;
 };

@@ -58,6 +58,7 @@ nlohmann::ordered_json to_json(const RigHealth& health) {
                                 {"published_hz", health.published_hz},
                                 {"temperature_c", nullptr},
                                 {"under_voltage", health.under_voltage},
+                                {"refused_connections", health.refused_connections},
                                 {"calibration", nullptr}};
     if (!health.program_version.empty()) json["version"] = health.program_version;
     if (health.temperature_c) json["temperature_c"] = *health.temperature_c;
@@ -83,6 +84,8 @@ std::string health_text(const RigHealth& health) {
                                    health.published_hz);
     if (health.temperature_c) text += fmt::format("; {:.0f} C", *health.temperature_c);
     if (health.under_voltage) text += "; UNDER-VOLTAGE: use a stronger supply or a shorter cable";
+    if (health.refused_connections > 0)
+        text += fmt::format("; refused {} connections of strangers", health.refused_connections);
     if (!health.program_version.empty()) text += "; version " + health.program_version;
     if (health.calibration_date.empty()) return text + "; no calibration file";
     return text + fmt::format("; calibrated {}, rows to {:.2f} px", health.calibration_date,

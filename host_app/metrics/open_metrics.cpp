@@ -97,6 +97,9 @@ void write_rigs(const LiveReport& report, MetricText& text) {
     text.gauge("rig_under_voltage", "1 while the rig's supply sags.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.health.under_voltage ? 1 : 0, {{"rig", rig.status.rig}});
+    text.counter("rig_refused_connections", "Of strangers, at the rig and at relays on the way.");
+    for (const RigAccount& rig : report.rigs)
+        text.sample(number(rig.status.health.refused_connections), {{"rig", rig.status.rig}});
     text.gauge("rig_clock_disciplined", "1 while PTP keeps the rig's clock, or it is this one's.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.same_clock || rig.status.sync.disciplined ? 1 : 0,

@@ -187,6 +187,8 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     EXPECT_TRUE(comes_true([&] { return second.status().rigs[0].connected; }));
     is_in_the_log("from 127.0.0.1, had not greeted as hosts do after 5 s");
     EXPECT_TRUE(comes_true([&] { return rig_->status().refused_connections == 1000; }));
+    EXPECT_TRUE(
+        comes_true([&] { return host_->status().rigs[0].health.refused_connections == 1000; }));
     strangers.clear();
     beat();
 }

@@ -35,6 +35,7 @@ LiveReport example() {
     rig.status.received = 99;
     rig.status.latency_ms = report.programme.latency_ms;
     rig.status.health.temperature_c = 61.5f;
+    rig.status.health.refused_connections = 900;
     rig.set.emplace();
     report.rigs = {rig};
     OutputState output;
@@ -95,6 +96,7 @@ TEST(OpenMetrics, SayWhatTheReportSays) {
           "vantage_exposure_to_picture_seconds_count 7\n", "vantage_coverage_ratio 0.5\n",
           "vantage_rig_frames_total{rig=\"north\",place=\"host\",result=\"received\"} 99\n",
           "vantage_rig_temperature_celsius{rig=\"north\"} 61.5\n",
+          "vantage_rig_refused_connections_total{rig=\"north\"} 900\n",
           "vantage_output_up{output=\"srt://0.0.0.0:9000\"} 1\n",
           "vantage_control_messages_total{port=\"osc://:9000\",result=\"malformed\"} 1\n",
           "renderer=\"llvm\\\"pipe\\\\\""})

@@ -101,6 +101,19 @@ TEST_F(HostLinksTest, SaysOnceWhichHostWasTooSlowForHowManyFrames) {
     EXPECT_EQ(links_.take_overrun().frames, 0u);
 }
 
+TEST_F(HostLinksTest, StrangersHereAreCountedBesideThoseOfTheRigThatIsRelayed) {
+    RigHealth health;
+    health.refused_connections = 5;
+    links_.set_health(health);
+    links_.set_refused_connections(2);
+    attach("route", 7, 2);
+    links_.ring();
+    const auto heartbeats = links_.take();
+    ASSERT_EQ(heartbeats.size(), 1u);
+    EXPECT_EQ(heartbeats[0].message.health.refused_connections, 7u);
+    EXPECT_EQ(links_.health().refused_connections, 5u);
+}
+
 TEST_F(HostLinksTest, CreditComesBackAsTheHostHandlesFrames) {
     attach("r1", 5, 1);
     offer(1, 3);

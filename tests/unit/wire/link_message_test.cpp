@@ -66,8 +66,8 @@ TEST(LinkMessage, RigMessageComesBackWhole) {
     sent.sync.ptp_state = "SLAVE";
     sent.sync.ptp_offset_ns = -12.5;
     sent.sync.rate_hz = 29.97;
-    sent.health = {61.5f,  true,   30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z",
-                   0.125f, "0.2.0"};
+    sent.health = {61.5f,  true,    30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z",
+                   0.125f, "0.2.0", 900};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
