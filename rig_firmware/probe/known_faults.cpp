@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
@@ -13,6 +14,8 @@ namespace vantage {
 namespace {
 
 constexpr const char* trigger_parameter = "/sys/module/imx296/parameters/trigger_mode";
+/// That vantage-ptp.service starts ptp4l with.
+constexpr const char* ptp_configuration = "/etc/vantage/ptp/rig.conf";
 
 // Each with the place where it was found out.
 /// raspberrypi/linux#6010: merged in March 2024.
@@ -51,6 +54,16 @@ VersionNumber version_number(const std::string& text) {
     return number;
 }
 
+bool sets_one_step(std::istream& ptp4l_configuration) {
+    bool is_one_step = false;
+    for (std::string line; std::getline(ptp4l_configuration, line);) {
+        std::istringstream words(line);
+        std::string key, value;
+        if (words >> key >> value && key == "twoStepFlag") is_one_step = value == "0";
+    }
+    return is_one_step;
+}
+
 ComputerFacts this_computer() {
     ComputerFacts facts;
     facts.model = line_of("/proc/device-tree/model");
@@ -59,6 +72,8 @@ ComputerFacts this_computer() {
     const std::string mode = line_of(trigger_parameter);
     facts.has_triggered_imx296 = !mode.empty() && mode != "0";
     facts.linuxptp_version = installed_version("linuxptp");
+    std::ifstream configuration(ptp_configuration);
+    facts.has_one_step_ptp = sets_one_step(configuration);
     return facts;
 }
 
@@ -74,7 +89,21 @@ KnownFaults known_faults(const ComputerFacts& computer) {
         known.notes.emplace_back(
             "an IMX296 that waits for pulses does so until its power was off: unloading its driver "
             "is not enough (raspberrypi/linux#5560)");
+        known.notes.emplace_back(
+            "cameras with an IMX296 that waits for pulses are known to time out "
+            "(raspberrypi/picamera2#748, raspberrypi/libcamera#56, #80)");
+        known.notes.emplace_back(
+            "an IMX296 may answer every other pulse only (raspberrypi/picamera2#783): compare the "
+            "frames with the pulses, vantage rigs status");
+        known.notes.emplace_back(
+            "two IMX296 may be a frame apart (raspberrypi/picamera2#1116), and pictures 8 to 10 ms "
+            "apart whose time stamps agree within 200 us (raspberrypi/picamera2#1107): prove it by "
+            "their pictures, vantage-calib sync");
     }
+    if (is(computer, "Raspberry Pi"))
+        known.notes.emplace_back(
+            "the processor reads a camera's dma-buf uncached on a Raspberry Pi, 20 rows in 6000 us "
+            "instead of 200 (raspberrypi/linux#5286): let the GPU import it, or copy it once");
     if (is(computer, "Raspberry Pi 4"))
         known.notes.emplace_back(
             "a Raspberry Pi 4 has no hardware time stamps, whatever ethtool lists "
@@ -83,14 +112,13 @@ KnownFaults known_faults(const ComputerFacts& computer) {
         known.notes.emplace_back(
             "a Raspberry Pi 5 stamps multicast PTP alone (raspberrypi/linux#5904): leave "
             "hybrid_e2e off");
-    if (is(computer, "Compute Module 4") &&
+    if (is(computer, "Compute Module 4") && !computer.has_one_step_ptp &&
         version_number(computer.linuxptp_version) >= two_step_default)
         known.unfit.push_back(
             fmt::format("linuxptp {} and a Compute Module 4 are in step only with twoStepFlag 0 "
-                        "(jclark/rpi-cm4-ptp-guide#33): set it in rig.conf, vantage_ptp_options: "
-                        "{{twoStepFlag: "
-                        "0}}",
-                        computer.linuxptp_version));
+                        "(jclark/rpi-cm4-ptp-guide#33): set it in {}, vantage_ptp_options: "
+                        "{{twoStepFlag: 0}}",
+                        computer.linuxptp_version, ptp_configuration));
     if (is(computer, "Compute Module 5")) {
         if (kernel >= cm5_stamps_broken)
             known.unfit.push_back(
@@ -111,6 +139,7 @@ ProbePart probe_known_faults() {
                    .facts = {{"model", computer.model},
                              {"kernel", computer.kernel_release},
                              {"linuxptp", computer.linuxptp_version},
+                             {"one_step_ptp", computer.has_one_step_ptp},
                              {"notes", known.notes}},
                    .lines = {},
                    .unfit = std::move(known.unfit)};

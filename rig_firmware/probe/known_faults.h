@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ struct ComputerFacts {
     std::string kernel_release;         ///< "6.6.20+rpt-rpi-v8"
     bool has_triggered_imx296 = false;  ///< the sensor's driver waits for pulses
     std::string linuxptp_version;       ///< of the package; empty: not there
+    bool has_one_step_ptp = false;      ///< rig.conf tells ptp4l twoStepFlag 0
 };
 ComputerFacts this_computer();
 
@@ -21,6 +23,9 @@ struct VersionNumber {
     auto operator<=>(const VersionNumber&) const = default;
 };
 VersionNumber version_number(const std::string& text);
+
+/// Whether a configuration of ptp4l sets twoStepFlag to 0: the last line that sets it holds.
+bool sets_one_step(std::istream& ptp4l_configuration);
 
 /// What is known of this very board, kernel and driver from public trackers: `unfit` spoils a rig
 /// and says the mend, `notes` are to be known.

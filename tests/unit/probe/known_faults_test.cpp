@@ -1,5 +1,8 @@
 #include "rig_firmware/probe/known_faults.h"
 
+#include <sstream>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +35,34 @@ TEST(KnownFaults, KnowsKernelsThatLoseTheEndsOfTriggeredFrames) {
     EXPECT_THAT(known_faults({pi5, "6.6.20", true, ""}).notes, Contains(HasSubstr("power")));
 }
 
+TEST(KnownFaults, TellsOfSensorsThatWaitForPulsesHowTheyFail) {
+    const std::vector<std::string> notes = known_faults({"", "6.12.1", true, ""}).notes;
+    for (const char* fault : {"time out", "picamera2#748", "libcamera#56", "#80", "picamera2#783",
+                              "a frame apart", "picamera2#1116", "picamera2#1107"})
+        EXPECT_THAT(notes, Contains(HasSubstr(fault)));
+    EXPECT_THAT(known_faults({"", "6.12.1", true, ""}).unfit, IsEmpty());
+}
+
+TEST(KnownFaults, TellsOfUncachedPicturesOnAnyRaspberryPi) {
+    for (const char* board : {"Raspberry Pi 4 Model B Rev 1.4", "Raspberry Pi 5 Model B Rev 1.0",
+                              "Raspberry Pi Compute Module 4 Rev 1.0"})
+        EXPECT_THAT(known_faults({board, "6.12.1", false, ""}).notes,
+                    Contains(HasSubstr("raspberrypi/linux#5286")))
+            << board;
+}
+
+TEST(KnownFaults, ReadsWhetherPtpIsToldToTakeOneStep) {
+    const auto one_step = [](const char* text) {
+        std::istringstream configuration(text);
+        return sets_one_step(configuration);
+    };
+    EXPECT_TRUE(one_step("[global]\ntwoStepFlag             0\nslaveOnly 1\n"));
+    EXPECT_TRUE(one_step("twoStepFlag 1\n  twoStepFlag\t0 # late\n"));
+    EXPECT_FALSE(one_step("twoStepFlag 0\ntwoStepFlag 1\n"));
+    EXPECT_FALSE(one_step("# twoStepFlag 0\n#twoStepFlag 0\n"));
+    EXPECT_FALSE(one_step(""));
+}
+
 TEST(KnownFaults, KnowsWhatBoardsStampPacketsWith) {
     EXPECT_THAT(known_faults({"Raspberry Pi 4 Model B Rev 1.4", "6.12.1", false, ""}).notes,
                 Contains(HasSubstr("rig-software.conf")));
@@ -40,6 +71,8 @@ TEST(KnownFaults, KnowsWhatBoardsStampPacketsWith) {
     const std::string cm4 = "Raspberry Pi Compute Module 4 Rev 1.0";
     EXPECT_THAT(known_faults({cm4, "6.12.1", false, "4.2-1"}).unfit,
                 Contains(HasSubstr("twoStepFlag")));
+    EXPECT_THAT(known_faults({cm4, "6.12.1", false, "4.2-1", true}).unfit, IsEmpty())
+        << "it is set already";
     EXPECT_THAT(known_faults({cm4, "6.12.1", false, "3.1.1-4"}).unfit, IsEmpty());
     const std::string cm5 = "Raspberry Pi Compute Module 5 Rev 1.0";
     EXPECT_THAT(known_faults({cm5, "6.12.25", false, ""}).unfit, Contains(HasSubstr("kernel 6.6")));
