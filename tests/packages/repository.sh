@@ -59,7 +59,7 @@ refuses() { # words command...
   cd "$build"
   cpack -B "$work/first" >"$work/cpack.log" 2>&1
   version=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
-  cpack -B "$work/next" -D CPACK_COMPONENTS_ALL=rig -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
+  cpack -B "$work/next" -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
 ) || { tail -20 "$work/cpack.log" >&2; exit 1; }
 first=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
 mkdir -m 700 "$GNUPGHOME"
@@ -93,10 +93,13 @@ printf 'Types: deb\nURIs: file:///repository\nSuites: %s\nComponents: main\nSign
 check "apt takes it by its key" apt_get update
 options=()
 [ "$codename" != bookworm ] || options=(-t bookworm-backports)
-check "apt installs all three from it" apt_get install "${options[@]}" vantage-rig vantage vantage-calib
-for program in vantage-rig vantage vantage-calib; do
-  check "$program runs" inside $program --version
-done
+packages=(vantage-rig vantage vantage-calib)
+check "apt installs all three from it" apt_get install "${options[@]}" "${packages[@]}"
+all_run() { # Named as their packages are.
+  local program
+  for program in "${packages[@]}"; do inside $program --version || return 1; done
+}
+check "their programs run" all_run
 # Whoever installs the packages can play the demo.
 "${as_root[@]}" mount --bind /proc "$root/proc"
 "${as_root[@]}" mount --bind /dev "$root/dev"
@@ -112,17 +115,24 @@ kept() {
   inside sh -c 'grep -q "own line" /etc/vantage/rig.toml && test -s /etc/vantage/calibration.yaml &&
     test -s /var/lib/vantage/takes/take.mkv && test "$(stat -c "%U %G %a" /etc/vantage/rig.key)" = "root vantage 640"'
 }
-version_is() { test "$(inside dpkg-query -W -f '${Version}' vantage-rig)" = "$1"; }
-check "a newer package is added" repository "$work"/next/*.deb
-check "apt sees it" apt_get update
-check "and upgrades to it" apt_get upgrade
-check "in its version" version_is "$first+1"
+version_is() { # all three packages'
+  local package
+  for package in "${packages[@]}"; do
+    test "$(inside dpkg-query -W -f '${Version}' $package)" = "$1" || return 1
+  done
+}
+check "newer packages are added" repository "$work"/next/*.deb
+check "apt sees them" apt_get update
+check "and upgrades to them" apt_get upgrade
+check "all in their version" version_is "$first+1"
+check "their programs run" all_run
 check "configuration, key, calibration and take are kept" kept
-check "apt goes back to the one before" apt_get install --allow-downgrades "vantage-rig=$first"
-check "in its version" version_is "$first"
+check "apt goes back to those before" apt_get install --allow-downgrades "${packages[@]/%/=$first}"
+check "all in their version" version_is "$first"
+check "their programs run" all_run
 check "configuration, key, calibration and take are kept" kept
 
-check "all is purged" apt_get purge vantage-rig vantage vantage-calib
+check "all is purged" apt_get purge "${packages[@]}"
 check "with configuration and keys" not inside test -e /etc/vantage
 check "but never a take" inside test -s /var/lib/vantage/takes/take.mkv
 check "which is still the service's" inside test "$(inside stat -c %U /var/lib/vantage/takes/take.mkv)" = vantage
