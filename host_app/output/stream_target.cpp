@@ -117,6 +117,9 @@ void StreamTarget::write(AVPacket& packet, const AVCodecContext& encoder, const 
 }
 
 EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format) {
+    if (format.width_px % 2 != 0 || format.height_px % 2 != 0)
+        fail("the output {}: a stream of {}x{} cannot be sent: its sides have to be even",
+             url.shown, format.width_px, format.height_px);
     // 4.6 Mbit/s at 1280x720 and 50 Hz, 10.4 at 1920x1080: what contribution links carry.
     constexpr double bits_a_pixel = 0.1, least_bps = 500e3;
     const double usual_bps =

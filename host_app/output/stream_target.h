@@ -45,7 +45,7 @@ class StreamTarget final : public OutputTarget {
 };
 
 /// What every stream of a programme is encoded with: a constant bit rate, by the option `bitrate`
-/// or one that suits the size.
+/// or one that suits the size. Throws Error for an odd size, which H.264 at 4:2:0 has not.
 EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format);
 
 }  // namespace vantage
