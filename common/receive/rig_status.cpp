@@ -1,5 +1,6 @@
 #include "common/receive/rig_status.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,27 @@
 #include "common/base/pulse_grid.h"
 
 namespace vantage {
+namespace {
+
+std::string trouble_of_link(const RigStatus& rig) {
+    if (!rig.refused.empty()) return rig.refused;
+    if (rig.connected) return {};
+    return rig.unreachable.empty() ? fmt::format("nothing was heard from {}", rig.endpoint)
+                                   : rig.unreachable;
+}
+
+std::string trouble_of_pulses(const RigStatus& rig) {
+    if (rig.is_out_of_step)
+        return "it counts pulses differently from the rest of the stage: is its clock set?";
+    if (rig.lags)
+        return "its frames come beyond the latency budget, and nobody waits for them: is its clock "
+               "set, is its network slow?";
+    if (rig.unsynchronized > 0 && rig.in_sets == 0)
+        return "its pictures name no pulse of the stage: give it a trigger";
+    return {};
+}
+
+}  // namespace
 
 std::string clock_text(const RigStatus& rig) {
     if (rig.same_clock) return "this computer's clock";
@@ -53,19 +75,17 @@ std::string rate_worry(const RigStatus& rig) {
 }
 
 std::string trouble_of(const RigStatus& rig) {
-    if (!rig.refused.empty()) return rig.refused;
-    if (!rig.connected)
-        return rig.unreachable.empty() ? fmt::format("nothing was heard from {}", rig.endpoint)
-                                       : rig.unreachable;
-    if (std::string worry = rate_worry(rig); !worry.empty()) return worry;
-    if (rig.is_out_of_step)
-        return "it counts pulses differently from the rest of the stage: is its clock set?";
-    if (rig.lags)
-        return "its frames come beyond the latency budget, and nobody waits for them: is its clock "
-               "set, is its network slow?";
-    if (rig.unsynchronized > 0 && rig.in_sets == 0)
-        return "its pictures name no pulse of the stage: give it a trigger";
-    return {};
+    for (std::string trouble : {trouble_of_link(rig), rate_worry(rig)})
+        if (!trouble.empty()) return trouble;
+    return trouble_of_pulses(rig);
+}
+
+bool gives_pictures(const RigStatus& rig, const std::vector<RigStatus>& rigs) {
+    if (!trouble_of_link(rig).empty() || !trouble_of_pulses(rig).empty()) return false;
+    return rate_worry(rig).empty() ||
+           std::none_of(rigs.begin(), rigs.end(), [](const RigStatus& other) {
+               return trouble_of(other).empty() && other.health.published_hz > 0;
+           });
 }
 
 }  // namespace vantage

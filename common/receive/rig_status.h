@@ -88,4 +88,9 @@ std::string rate_worry(const RigStatus& rig);
 /// reached, it is silent, its pulses are others. Empty for a rig that gives.
 std::string trouble_of(const RigStatus& rig);
 
+/// Whether what the rig films comes into sets, as far as this host knows of the rigs of its stage:
+/// nothing is wrong with it, or no more than its rate while no rig at the stage's films (see
+/// StageStep).
+bool gives_pictures(const RigStatus& rig, const std::vector<RigStatus>& rigs);
+
 }  // namespace vantage

@@ -7,8 +7,9 @@ namespace vantage {
 SignalState signal_state(const ReceiverStatus& status, bool held, std::chrono::nanoseconds period,
                          MonotonicTime now) {
     if (held) return SignalState::hold;
-    const bool any_rig = std::any_of(status.rigs.begin(), status.rigs.end(),
-                                     [](const RigStatus& rig) { return rig.connected; });
+    const bool any_rig =
+        std::any_of(status.rigs.begin(), status.rigs.end(),
+                    [&](const RigStatus& rig) { return gives_pictures(rig, status.rigs); });
     if (!any_rig || !status.newest_set) return SignalState::no_signal;
     const std::chrono::nanoseconds age = now - *status.newest_set;
     if (age > period + no_signal_after) return SignalState::no_signal;

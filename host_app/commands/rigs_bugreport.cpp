@@ -148,7 +148,7 @@ void run(const ReportOptions& options) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
     std::size_t answered = 0;
     for (const RigStatus& rig : status.rigs) {
-        rigs.push_back(to_json(rig));
+        rigs.push_back(to_json(rig, status.rigs));
         answered += rig.connected;
     }
     const SyncProof proof = sync_proof_of(options.stage);

@@ -48,8 +48,10 @@ struct RigsOptions {
 
 /// Of the stage as a whole. Onlookers get no pictures, so there is nothing to be stale.
 SignalState signal_of(const ReceiverStatus& status) {
-    return std::any_of(status.rigs.begin(), status.rigs.end(), delivers) ? SignalState::live
-                                                                         : SignalState::no_signal;
+    const bool any_rig =
+        std::any_of(status.rigs.begin(), status.rigs.end(),
+                    [&](const RigStatus& rig) { return delivers(rig, status.rigs); });
+    return any_rig ? SignalState::live : SignalState::no_signal;
 }
 
 void print(const ReceiverStatus& status, const std::string& synchronisation) {
@@ -79,7 +81,7 @@ void run(const RigsOptions& options) {
     const auto now = std::chrono::system_clock::now();
     if (options.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
-        for (const RigStatus& rig : status.rigs) all.push_back(to_json(rig));
+        for (const RigStatus& rig : status.rigs) all.push_back(to_json(rig, status.rigs));
         std::cout << nlohmann::ordered_json{{"signal", key_of(signal_of(status))},
                                             {"sync_proof", to_json(proof, now)},
                                             {"rigs", all}}

@@ -14,7 +14,7 @@ ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until,
     StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
     const auto has_answered = [&](const RigStatus& rig) {
         if (until == LookUntil::all_send && rig.connected)
-            return delivers(rig) || waits_for_a_host(rig) || !trouble_of(rig).empty();
+            return rig.health.published_hz > 0 || waits_for_a_host(rig) || !trouble_of(rig).empty();
         return rig.connected || (until != LookUntil::all_connected && !rig.refused.empty());
     };
     const MonotonicTime end = MonotonicClock::now() + from_s(wait_s);
@@ -25,14 +25,14 @@ ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until,
     return receiver.status();
 }
 
-nlohmann::ordered_json to_json(const RigStatus& rig) {
+nlohmann::ordered_json to_json(const RigStatus& rig, const std::vector<RigStatus>& rigs) {
     nlohmann::ordered_json json{{"name", rig.rig},
                                 {"endpoint", rig.endpoint},
                                 {"connected", rig.connected},
                                 {"state", state_of(rig)}};
     if (const std::string trouble = trouble_of(rig); !trouble.empty()) json["trouble"] = trouble;
     if (const std::string silence = silence_of(rig); !silence.empty()) json["silence"] = silence;
-    json["delivers"] = delivers(rig);
+    json["delivers"] = delivers(rig, rigs);
     json["clock"] = clock_text(rig);
     json["same_clock"] = rig.same_clock;
     json["sync"] = to_json(rig.sync);

@@ -18,7 +18,7 @@ enum class LookUntil {
 /// not asked for.
 ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop);
 
-/// For machines.
-nlohmann::ordered_json to_json(const RigStatus& rig);
+/// One of these rigs, for machines.
+nlohmann::ordered_json to_json(const RigStatus& rig, const std::vector<RigStatus>& rigs);
 
 }  // namespace vantage

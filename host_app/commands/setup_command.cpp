@@ -208,7 +208,7 @@ void check(const Session& session) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), lacks = rigs;
     std::string words = fmt::format("\nThe rigs of {}:\n", file);
     for (const RigStatus& rig : status.rigs) {
-        rigs.push_back(to_json(rig));
+        rigs.push_back(to_json(rig, status.rigs));
         words += rig.connected
                      ? fmt::format("{}: connected, {:g} Hz; {}; {}\n", rig.rig, rig.sync.rate_hz,
                                    clock_text(rig), health_text(rig.health))

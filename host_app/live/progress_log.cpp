@@ -19,7 +19,7 @@ void ProgressLog::tell(const LiveShow& show) {
     last_ = now;
     int giving = 0;
     const ReceiverStatus status = show.status();
-    for (const RigStatus& rig : status.rigs) giving += trouble_of(rig).empty();
+    for (const RigStatus& rig : status.rigs) giving += gives_pictures(rig, status.rigs);
     const ProgrammeBooks books = show.books();
     const InstantThread::Books instants = show.instant_books();
     const ProgrammeState state = show.state();

@@ -2,8 +2,8 @@
 
 namespace vantage {
 
-bool delivers(const RigStatus& rig) {
-    return trouble_of(rig).empty() && rig.health.published_hz > 0;
+bool delivers(const RigStatus& rig, const std::vector<RigStatus>& rigs) {
+    return gives_pictures(rig, rigs) && rig.health.published_hz > 0;
 }
 
 bool waits_for_a_host(const RigStatus& rig) {
@@ -12,7 +12,7 @@ bool waits_for_a_host(const RigStatus& rig) {
 }
 
 std::string silence_of(const RigStatus& rig) {
-    if (!trouble_of(rig).empty() || delivers(rig)) return {};
+    if (!trouble_of(rig).empty() || rig.health.published_hz > 0) return {};
     if (waits_for_a_host(rig))
         return "it is connected and sends nothing: it is armed, and films once a host runs the "
                "stage (vantage live)";

@@ -17,7 +17,7 @@ RigStatus quiet_rig() {
 
 TEST(RigSilence, IsThatOfARigWhoseCamerasDeliverNothing) {
     const RigStatus rig = quiet_rig();
-    EXPECT_FALSE(delivers(rig));
+    EXPECT_FALSE(delivers(rig, {rig}));
     EXPECT_THAT(silence_of(rig), HasSubstr("its cameras deliver nothing"));
 }
 
@@ -44,7 +44,7 @@ TEST(RigSilence, OfAnArmedRigSaysThatAHostHasToStart) {
 TEST(RigSilence, IsNotOfARigThatSendsOrHasAnotherTrouble) {
     RigStatus rig = quiet_rig();
     rig.health.published_hz = 5;
-    EXPECT_TRUE(delivers(rig));
+    EXPECT_TRUE(delivers(rig, {rig}));
     EXPECT_EQ(silence_of(rig), "");
     rig = quiet_rig();
     rig.connected = false;

@@ -134,6 +134,29 @@ TEST_F(RigTroubles, NameARigAtAnotherRate) {
     EXPECT_EQ(rigs[1]["sync"]["rate_hz"], 5);
 }
 
+TEST_F(RigTroubles, OfARateThatAllShareLeaveASignal) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const auto north = start_rig("north", ports_.first, 4);
+    const auto south = start_rig("south", ports_.second, 4);
+    wait_for(*north, "publishing on");
+    wait_for(*south, "publishing on");
+    ChildProgram host(VANTAGE_PROGRAM,
+                      {"live", "--stage", file("stage.toml"), "--headless", "--json", "--seconds",
+                       "600", "--wait", "60"},
+                      folder_.path());
+    wait_for(host, " 2 of 2 rigs");
+    const ProgramResult looked = status(60, true);
+    EXPECT_EQ(looked.status, 1);
+    EXPECT_THAT(looked.err, HasSubstr("north: it runs at 4 Hz and the stage at 5 Hz"));
+    const nlohmann::json told = nlohmann::json::parse(looked.out);
+    EXPECT_EQ(told["signal"], "live");
+    for (const nlohmann::json& rig : told["rigs"]) EXPECT_TRUE(rig["delivers"]) << rig;
+    host.send_signal(SIGINT);
+    const ProgramResult result = host.wait();
+    EXPECT_EQ(nlohmann::json::parse(result.out)["signal"], "live") << result.err;
+    EXPECT_THAT(result.err, HasSubstr(" 2 of 2 rigs"));
+}
+
 TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     auto north = start_rig("north", ports_.first, 5);

@@ -59,5 +59,32 @@ TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
     EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
 }
 
+TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {
+    const RigStatus good = good_rig();
+    EXPECT_TRUE(gives_pictures(good, {good}));
+    RigStatus rig = good;
+    rig.connected = false;
+    EXPECT_FALSE(gives_pictures(rig, {rig, good}));
+    rig = good;
+    rig.is_out_of_step = true;
+    EXPECT_FALSE(gives_pictures(rig, {rig, good}));
+    rig = good;
+    rig.lags = true;
+    EXPECT_FALSE(gives_pictures(rig, {rig, good}));
+}
+
+TEST(RigStatus, ARigAtAnotherRateGivesPicturesWhileNoneAtTheStagesFilms) {
+    RigStatus other = good_rig();
+    other.sync.rate_hz = 5;
+    EXPECT_TRUE(gives_pictures(other, {other, other}));
+    RigStatus good = good_rig();
+    EXPECT_TRUE(gives_pictures(other, {other, good})) << "it is connected and films nothing";
+    good.health.published_hz = 25;
+    EXPECT_FALSE(gives_pictures(other, {other, good}));
+    EXPECT_TRUE(gives_pictures(good, {other, good}));
+    other.is_out_of_step = true;
+    EXPECT_FALSE(gives_pictures(other, {other, other})) << "not even with the other rigs";
+}
+
 }  // namespace
 }  // namespace vantage

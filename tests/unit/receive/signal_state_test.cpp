@@ -44,6 +44,13 @@ TEST(SignalState, WithoutARigThereIsNone) {
     EXPECT_EQ(state_of(status), SignalState::no_signal);
 }
 
+TEST(SignalState, WhereEveryRigIsAtAnotherRateItIsOneAllTheSame) {
+    ReceiverStatus status = stage_with_a_set_of(10ms);
+    status.rigs[1].stage_rate_hz = 10;
+    status.rigs[1].sync.rate_hz = 5;
+    EXPECT_EQ(state_of(status), SignalState::live);
+}
+
 TEST(SignalState, BeforeTheFirstSetThereIsNone) {
     ReceiverStatus status = stage_with_a_set_of(0ms);
     status.newest_set.reset();
