@@ -200,11 +200,11 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     state_.repeat_rate_hz = repeat_rate_.per_second();
     state_.repeated = report.programme.repeated;
     state_.age_s = live_age_s(programme);
-    // What never was live is not from an exposure to a picture.
-    const bool is_live = !programme.time.pulse && !programme.time.is_held;
+    state_.signal = report.signal;
+    // What is not live is not from an exposure to a picture.
+    const bool is_live = report.signal == SignalState::live;
     state_.latency_ms = latencies_ms_.empty() || !is_live ? 0 : latencies_ms_.back();
     state_.latencies_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
-    state_.signal = report.signal;
     state_.sources = sources_of(programme);
     state_.sound = report.sound ? std::optional(desk_sound(*report.sound)) : std::nullopt;
     state_.outputs.clear();
@@ -360,8 +360,11 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.wheel = lines.wheel;
     state_.wheel_map = desk_wheel(show.controls().wheels().view(now));
     state_.has_unsaved_wheel = !show.controls().wheels().unsaved().empty();
-    state_.coverage = lines.corridor.now;
+    // Rigs that give no pictures cover nothing.
+    const bool is_covered = state_.signal != SignalState::no_signal;
+    state_.coverage = is_covered ? lines.corridor.now : std::nullopt;
     follow_preview(lines, programme);
+    if (state_.preview && !is_covered) state_.preview->coverage.reset();
     follow_plan(show, programme, now);
     follow_shots(show, programme, now);
     return state_;

@@ -172,6 +172,8 @@ void LiveShow::start() {
 }
 
 void LiveShow::finish() {
+    // Before the outputs are ended, which takes its time.
+    last_signal_ = signal();
     programme_.stop();
     outputs_.finish();
     last_status_ = instants_.close();
@@ -237,7 +239,7 @@ LiveReport LiveShow::report() const {
     report.synthesiser = state.synthesiser;
     report.view = state.view;
     report.renderer = renderer_;
-    report.signal = signal_of(status, state);
+    report.signal = last_signal_.value_or(signal_of(status, state));
     report.time = state.time;
     report.replay = state.replay;
     report.past = state.past;

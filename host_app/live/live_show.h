@@ -87,6 +87,8 @@ class LiveShow {
     ProgrammeBooks books() const { return programme_.books(); }
     InstantThread::Books instant_books() const { return instants_.books(); }
     ReceiverStatus status() const { return instants_.status(); }
+    /// Of now; after finish(), as it was when that began.
+    SignalState signal() const { return last_signal_.value_or(signal_of(status(), state())); }
     std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
     /// As InstantThread's.
     void learn_set_anew() { instants_.learn_set_anew(); }
@@ -110,6 +112,7 @@ class LiveShow {
     Programme programme_;
     std::optional<MonotonicTime> framing_since_;  ///< of the programme's thread
     std::optional<ReceiverStatus> last_status_;
+    std::optional<SignalState> last_signal_;
 };
 
 }  // namespace vantage

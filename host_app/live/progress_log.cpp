@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "common/base/log.h"
 
 namespace vantage {
@@ -12,9 +14,12 @@ constexpr std::chrono::seconds telling_period{2};
 }  // namespace
 
 void ProgressLog::tell(const LiveShow& show) {
+    if (MonotonicClock::now() - last_ >= telling_period) log_info("{}", line(show));
+}
+
+std::string ProgressLog::line(const LiveShow& show) {
     constexpr double deg = 180 / std::numbers::pi;
     const MonotonicTime now = MonotonicClock::now();
-    if (now - last_ < telling_period) return;
     const double elapsed_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
     int giving = 0;
@@ -23,16 +28,24 @@ void ProgressLog::tell(const LiveShow& show) {
     const ProgrammeBooks books = show.books();
     const InstantThread::Books instants = show.instant_books();
     const ProgrammeState state = show.state();
-    log_info(
+    // What is of no now has no signal, and was exposed long ago.
+    const SignalState signal = show.signal();
+    std::string now_words;
+    if (!show.settings().take && signal != SignalState::live)
+        now_words = fmt::format(", {}", title_of(signal));
+    else if (!show.settings().take && state.latency_ms > 0)
+        now_words = fmt::format(", {:.0f} ms from exposure to picture", state.latency_ms);
+    std::string line = fmt::format(
         "{}{} pictures, {:.1f} a second, {} ticks repeated, {:.1f} instants a second, {} of {} "
-        "rigs, {:.0f} ms from exposure to picture, levels {}/{}, camera at azimuth {:.1f} degrees",
+        "rigs{}, levels {}/{}, camera at azimuth {:.1f} degrees",
         books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
         static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
         static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
-        state.latency_ms, state.render_level, state.prepare_level, state.view.azimuth_rad * deg);
+        now_words, state.render_level, state.prepare_level, state.view.azimuth_rad * deg);
     pictures_ = books.pictures;
     repeated_ = books.repeated;
     instants_ = instants.prepared;
+    return line;
 }
 
 }  // namespace vantage

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "common/base/time.h"
 #include "host_app/flight/flight_plan.h"
 #include "host_app/live/live_show.h"
@@ -13,6 +15,8 @@ class ProgressLog {
 
     /// To be called often.
     void tell(const LiveShow& show);
+    /// That line, of what has passed since the last one.
+    std::string line(const LiveShow& show);
 
   private:
     std::optional<std::uint64_t> frames_;

@@ -70,10 +70,14 @@ TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
     ASSERT_TRUE(steered.send("/vantage/source_map"));
     ASSERT_TRUE(steered.is_told("lamp/source_map i 1")) << "the turn was taken in a step before";
     ASSERT_TRUE(steered.send("/vantage/record"));
-    for (int i = 0; i < 3000 && steered.show().err().find("is a move of") == std::string::npos; ++i)
-        usleep(20'000);
+    for (const char* words : {"is a move of", " pictures, "})
+        for (int i = 0; i < 3000 && steered.show().err().find(words) == std::string::npos; ++i)
+            usleep(20'000);
     steered.show().send_signal(SIGINT);
     EXPECT_EQ(steered.show().wait().status, 130) << steered.show().err();
+    EXPECT_NE(steered.show().err().find(" pictures, "), std::string::npos);
+    EXPECT_EQ(steered.show().err().find("exposure"), std::string::npos)
+        << "a take has no latency: " << steered.show().err();
     const FlightBook book = load_flight(flight);
     ASSERT_TRUE(book.move);
     EXPECT_TRUE(book.move->take_s_at(0));

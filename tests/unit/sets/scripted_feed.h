@@ -38,6 +38,7 @@ class ScriptedFeed {
             const std::lock_guard lock(mutex_);
             ++status_.sets;
             status_.complete_sets += set.present() == static_cast<int>(set.slots.size());
+            status_.newest_set = MonotonicClock::now();
         }
         queue_.push(set);
     }
