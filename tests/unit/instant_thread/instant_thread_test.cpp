@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/gl/context_group.h"
 #include "common/gl/sliced_drawing.h"
+#include "host_app/instants/rig_demand.h"
 #include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
@@ -237,6 +238,53 @@ TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
     ASSERT_TRUE(wait_for_pulse(1));
     EXPECT_FALSE(thread_->newest()->is_live);
     EXPECT_EQ(thread_->books().prepared, 3u);
+}
+
+TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
+    ScriptedFeed many{{"1", "2", "3", "4", "5", "6"}};
+    StageFeed feed = many.feed();
+    std::atomic<int> asks = 0;
+    feed.ask = [&](const std::string&, bool) { ++asks; };
+    InstantThread thread({.pulse_rate_hz = 10, .replay_bytes = 100'000'000}, feed, contexts_);
+    thread.prepare_for("ordered", [this](const ShaderLibrary&) {
+        return std::make_unique<OrderedPreparer>(orders_);
+    });
+    InstantWish wish;
+    wish.target.width_px = 64;
+    wish.target.height_px = 48;
+    wish.target.K << 40, 0, 31.5, 0, 40, 23.5, 0, 0, 1;
+    wish.target.world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
+    const auto shows = [&](std::uint64_t pulse) {
+        return wait_for([&] {
+            const auto newest = thread.newest();
+            return newest && newest->set->trigger_index == pulse;
+        });
+    };
+    const auto push_all = [&](std::uint64_t pulse) {
+        many.push(many.set(pulse, {"1", "2", "3", "4", "5", "6"}));
+    };
+    thread.wish(wish);
+    for (const std::uint64_t pulse : {1, 2}) {
+        push_all(pulse);
+        ASSERT_TRUE(shows(pulse));
+    }
+    // The sixth is one more than the camera needs, and would be asked to stop a while later.
+    static_assert(RigDemand::most_rigs == 5);
+    wish.is_held = true;
+    thread.wish(wish);
+    push_all(3);
+    std::this_thread::sleep_for(RigDemand::hold + 100ms);
+    wish.is_held = false;
+    for (const double pulse : {1, 2, 1}) {
+        wish.pulse = pulse;
+        thread.wish(wish);
+        ASSERT_TRUE(shows(static_cast<std::uint64_t>(pulse)));
+    }
+    EXPECT_EQ(asks, 0);
+    wish.pulse.reset();
+    thread.wish(wish);
+    push_all(4);
+    EXPECT_TRUE(wait_for([&] { return asks == 1; })) << "live it is";
 }
 
 TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
