@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/base/atomic_file.h"
 #include "common/base/child_process.h"
@@ -122,6 +123,18 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
     return live;
 }
 
+/// A demo keeps what the last one wrote in its folder no longer than until it writes the same.
+void tell_what_is_replaced(const LiveOptions& live) {
+    std::vector<std::string> old;
+    for (const std::string& file : {live.show.film, live.show.contact_sheet, live.show.snapshot})
+        if (!file.empty() && std::filesystem::exists(file))
+            old.push_back(std::filesystem::path(file).filename().string());
+    if (!old.empty())
+        log_warning("in {} this flight replaces {}; --folder names another place",
+                    std::filesystem::path(live.show.film).parent_path().string(),
+                    fmt::join(old, ", "));
+}
+
 bool has_display() {
     for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
         if (const char* value = std::getenv(name); value && *value) return true;
@@ -183,6 +196,7 @@ void demo(DemoOptions options) {
     const bool flies = options.rig.empty() || options.headless;
     LiveOptions live = live_options(options, folder, stage, size.rate, move_file);
     if (!flies) live.show.path.clear();
+    tell_what_is_replaced(live);
     run_live_session(live);
     if (options.headless && !options.json)
         fmt::print("\nThe flight:        {}\nIts contact sheet: {}\n", live.show.film,
@@ -222,7 +236,8 @@ CommandEntry demo_command_entry() {
             ->needs(rig);
         command
             ->add_option("--folder", options->folder,
-                         "Where films, takes, logs and the demo's keys go")
+                         "Where films, takes, logs and the demo's keys go; films and pictures of a "
+                         "demo before are replaced")
             ->capture_default_str();
         command
             ->add_flag("--sweep", options->sweep,

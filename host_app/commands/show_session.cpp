@@ -115,7 +115,7 @@ FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights
     if (frames > 0) plan.frames = frames;
     if (seconds > 0) plan.seconds = seconds;
     for (const std::string& picture : {snapshot, contact_sheet})
-        if (!picture.empty()) require_picture_target(picture);
+        if (!picture.empty()) require_picture_target(picture, overwrite);
     return plan;
 }
 
@@ -207,7 +207,8 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
         .add_option("--synth", synthesiser,
                     "Synthesiser (default: " + default_rate + "; see render --help)")
         ->type_name(synthesisers_type_name());
-    command.add_flag("--overwrite", overwrite, "Let films replace files that are there");
+    command.add_flag("--overwrite", overwrite,
+                     "Let films and pictures replace files that are there");
     command.add_flag_callback(
         "--no-harmonise", [this] { harmonise = false; },
         "Leave the rigs' colours as the calibration makes them; without this, small gains take out "

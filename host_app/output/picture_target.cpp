@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-void require_picture_target(const std::filesystem::path& path) {
+void require_picture_target(const std::filesystem::path& path, bool may_replace) {
     const std::string extension = path.extension().string();
     if (extension != ".png" && extension != ".jpg")
         fail("cannot write {}: a picture is a .png or .jpg file, not '{}'", path.string(),
@@ -17,6 +17,11 @@ void require_picture_target(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
         fail("cannot write {}: it is a folder", path.string());
+    if (!may_replace && std::filesystem::exists(path, ignored))
+        fail(
+            "{} is there already, and a picture is not replaced without being asked: take another "
+            "name, or --overwrite",
+            path.string());
     const std::filesystem::path folder =
         path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     if (access(folder.c_str(), W_OK) != 0)

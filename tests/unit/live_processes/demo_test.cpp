@@ -41,6 +41,9 @@ class Demo : public testing::Test {
 };
 
 TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
+    // Of a demo before.
+    std::filesystem::create_directory(file("out"));
+    write_colour_image(file("out/contact_sheet.png"), ColourImage(1, 1));
     const ProgramResult result = run_to_end(
         VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("right.png"), "--headless",
                           "--seconds", "2", "--folder", file("out"), "--json"});
@@ -49,7 +52,9 @@ TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
     EXPECT_GE(summary["new_pictures"], 5);
     EXPECT_EQ(summary["signal"], "live");
     EXPECT_TRUE(std::filesystem::exists(file("out/flight.mkv")));
-    EXPECT_FALSE(read_colour_image(file("out/contact_sheet.png")).empty());
+    EXPECT_GT(read_colour_image(file("out/contact_sheet.png")).cols, 1);
+    EXPECT_NE(result.err.find("this flight replaces contact_sheet.png; "), std::string::npos)
+        << result.err;
 }
 
 TEST_F(Demo, RigsEndWithItHoweverItEnds) {

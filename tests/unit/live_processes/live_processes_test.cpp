@@ -73,8 +73,9 @@ class LiveProcesses : public testing::Test {
 TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     start_rig("left", -12);
     start_rig("right", 12);
+    write_colour_image(file("last.png"), ColourImage(1, 1));
     const auto host = start_host({"--frames", "10", "--snapshot", file("last.png"), "--record",
-                                  file("flight.mkv"), "--json", "--wait", "60"});
+                                  file("flight.mkv"), "--json", "--wait", "60", "--overwrite"});
     ASSERT_EQ(host->wait().status, 0) << host->err() << rigs_[0]->err();
     const nlohmann::json summary = nlohmann::json::parse(host->out());
     EXPECT_GE(summary["pictures"], 10);
@@ -231,10 +232,13 @@ TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigCome
 }
 
 TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
+    write_colour_image(file("there.png"), ColourImage(1, 1));
     const struct {
         std::vector<std::string> options;
         std::string reason;
-    } cases[] = {{{"--synth", "hologram"}, "hologram"},
+    } cases[] = {{{"--snapshot", file("there.png")}, "there.png is there already"},
+                 {{"--contact-sheet", file("there.png")}, "--overwrite"},
+                 {{"--synth", "hologram"}, "hologram"},
                  {{"--size", "12x80000"}, "12x80000"},
                  {{"--snapshot", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
                  {{"--record", file("film.avi")}, ".mkv"},
@@ -253,6 +257,7 @@ TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
         EXPECT_EQ(host->wait().status, 1) << c.options[0];
         EXPECT_NE(host->err().find(c.reason), std::string::npos) << host->err();
     }
+    EXPECT_EQ(read_colour_image(file("there.png")).size(), cv::Size(1, 1));
 }
 
 TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
