@@ -71,6 +71,12 @@ int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& comm
         std::cout.flush();
         if (!std::cout) fail("standard output could not be written");
         return StopSignal::was_interrupted() ? interrupted : 0;
+    } catch (const CLI::CallForHelp& help) {
+        // The parser has help for a command before it looks whether there is one.
+        const std::string sentence = unknown_command_sentence(program, words);
+        if (sentence.empty()) return program.exit(help);
+        say_error(sentence);
+        return words_do_not_fit;
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {

@@ -67,13 +67,20 @@ std::string unknown_option(const Place& place, const std::vector<std::string>& w
 
 }  // namespace
 
+std::string unknown_command_sentence(const CLI::App& program,
+                                     const std::vector<std::string>& words) {
+    const Place place = place_of(program, words);
+    if (place.unknown.empty()) return "";
+    return fmt::format("{} has no command '{}'; {}; {} --help says what they do", place.name,
+                       place.unknown, suggest_name(place.unknown, command_names(*place.command)),
+                       place.name);
+}
+
 std::string misfit_sentence(const CLI::App& program, const std::vector<std::string>& words,
                             const std::string& complaint) {
+    if (std::string sentence = unknown_command_sentence(program, words); !sentence.empty())
+        return sentence;
     const Place place = place_of(program, words);
-    if (!place.unknown.empty())
-        return fmt::format("{} has no command '{}'; {}; {} --help says what they do", place.name,
-                           place.unknown,
-                           suggest_name(place.unknown, command_names(*place.command)), place.name);
     const std::string option = unknown_option(place, words);
     if (option.empty()) return fmt::format("{}; {} --help lists what fits", complaint, place.name);
     const std::string nearest = nearest_name(option, option_names(*place.command));

@@ -15,4 +15,8 @@ namespace vantage {
 std::string misfit_sentence(const CLI::App& program, const std::vector<std::string>& words,
                             const std::string& complaint);
 
+/// The same where a word stands for no command, whatever else is right; empty: all do.
+std::string unknown_command_sentence(const CLI::App& program,
+                                     const std::vector<std::string>& words);
+
 }  // namespace vantage

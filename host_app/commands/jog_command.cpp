@@ -17,6 +17,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/stop_signal.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/control/hid/jog_deck.h"
 #include "host_app/control/hid/simulated_xpress.h"
 #include "host_app/control/hid/uhid_wheel.h"
@@ -271,9 +272,9 @@ CommandEntry jog_command_entry() {
         CLI::App* jog = program.add_subcommand("jog", "Jog wheels and their like");
         jog->require_subcommand(1);
         const auto add_common = [&](CLI::App* command) {
-            command->add_option("--wheels", options->wheels,
-                                "Wheels beyond the built-in ones: a file like those in "
-                                "hw_config/jog, or a folder of them (TOML)");
+            command->add_option(
+                "--wheels", options->wheels,
+                fmt::format("Wheels beyond the built-in ones: {}", wheel_files_help));
             command->add_flag("--json", options->json, "For machines");
         };
         CLI::App* list_command = jog->add_subcommand(

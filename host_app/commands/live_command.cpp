@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/base/command.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/commands/live_session.h"
 
 namespace vantage {
@@ -12,7 +13,7 @@ CommandEntry live_command_entry() {
         auto options = std::make_shared<LiveOptions>();
         CLI::App* command = program.add_subcommand(
             "live", "Connect to the rigs of a stage, fuse, fly, put out; ends with a summary");
-        command->add_option("--stage", options->stage, "The stage (TOML)")->required();
+        command->add_option("--stage", options->stage, stage_file_help)->required();
         options->show.add_to(*command, "the stage's");
         CLI::Option* take = command->add_option(
             "--take", options->take,

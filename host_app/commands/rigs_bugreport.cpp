@@ -21,6 +21,7 @@
 #include "common/base/time.h"
 #include "common/base/version.h"
 #include "common/wire/limits.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/commands/rigs_look.h"
 #include "host_app/live/sync_proof.h"
 
@@ -188,8 +189,7 @@ void add_rigs_bugreport(CLI::App& rigs) {
         "bugreport",
         "One archive for whoever is to help: versions, configuration, status, logs and probes of "
         "this host and all rigs that answer, without keys and passphrases");
-    report->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
-        ->required();
+    report->add_option("--stage", options->stage, stage_file_help)->required();
     report->add_option("-o,--output", options->output, "The archive (.tar.gz)")
         ->capture_default_str();
     report->add_option("--wait", options->wait_s, "Seconds to wait for rigs")

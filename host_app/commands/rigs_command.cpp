@@ -18,6 +18,7 @@
 #include "common/config/stage_config.h"
 #include "common/take/take_pulses.h"
 #include "common/wire/status_report.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/commands/rigs_bugreport.h"
 #include "host_app/commands/rigs_look.h"
 #include "host_app/commands/rigs_plan.h"
@@ -202,8 +203,7 @@ CommandEntry rigs_command_entry() {
                                                 "calibration, what became of its frames; ends "
                                                 "with 1 if a rig cannot serve, and "
                                                 "says why");
-        status->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
-            ->required();
+        status->add_option("--stage", options->stage, stage_file_help)->required();
         status
             ->add_option("--wait", options->wait_s,
                          "Seconds to wait for rigs that do not answer or send")
@@ -218,8 +218,7 @@ CommandEntry rigs_command_entry() {
             "Brings what the rigs keep on their own disks ([keep]) to this host, beside what is "
             "live; what was broken off goes on where it was, and vantage take join makes one take "
             "of it");
-        fetch->add_option("--stage", fetched->stage, "stage.toml (see hw_config/stage.toml)")
-            ->required();
+        fetch->add_option("--stage", fetched->stage, stage_file_help)->required();
         fetch->add_option("--from", fetched->from,
                           "By the stage's clock on the wall: 20:15:00, 20:15:00:12 (time code), "
                           "2026-11-22T20:15:00; with --gaps-of as in vantage take cut");

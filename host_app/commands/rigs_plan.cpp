@@ -17,6 +17,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/colour_codec.h"
 #include "common/wire/frame_codec.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/instants/rig_demand.h"
 
 namespace vantage {
@@ -218,8 +219,7 @@ void add_rigs_plan(CLI::App& rigs) {
         "plan",
         "Weighs what every rig sends and says whether the network carries it; ends with 1 if not, "
         "and says what would fit");
-    plans->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
-        ->required();
+    plans->add_option("--stage", options->stage, stage_file_help)->required();
     plans
         ->add_option("--rig-link", options->limits.rig_mbit_s,
                      "Mbit/s of each rig's network interface")

@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/base/version.h"
 #include "common/config/endpoint.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/commands/rigs_look.h"
 
 namespace vantage {
@@ -101,8 +102,7 @@ void add_rigs_update(CLI::App& rigs) {
         "update",
         "Which versions the rigs run, and what to type to bring them to this host's; ends with 1 "
         "if any differs");
-    update->add_option("--stage", options->stage, "stage.toml (see hw_config/stage.toml)")
-        ->required();
+    update->add_option("--stage", options->stage, stage_file_help)->required();
     update->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")
         ->check(CLI::Range(0.1, 3600.0));
     update->add_flag("--json", options->json, "Print it as JSON");

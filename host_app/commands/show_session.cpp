@@ -9,6 +9,7 @@
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
 #include "common/image/image_file.h"
+#include "host_app/commands/help_words.h"
 #include "host_app/commands/picture_options.h"
 #include "host_app/control/ports/freed_sink.h"
 #include "host_app/desk/operator_window.h"
@@ -227,8 +228,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_flag_callback(
         "--no-jog", [this] { jog = false; }, "Leave jog wheels alone");
     command.add_option("--wheels", wheels,
-                       "What the controls of wheels do: a file like those in hw_config/jog, or a "
-                       "folder of them (TOML)");
+                       fmt::format("What the controls of wheels do: {}", wheel_files_help));
     command.add_flag("--json", json, "Write the summary as one JSON object");
 }
 

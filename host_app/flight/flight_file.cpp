@@ -257,8 +257,8 @@ Move Move::load(const std::filesystem::path& path) {
 
 std::string to_toml(const FlightBook& book) {
     std::string text =
-        "# A flight of Vantage's virtual camera; hw_config/moves/demo.toml explains the "
-        "keys.\nversion = 1\n";
+        "# A flight of Vantage's virtual camera; hw_config/moves/demo.toml (installed:\n"
+        "# /usr/share/doc/vantage/examples/moves/demo.toml) explains the keys.\nversion = 1\n";
     if (book.lowest_m != FlightLimits().min_eye_height_m)
         text += fmt::format("lowest_m = {}\n", number_text(book.lowest_m));
     if (book.move) {

@@ -142,7 +142,10 @@ CommandEntry run_command_entry() {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             program.add_subcommand("run", "The rig daemon: capture, rectify, match, stream");
-        command->add_option("--config", options->config, "rig.toml (see hw_config/rig.toml)")
+        command
+            ->add_option("--config", options->config,
+                         "The rig (TOML); every key is in hw_config/rig.toml (installed: "
+                         "/etc/vantage/rig.toml)")
             ->required();
         command->add_option("--frames", options->frames,
                             "End after so many published frames (default: on SIGINT or SIGTERM)");

@@ -76,7 +76,10 @@ CommandEntry trigger_command_entry() {
         auto options = std::make_shared<TriggerOptions>();
         CLI::App* command =
             program.add_subcommand("trigger", "Pulses only; reports how late they were");
-        command->add_option("--config", options->config, "rig.toml (see hw_config/rig.toml)")
+        command
+            ->add_option("--config", options->config,
+                         "The rig (TOML); every key is in hw_config/rig.toml (installed: "
+                         "/etc/vantage/rig.toml)")
             ->required();
         command->add_option("--count", options->count, "Pulses to send")
             ->required()

@@ -195,8 +195,10 @@ void add_profiles_of(const std::filesystem::path& own, std::vector<WheelProfile>
             if (entry.path().extension() == ".toml") files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         if (files.empty())
-            fail("there is no wheel in {}: a wheel is a .toml file such as those in hw_config/jog",
-                 own.string());
+            fail(
+                "there is no wheel in {}: a wheel is a .toml file such as those in hw_config/jog "
+                "(installed: /usr/share/doc/vantage/examples/jog)",
+                own.string());
     }
     for (const std::filesystem::path& file : files)
         profiles.push_back(read_wheel_profile(read_text_file(file, max_wheel_file_bytes), file));

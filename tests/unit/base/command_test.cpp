@@ -96,6 +96,12 @@ TEST(RunProgram, TellsWordsThatDoNotFitFromWorkThatFailed) {
         {{"root"},
          "calculator has no command 'root'; the ones there are: double, series; calculator --help "
          "says what they do\n"},
+        {{"help", "duble"},
+         "calculator has no command 'duble'; the nearest is 'double'; calculator --help says what "
+         "they do\n"},
+        {{"help", "series", "cuont"},
+         "calculator series has no command 'cuont'; the nearest is 'count'; calculator series "
+         "--help says what they do\n"},
         {{"series", "cuont"},
          "calculator series has no command 'cuont'; the nearest is 'count'; calculator series "
          "--help says what they do\n"},
