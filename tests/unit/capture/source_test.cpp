@@ -71,6 +71,16 @@ TEST(VirtualSource, FilmsTheSetThatIsAskedFor) {
     };
     EXPECT_GT(difference(*of_the_show, *of_set_3), 30);
     EXPECT_LT(difference(*again, *of_set_3), 3);
+    // And all of the picture is that set's.
+    const EglContext context;
+    const ShaderLibrary shaders;
+    VirtualStage stage(shaders, 3);
+    const VirtualStereoFrame drawn = render_virtual_rig(
+        stage, rig_calibration(config, {config.source.width_px, config.source.height_px}),
+        of_set_3->exposure.time_since_epoch(), of_set_3->trigger_index,
+        {config.source.noise_sigma, config.source.seed});
+    EXPECT_EQ(cv::norm(of_set_3->left, drawn.left, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(of_set_3->right, drawn.right, cv::NORM_INF), 0);
 }
 
 TEST(VirtualSource, ShowsOfALoopDrawnAheadWhatItWouldHaveDrawn) {
