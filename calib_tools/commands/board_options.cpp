@@ -26,20 +26,27 @@ void BoardOptions::add_to(CLI::App& command) {
     square->needs(board)->excludes(description);
 }
 
-BoardPattern BoardOptions::pattern() const {
+BoardPattern BoardOptions::pattern(const char* for_pictures) const {
+    for (std::size_t i = 1; i < files.size(); ++i)
+        if (!files[i].ends_with(".toml"))
+            fail("{} is no description of a board (.toml): pictures go behind {}", files[i],
+                 for_pictures);
     if (files.size() > 1)
         fail(
             "{} boards are described, and a camera or rig is calibrated with one: only `stage` "
             "takes several",
             files.size());
-    if (!files.empty()) return load_board(files.front());
+    return files.empty() ? chessboard() : load_board(files.front());
+}
+
+BoardPattern BoardOptions::chessboard() const {
     if (size.empty())
         fail("which board? give --board COLUMNSxROWS and --square-m METRES, or --board-file FILE");
     return chessboard_pattern(size, square_m);
 }
 
 BoardSet BoardOptions::boards() const {
-    if (files.empty()) return pattern();
+    if (files.empty()) return chessboard();
     BoardSet set;
     for (const std::string& file : files)
         set.add(std::filesystem::path(file).stem().string(), load_body(file));

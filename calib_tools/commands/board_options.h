@@ -16,11 +16,15 @@ struct BoardOptions {
     double square_m = 0;
 
     void add_to(CLI::App& command);
-    /// Throws Error if the options do not make one board.
-    BoardPattern pattern() const;
+    /// Throws Error if the options do not make one board. `for_pictures`: the options that pictures
+    /// belong behind.
+    BoardPattern pattern(const char* for_pictures) const;
     /// All boards, one by one and in bodies, each named by its file. Throws Error if they cannot be
     /// told apart.
     BoardSet boards() const;
+
+  private:
+    BoardPattern chessboard() const;
 };
 
 }  // namespace vantage

@@ -54,7 +54,7 @@ SeenSeries look(const IntrinsicsOptions& options, const BoardPattern& pattern) {
 }
 
 void run(const IntrinsicsOptions& options) {
-    const BoardPattern pattern = options.board.pattern();
+    const BoardPattern pattern = options.board.pattern("--images");
     RigOptions rig_options;
     rig_options.family = options.lens.family();
     SeenSeries seen = look(options, pattern);

@@ -65,7 +65,7 @@ SeenPairs pairs_from_rig(const StereoOptions& options, const BoardPattern& patte
 }
 
 void run(const StereoOptions& options) {
-    const BoardPattern pattern = options.board.pattern();
+    const BoardPattern pattern = options.board.pattern("--left and --right");
     RigOptions rig_options;
     rig_options.family = options.lens.family();
     rig_options.alpha = options.alpha;

@@ -119,7 +119,7 @@ struct StageReceiver::Impl {
         for (const StageConfig::Rig& rig : stage.rigs)
             rigs.push_back(std::make_unique<Rig>(context, rig, keys));
         for (const auto& rig : rigs) {
-            rig->wish.streaming = purpose != Purpose::look_on;
+            rig->wish.streaming = films();
             rig->wish.raw_pairs = purpose == Purpose::calibrate;
             rig->status.stage_rate_hz = stage.rate_hz;
         }
@@ -210,7 +210,7 @@ struct StageReceiver::Impl {
 
     /// Precondition: mutex is held.
     void start_take(MonotonicTime now) {
-        if (purpose == Purpose::look_on) return;
+        if (!films()) return;
         std::vector<TakeStarter::Rig> all;
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);
@@ -331,8 +331,11 @@ struct StageReceiver::Impl {
         }
     }
 
+    bool films() const { return purpose == Purpose::film || purpose == Purpose::calibrate; }
+
     /// Precondition: mutex is held.
-    static void show(Rig& rig, RigLink::View view, MonotonicTime now) {
+    void show(Rig& rig, RigLink::View view, MonotonicTime now) const {
+        const bool warns = purpose != Purpose::report;
         RigStatus& status = rig.status;
         const bool goes_on = status.connected && view.restarts == status.restarts;
         if (view.connected != status.connected)
@@ -340,10 +343,10 @@ struct StageReceiver::Impl {
         rig.relay_answers = view.refusal_passes && !view.refused.empty();
         if (view.connected) status.unreachable.clear();
         if (rig.relay_answers) {
-            if (view.refused != status.unreachable) log_info("{}", view.refused);
+            if (warns && view.refused != status.unreachable) log_info("{}", view.refused);
             status.unreachable = std::exchange(view.refused, {});
         }
-        if (!view.refused.empty() && view.refused != status.refused)
+        if (warns && !view.refused.empty() && view.refused != status.refused)
             log_warning("{}", view.refused);
         rig.outages.note(view.connected, view.heard);
         status.outages = rig.outages.outages();
@@ -366,7 +369,8 @@ struct StageReceiver::Impl {
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
-        if (const std::string rate = rate_worry(status); rate != rate_before && !rate.empty())
+        if (const std::string rate = rate_worry(status);
+            warns && rate != rate_before && !rate.empty())
             log_warning("rig {}: {}", rig.name, rate);
         rig.report = std::move(view.report);
         complain(rig, rig.undecodable_frames + view.malformed, now);

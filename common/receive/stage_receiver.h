@@ -22,7 +22,8 @@ class StageReceiver {
     enum class Purpose {
         film,       ///< asks every rig for its frames and starts the stage's take
         calibrate,  ///< as film, but for raw pairs instead of views
-        look_on     ///< asks for none until ask() does, and leaves the take to the host that films
+        look_on,    ///< asks for none until ask() does, and leaves the take to the host that films
+        report      ///< as look_on, for who says itself what is wrong with a rig: warns of nothing
     };
 
     /// Throws Error if a key or an endpoint is unusable. Whatever `tap` uses must outlive this.

@@ -10,6 +10,7 @@
 #include "common/base/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/config/calibration_file.h"
 #include "host_app/commands/demo_moves.h"
 #include "host_app/commands/demo_stage.h"
 #include "host_app/commands/live_session.h"
@@ -49,7 +50,11 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
     if (status != 0) {
         std::string said = read_text_file(err, most_said_bytes);
         said.erase(said.find_last_not_of('\n') + 1);
-        fail("{} {} failed: {}", name, arguments.front(), said.substr(said.find_last_of('\n') + 1));
+        said.erase(0, said.find_last_of('\n') + 1);
+        // What another program ends with is a sentence for itself.
+        const std::string head = name + ": error: ";
+        if (said.starts_with(head)) fail("{}", said.substr(head.size()));
+        fail("{} {} failed: {}", name, arguments.front(), said);
     }
     nlohmann::json answer =
         nlohmann::json::parse(read_text_file(out, most_said_bytes), nullptr, false);
@@ -143,6 +148,7 @@ bool has_display() {
 
 void demo(DemoOptions options) {
     options.headless = options.headless || !has_display();
+    if (!options.rig.empty()) (void)load_calibration(options.rig.front());
     const std::filesystem::path folder = std::filesystem::absolute(options.folder);
     DemoStage stage(folder / "demo", options.kept.empty()
                                          ? std::filesystem::path()

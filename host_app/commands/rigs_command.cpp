@@ -6,6 +6,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "common/base/command.h"
@@ -91,17 +92,18 @@ void run(const RigsOptions& options) {
     } else {
         print(status, sync_words(proof, now));
     }
-    std::string troubles;
-    std::size_t troubled = 0;
+    std::vector<std::string> troubles;
     for (const RigStatus& rig : status.rigs) {
         // A rig that waits for a host's start is in order.
         const std::string trouble =
             waits_for_a_host(rig) ? trouble_of(rig) : trouble_of(rig) + silence_of(rig);
         if (trouble.empty()) continue;
-        troubles += fmt::format("; {}: {}", rig.rig, trouble);
-        ++troubled;
+        // Of people's table the reasons are a part.
+        troubles.push_back(options.json ? fmt::format("{}: {}", rig.rig, trouble) : rig.rig);
     }
-    if (troubled > 0) fail("{} of {} rigs cannot serve{}", troubled, status.rigs.size(), troubles);
+    if (!troubles.empty())
+        fail("{} of {} rigs cannot serve{}{}", troubles.size(), status.rigs.size(),
+             options.json ? "; " : ": ", fmt::join(troubles, options.json ? "; " : ", "));
 }
 
 /// What --from and --to say, and what of a take lacks.

@@ -11,7 +11,7 @@
 namespace vantage {
 
 ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop) {
-    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
+    StageReceiver receiver(stage, StageReceiver::Purpose::report);
     const auto has_answered = [&](const RigStatus& rig) {
         if (until == LookUntil::all_send && rig.connected)
             return rig.health.published_hz > 0 || waits_for_a_host(rig) || !trouble_of(rig).empty();

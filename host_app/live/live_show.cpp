@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
@@ -130,7 +131,7 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         return ready ? ready->set.get() : nullptr;
     };
-    log_info("waiting for {} rigs", status().rigs.size());
+    log_info("waiting for the first pictures of {}", counted(status().rigs.size(), "rig"));
     MonotonicTime said = MonotonicClock::now();
     while (MonotonicClock::now() < deadline) {
         if (stop.wait_for(std::chrono::milliseconds(20))) {

@@ -57,6 +57,19 @@ TEST(BoardCommand, draws_on_a_sheet_and_refuses_what_does_not_fit_it) {
     EXPECT_DOUBLE_EQ(load_board(board + ".toml").marker_m, 0.0217);
 }
 
+TEST(BoardCommand, is_not_all_that_follows_the_description_of_a_board) {
+    const auto refusal = [](std::vector<std::string> words) {
+        words.insert(words.end(), {"--board-file", "board.toml", "p1.png", "p2.png"});
+        const ProgramResult result = run_to_end(VANTAGE_CALIB, words);
+        EXPECT_EQ(result.status, 1);
+        return result.err;
+    };
+    EXPECT_THAT(refusal({"intrinsics"}),
+                HasSubstr("p1.png is no description of a board (.toml): pictures go behind "
+                          "--images"));
+    EXPECT_THAT(refusal({"stereo", "-o", "c.yaml"}), HasSubstr("behind --left and --right"));
+}
+
 TEST(BoardCommand, names_the_sheet_that_was_asked_for_though_a_smaller_one_would_do) {
     const TemporaryFolder folder;
     const ProgramResult drawn = run_to_end(

@@ -80,7 +80,16 @@ TEST_F(Demo, SaysWhatIsWrongWithAPair) {
         run_to_end(VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("none.png"),
                                      "--headless", "--folder", file("out")});
     EXPECT_EQ(missing.status, 1);
+    EXPECT_EQ(missing.err.find("vantage-rig"), std::string::npos)
+        << "one sentence: " << missing.err;
     EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
+    const ProgramResult unmeasured =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--rig", file("none.yaml"), file("left.png"),
+                                     file("right.png"), "--headless", "--folder", file("out/new")});
+    EXPECT_EQ(unmeasured.status, 1);
+    EXPECT_EQ(unmeasured.err.find("vantage: error: "), 0u) << unmeasured.err;
+    EXPECT_NE(unmeasured.err.find("none.yaml"), std::string::npos) << unmeasured.err;
+    EXPECT_FALSE(std::filesystem::exists(file("out/new"))) << "nothing was begun";
     const ProgramResult alone =
         run_to_end(VANTAGE_PROGRAM, {"demo", "--disparities", "64", "--folder", file("out")});
     EXPECT_EQ(alone.status, 2);

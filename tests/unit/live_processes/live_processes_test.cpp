@@ -222,7 +222,7 @@ TEST_F(LiveProcesses, ShowEveryRigThroughTheColourCorrectionThatTheStageNames) {
 
 TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigComes) {
     const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
-    wait_for(*host, "waiting for 2 rigs");
+    wait_for(*host, "waiting for the first pictures of 2 rigs");
     host->send_signal(SIGINT);
     EXPECT_EQ(host->wait().status, 130);
     for (const char* rig : {"left disconnected", "right disconnected"})

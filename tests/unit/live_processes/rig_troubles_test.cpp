@@ -72,9 +72,11 @@ TEST_F(RigTroubles, AreAFailureWithTheReasonOfEachRig) {
     write_key_file(file("host.key"), generate_curve_keys());
     const ProgramResult result = status(5);
     EXPECT_EQ(result.status, 1);
-    EXPECT_THAT(result.err, HasSubstr("2 of 2 rigs cannot serve"));
-    EXPECT_THAT(result.err, HasSubstr("north: the name no-such-rig.invalid does not resolve"));
-    EXPECT_THAT(result.err, HasSubstr("south: connection refused at " + endpoint(ports_.second)));
+    EXPECT_EQ(result.err, "vantage: error: 2 of 2 rigs cannot serve: north, south\n");
+    EXPECT_THAT(result.out,
+                HasSubstr("north: disconnected: the name no-such-rig.invalid does not resolve"));
+    EXPECT_THAT(result.out,
+                HasSubstr("south: disconnected: connection refused at " + endpoint(ports_.second)));
     EXPECT_THAT(result.out, HasSubstr("synchronisation: not proven by light"));
     EXPECT_THAT(result.out, HasSubstr("signal: NO SIGNAL"));
 }
@@ -150,6 +152,11 @@ TEST_F(RigTroubles, OfARateThatAllShareLeaveASignal) {
     EXPECT_THAT(looked.err, HasSubstr("north: it runs at 4 Hz and the stage at 5 Hz"));
     const nlohmann::json told = nlohmann::json::parse(looked.out);
     EXPECT_EQ(told["signal"], "live");
+    const std::string reason = "it runs at 4 Hz";
+    const ProgramResult read = status(60);
+    EXPECT_THAT(read.out, HasSubstr("north: connected: " + reason));
+    EXPECT_THAT(read.err, HasSubstr("error: 2 of 2 rigs cannot serve: north, south\n"));
+    EXPECT_THAT(read.err, Not(HasSubstr(reason))) << "once is enough";
     for (const nlohmann::json& rig : told["rigs"]) EXPECT_TRUE(rig["delivers"]) << rig;
     host.send_signal(SIGINT);
     const ProgramResult result = host.wait();
