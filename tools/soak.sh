@@ -3,8 +3,9 @@
 # accounted for.
 #   tools/soak.sh [SECONDS, default 300] [SEED] [DOCUMENT]
 # With a SEED something befalls the stage every ten seconds, drawn at random from it: a rig hangs (SIGSTOP), a rig is killed
-# and started anew, the GPU is reset, strangers send garbage, strangers connect and say nothing. Then a Vantage is needed
-# that was built with its tests. A DOCUMENT's table is written anew.
+# and started anew, the GPU is reset, strangers send garbage, strangers connect and say nothing, a rig's clock is set by 50 ms
+# and back, a take begins whose disk is soon full, the host hangs for a second. Then a Vantage is needed that was built with
+# its tests, and oscsend. A DOCUMENT's table is written anew.
 # Prints the account of every rig, and closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,16 +23,33 @@ declare -A begun=()  # rigs that were started anew
 rig_process() { echo "${begun[$1]:-$(pgrep -P "$rigs" -f "/$1\.toml")}"; }
 end_all() {
   for process in $host ${begun[*]} $rigs; do kill -CONT "$process" 2>/dev/null && kill "$process" || true; done
+  rm -rf "${libraries-}"
   wait
 }
 trap end_all EXIT
 trap 'exit 130' INT TERM
 
-start_rigs "$out" "$out"
-reset=$PWD/build/release/lib/vantage_gpu_reset.so
-[ -z "$seed" ] || [ -e "$reset" ] || { echo "soak.sh: $reset is missing; ./test builds it" >&2; exit 2; }
-LD_PRELOAD=${seed:+$reset} build/release/bin/vantage live --stage "$out/demo/stage.toml" --headless --no-jog --past-mb 64 \
-  --rate 15 --seconds "$seconds" --path hw_config/moves/demo.toml --json >"$out/soak.json" 2>"$out/live.log" &
+reset=$PWD/build/release/lib/vantage_gpu_reset.so clock=$PWD/build/release/lib/vantage_clock_set.so
+osc=49120 take_kib=70000
+if [ -n "$seed" ]; then
+  for file in "$reset" "$clock"; do
+    [ -e "$file" ] || { echo "soak.sh: $file is missing; ./test builds it" >&2; exit 2; }
+  done
+  command -v oscsend >/dev/null || { echo "soak.sh: oscsend is missing (sudo apt install liblo-tools)" >&2; exit 2; }
+  # The loader parts its list at spaces, which a checkout's path may have.
+  libraries=$(mktemp -d)
+  ln -s "$reset" "$libraries/reset.so"
+  ln -s "$clock" "$libraries/clock.so"
+  export CLOCK_SET_MS=50
+fi
+LD_PRELOAD=${seed:+$libraries/clock.so} start_rigs "$out" "$out"
+(
+  # A file that may not grow fails a take as a full disk does.
+  [ -z "$seed" ] || { trap '' XFSZ; ulimit -f $take_kib; }
+  LD_PRELOAD=${seed:+$libraries/reset.so} exec build/release/bin/vantage live --stage "$out/demo/stage.toml" --headless --no-jog \
+    --past-mb 64 --rate 15 --seconds "$seconds" --path hw_config/moves/demo.toml --takes "$out" --control "osc://127.0.0.1:$osc" \
+    --json >"$out/soak.json" 2>"$out/live.log"
+) &
 host=$!
 until grep -qs ' pictures, ' "$out/live.log"; do sleep 0.2; kill -0 $host; done
 started=$(date +%s)
@@ -41,8 +59,8 @@ port_of() { sed -n 's/^bind = "tcp:\/\/.*:\([0-9]*\)"$/\1/p' "$out/demo/$1.toml"
 # Nobody waits for what goes on beside, nor remembers it: once, when numbers of processes had begun to come again, this shell
 # hung in its own wait. Whether it took a process for one that it remembered was not found out.
 befall() {
-  local what=$((RANDOM % 5)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
-  names=(hangs killed resets garbage silence)
+  local what=$((RANDOM % 8)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
+  names=(hangs killed resets garbage silence clocks takes "host hangs")
   times[${names[what]}]=$((${times[${names[what]}]:-0} + 1))
   echo "$(($(date +%s) - started)) s: ${names[what]} $rig, $length s" >>"$out/faults.log"
   case $what in
@@ -50,11 +68,14 @@ befall() {
     1) kill -CONT "$(rig_process "$rig")" || true
       kill -KILL "$(rig_process "$rig")"
       sleep $length
-      LP_NUM_THREADS=1 build/release/bin/vantage-rig run --config "$out/demo/$rig.toml" >>"$out/$rig.log" 2>&1 &
+      LD_PRELOAD=$libraries/clock.so LP_NUM_THREADS=1 build/release/bin/vantage-rig run --config "$out/demo/$rig.toml" >>"$out/$rig.log" 2>&1 &
       begun[$rig]=$! ;;
     2) kill -USR2 $host ;;
     3) (for _ in {1..20}; do head -c 5000 /dev/urandom >"/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done) 2>/dev/null & disown ;;
     4) (for file in {100..160}; do eval "exec $file<>/dev/tcp/127.0.0.1/$(port_of "$rig")" || true; done; sleep $length) 2>/dev/null & disown ;;
+    5) kill -USR1 "$(rig_process "$rig")"; sleep $length; kill -USR2 "$(rig_process "$rig")" ;;
+    6) rm -f "$out"/*.mkv; oscsend 127.0.0.1 $osc /vantage/take ;;
+    7) kill -STOP $host; sleep 1; kill -CONT $host ;;
   esac
 }
 
@@ -73,7 +94,8 @@ done
 status=0
 wait $host || status=$?
 host=
-[ $status -eq 0 ] || { tail -5 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
+# It ends with the name of a take that failed, as a full disk's has to.
+[ $status -eq 0 ] || { [ -n "${times[takes]-}" ] && tail -1 "$out/live.log" | grep -q 'went to its end without an output'; } || { tail -5 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
 
 # A rig that was started anew on the way still fills its pools.
 awk -v third=$((seconds / 3)) 'NR == FNR { if ($1 < third) begun[$3] = 1; next } $3 in begun' "$out/samples" "$out/samples" \
@@ -85,6 +107,13 @@ for result in "$(tools/check_memory.sh "$out/settled" "$seconds" || true)" "$(to
   passed=$((passed + p)) failed=$((failed + f))
 done
 figure() { jq -r "$1" "$out/soak.json"; }
+# Ticks go by while the host hangs for a second, and no other.
+hung=${times["host hangs"]:-0}
+if [ "$(figure .missed_ticks)" -le $((17 * hung + 2)) ]; then
+  passed=$((passed + 1)) && echo "ok   $(figure .missed_ticks) ticks were missed; the host hung $hung times"
+else
+  failed=$((failed + 1)) && echo "FAIL $(figure .missed_ticks) ticks were missed, and the host hung $hung times only"
+fi
 # Of the second half: the least-squares slope of memory in MiB an hour, the most memory, threads and file descriptors.
 process_rows() {
   awk -v half=$((seconds / 2)) '
@@ -102,7 +131,7 @@ table=$(
   echo "| --- | --- |"
   echo "| played | $(figure '.duration_s | round') s, load $(cut -d' ' -f1 /proc/loadavg) at the end |"
   [ -z "$seed" ] || echo "| befallen, seed $seed | $(for name in "${!times[@]}"; do printf '%s %s, ' "$name" "${times[$name]}"; done | sed 's/, $//') |"
-  echo "| ticks, repeated, missed | $(figure '"\(.pictures), \(.repeated_ticks), \(.missed_ticks)"') |"
+  echo "| ticks, repeated, missed while the host hung or else | $(figure '"\(.pictures), \(.repeated_ticks), \(.missed_ticks)"') |"
   echo "| hand-over after the tick: p50, p99, most | $(figure '"\(.tick_late_ms.p50 * 10 | round / 10), \(.tick_late_ms.p99 * 10 | round / 10), \(.tick_late_ms.max | round) ms"') |"
   echo "| exposure to picture: p50, p95, p99 | $(figure '"\(.latency_ms.p50 | round), \(.latency_ms.p95 | round), \(.latency_ms.p99 | round) ms"') |"
   echo "| between two new pictures: p50, p99, most | $(figure '"\(.interval_ms.p50 | round), \(.interval_ms.p99 | round), \(.interval_ms.max | round) ms"') |"
