@@ -1,162 +1,18 @@
-// What a show does while networks break and programs hang or die.
+// What a show does while programs hang or die, and clocks are set.
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include "common/wire/curve_keys.h"
-#include "tests/faults/impaired_road.h"
-#include "tests/support/child_program.h"
-#include "tests/support/data_folder.h"
-#include "tests/support/free_ports.h"
+#include "tests/faults/shows/two_rig_show.h"
 
 namespace vantage {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Two tiny rigs, "far" at the other end of a road and "near" on this computer, and a host; each a
-/// process.
-class ShowFaults : public testing::Test {
-  protected:
-    void SetUp() override {
-        if (const std::string reason = ImpairedRoad::reason_against(); !reason.empty())
-            GTEST_SKIP() << "SKIPPED: " << reason;
-        road_ = std::make_unique<ImpairedRoad>();
-        // The loader parts its list at spaces, which a checkout's path may have.
-        std::filesystem::create_symlink(VANTAGE_CLOCK_SET, file("clock_set.so"));
-        const CurveKeys host_keys = generate_curve_keys(), rig_keys = generate_curve_keys();
-        write_key_file(file("host.key"), host_keys);
-        write_key_file(file("rig.key"), rig_keys);
-        std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
-        near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
-        std::ofstream(file("stage.toml"))
-            << "version = 1\nrate_hz = 5\nlatency_budget_ms = 400\nkey_file = \"host.key\"\n"
-            << fmt::format(
-                   "[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\n"
-                   "public_key = \"{}\"\n",
-                   ImpairedRoad::rig_address, rig_keys.public_key)
-            << fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_)
-            << "[view]\nwidth_px = 96\nheight_px = 64\n";
-        far_ = start_far();
-        near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
-        wait_for(*far_, "publishing on");
-        wait_for(*near_, "publishing on");
-    }
-    void TearDown() override {
-        host_.reset();
-        far_.reset();
-        near_.reset();
-    }
-
-    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
-    std::unique_ptr<ChildProgram> start_rig(const std::string& name, double azimuth_deg,
-                                            const std::string& stream) {
-        std::ofstream(file(name + ".toml"))
-            << "version = 1\nname = \"" << name
-            << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n"
-            << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
-            << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n[stream]\n"
-            << stream;
-        return std::make_unique<ChildProgram>(
-            VANTAGE_RIG_PROGRAM,
-            std::vector<std::string>{"run", "--config", file(name + ".toml"), "--json"},
-            folder_.path(),
-            std::vector<std::string>{"LD_PRELOAD=" + file("clock_set.so"),
-                                     fmt::format("CLOCK_SET_MS={}", clock_set_ms_)});
-    }
-    std::unique_ptr<ChildProgram> start_far() {
-        std::unique_ptr<ChildProgram> rig;
-        road_->at_the_rigs([&] {
-            rig = start_rig("far", -12,
-                            "bind = \"tcp://*:5600\"\nkey_file = \"rig.key\"\n"
-                            "authorized_hosts = \"hosts.keys\"\n");
-        });
-        return rig;
-    }
-    void start_host(const std::vector<std::string>& options) {
-        std::vector<std::string> arguments{
-            "live",    "--stage", file("stage.toml"), "--headless", "--json", "--wait", "60",
-            "--synth", "mesh",    "--rate",           "10"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
-    }
-
-    template <class Condition>
-    static bool comes(Condition condition) {
-        for (int i = 0; i < 12000; ++i) {
-            if (condition()) return true;
-            usleep(10'000);
-        }
-        return false;
-    }
-    static void wait_for(const ChildProgram& program, const std::string& words) {
-        ASSERT_TRUE(comes([&] { return program.err().find(words) != std::string::npos; }))
-            << words << "\n"
-            << program.err();
-    }
-    /// The host's last word of the far rig's connection.
-    bool far_is(const std::string& state) const {
-        const std::string log = host_->err();
-        const auto last = [&](const std::string& word) {
-            const std::size_t at = log.rfind("rig far is " + word);
-            return at == std::string::npos ? -1 : static_cast<std::ptrdiff_t>(at);
-        };
-        const std::string other = state == "gone" ? "connected" : "gone";
-        return last(state) > last(other);
-    }
-    /// In the host's log.
-    std::size_t count_of(const std::string& words) const {
-        const std::string log = host_->err();
-        std::size_t count = 0;
-        for (std::size_t at = log.find(words); at != std::string::npos;
-             at = log.find(words, at + 1))
-            ++count;
-        return count;
-    }
-    std::size_t progress() const { return count_of(" pictures, "); }
-    void wait_for_progress() {
-        const std::size_t now = progress();
-        ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
-    }
-
-    /// Who waited for a rig, a network or a person would miss ten a second.
-    static void expect_ticks_held(const nlohmann::json& summary) {
-        EXPECT_GE(summary["pictures"], 20);
-        EXPECT_LE(summary["missed_ticks"].get<double>(),
-                  1 + 0.02 * summary["pictures"].get<double>())
-            << summary["tick_late_ms"];
-    }
-    static void expect_balanced(const nlohmann::json& rig) {
-        const auto count = [&](const char* place, const char* what) {
-            return rig[place][what].get<std::int64_t>();
-        };
-        EXPECT_EQ(count("host", "in_sets"), count("host", "fused") + count("host", "superseded") +
-                                                count("host", "in_dropped_sets"))
-            << rig;
-        const std::int64_t open = count("host", "received") - count("host", "in_sets") -
-                                  count("host", "late") - count("host", "duplicate") -
-                                  count("host", "unsynchronized") - count("host", "out_of_step");
-        EXPECT_GE(open, 0) << rig;
-        EXPECT_LE(open, 5 + 1) << "the frames of the latency budget: " << rig;
-        EXPECT_GE(count("link", "sent") - count("link", "lost"), count("host", "received")) << rig;
-        EXPECT_EQ(count("host", "undecodable"), 0) << rig;
-    }
-
-    TemporaryFolder folder_;
-    int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
-    std::unique_ptr<ImpairedRoad> road_;
-    std::string near_endpoint_;
-    std::unique_ptr<ChildProgram> far_, near_, host_;
-};
+class ShowFaults : public TwoRigShow {};
 
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});

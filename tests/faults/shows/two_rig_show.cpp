@@ -1,0 +1,128 @@
+#include "tests/faults/shows/two_rig_show.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "common/wire/curve_keys.h"
+#include "tests/support/free_ports.h"
+
+namespace vantage {
+
+void TwoRigShow::SetUp() {
+    if (const std::string reason = ImpairedRoad::reason_against(); !reason.empty())
+        GTEST_SKIP() << "SKIPPED: " << reason;
+    road_ = std::make_unique<ImpairedRoad>();
+    // The loader parts its list at spaces, which a checkout's path may have.
+    std::filesystem::create_symlink(VANTAGE_CLOCK_SET, file("clock_set.so"));
+    const CurveKeys host_keys = generate_curve_keys(), rig_keys = generate_curve_keys();
+    write_key_file(file("host.key"), host_keys);
+    write_key_file(file("rig.key"), rig_keys);
+    std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
+    near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
+    std::ofstream(file("stage.toml"))
+        << "version = 1\nrate_hz = 5\nlatency_budget_ms = 400\nkey_file = \"host.key\"\n"
+        << fmt::format(
+               "[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\n"
+               "public_key = \"{}\"\n",
+               ImpairedRoad::rig_address, rig_keys.public_key)
+        << fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_)
+        << "[view]\nwidth_px = 96\nheight_px = 64\n";
+    far_ = start_far();
+    near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
+    wait_for(*far_, "publishing on");
+    wait_for(*near_, "publishing on");
+}
+
+void TwoRigShow::TearDown() {
+    host_.reset();
+    far_.reset();
+    near_.reset();
+}
+
+std::unique_ptr<ChildProgram> TwoRigShow::start_rig(const std::string& name, double azimuth_deg,
+                                                    const std::string& stream) {
+    std::ofstream(file(name + ".toml"))
+        << "version = 1\nname = \"" << name
+        << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n"
+        << "[virtual_rig]\nazimuth_deg = " << azimuth_deg
+        << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n[stream]\n"
+        << stream;
+    return std::make_unique<ChildProgram>(
+        VANTAGE_RIG_PROGRAM,
+        std::vector<std::string>{"run", "--config", file(name + ".toml"), "--json"}, folder_.path(),
+        std::vector<std::string>{"LD_PRELOAD=" + file("clock_set.so"),
+                                 fmt::format("CLOCK_SET_MS={}", clock_set_ms_)});
+}
+
+std::unique_ptr<ChildProgram> TwoRigShow::start_far() {
+    std::unique_ptr<ChildProgram> rig;
+    road_->at_the_rigs([&] {
+        rig = start_rig("far", -12,
+                        "bind = \"tcp://*:5600\"\nkey_file = \"rig.key\"\n"
+                        "authorized_hosts = \"hosts.keys\"\n");
+    });
+    return rig;
+}
+
+void TwoRigShow::start_host(const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{
+        "live",    "--stage", file("stage.toml"), "--headless", "--json", "--wait", "60",
+        "--synth", "mesh",    "--rate",           "10"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
+}
+
+void TwoRigShow::wait_for(const ChildProgram& program, const std::string& words) {
+    ASSERT_TRUE(comes([&] { return program.err().find(words) != std::string::npos; }))
+        << words << "\n"
+        << program.err();
+}
+
+bool TwoRigShow::far_is(const std::string& state) const {
+    const std::string log = host_->err();
+    const auto last = [&](const std::string& word) {
+        const std::size_t at = log.rfind("rig far is " + word);
+        return at == std::string::npos ? -1 : static_cast<std::ptrdiff_t>(at);
+    };
+    const std::string other = state == "gone" ? "connected" : "gone";
+    return last(state) > last(other);
+}
+
+std::size_t TwoRigShow::count_of(const std::string& words) const {
+    const std::string log = host_->err();
+    std::size_t count = 0;
+    for (std::size_t at = log.find(words); at != std::string::npos; at = log.find(words, at + 1))
+        ++count;
+    return count;
+}
+
+void TwoRigShow::wait_for_progress() {
+    const std::size_t now = progress();
+    ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
+}
+
+void TwoRigShow::expect_ticks_held(const nlohmann::json& summary) {
+    EXPECT_GE(summary["pictures"], 20);
+    EXPECT_LE(summary["missed_ticks"].get<double>(), 1 + 0.02 * summary["pictures"].get<double>())
+        << summary["tick_late_ms"];
+}
+
+void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
+    const auto count = [&](const char* place, const char* what) {
+        return rig[place][what].get<std::int64_t>();
+    };
+    EXPECT_EQ(count("host", "in_sets"), count("host", "fused") + count("host", "superseded") +
+                                            count("host", "in_dropped_sets"))
+        << rig;
+    const std::int64_t open = count("host", "received") - count("host", "in_sets") -
+                              count("host", "late") - count("host", "duplicate") -
+                              count("host", "unsynchronized") - count("host", "out_of_step");
+    EXPECT_GE(open, 0) << rig;
+    EXPECT_LE(open, 5 + 1) << "the frames of the latency budget: " << rig;
+    EXPECT_GE(count("link", "sent") - count("link", "lost"), count("host", "received")) << rig;
+    EXPECT_EQ(count("host", "undecodable"), 0) << rig;
+}
+
+}  // namespace vantage
