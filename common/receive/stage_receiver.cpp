@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -229,13 +230,13 @@ struct StageReceiver::Impl {
         return wait;
     }
 
-    /// Finds out why a rig is not connected. On its decoder's thread, which has nothing else to do
-    /// then.
+    bool is_unexplained(const Rig& rig) const {
+        const std::lock_guard lock(mutex);
+        return !rig.status.connected && rig.status.refused.empty() && !rig.relay_answers;
+    }
+
+    /// Finds out why a rig is not connected.
     void probe(Rig& rig) {
-        {
-            const std::lock_guard lock(mutex);
-            if (rig.status.connected || !rig.status.refused.empty() || rig.relay_answers) return;
-        }
         std::string reason = why_unreachable(rig.endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format("something at {} takes connections and does not speak as a rig",
@@ -258,12 +259,18 @@ struct StageReceiver::Impl {
         Rig& rig = *rigs[number];
         FrameDecoder decoder;
         std::chrono::milliseconds patience = first_probe_after;
+        // Beside the decoder: a rig that is back meanwhile waits for no name to be looked up.
+        std::future<void> probing;
         while (true) {
             const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(patience);
             if (!delivery && rig.inbox.closed()) return;
             patience = probe_period;
             if (!delivery) {
-                probe(rig);
+                const bool is_free =
+                    !probing.valid() ||
+                    probing.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+                if (is_free && is_unexplained(rig))
+                    probing = std::async(std::launch::async, [this, &rig] { probe(rig); });
                 continue;
             }
             try {
