@@ -121,7 +121,14 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
                               count("host", "unsynchronized") - count("host", "out_of_step");
     EXPECT_GE(open, 0) << rig;
     EXPECT_LE(open, 5 + 1) << "the frames of the latency budget: " << rig;
-    EXPECT_GE(count("link", "sent") - count("link", "lost"), count("host", "received")) << rig;
+    const std::int64_t under_way = count("link", "sent") - count("link", "lost") -
+                                   count("host", "received") - count("host", "queue_dropped");
+    EXPECT_GE(under_way, 0) << rig;
+    EXPECT_LE(under_way, 4) << "the credits of a host: " << rig;
+    const std::int64_t waiting = count("link", "offered") - count("link", "sent") -
+                                 count("link", "send_dropped") - count("link", "thinned");
+    EXPECT_GE(waiting, 0) << rig;
+    EXPECT_LE(waiting, 4) << "the queue of a host: " << rig;
     EXPECT_EQ(count("host", "undecodable"), 0) << rig;
 }
 

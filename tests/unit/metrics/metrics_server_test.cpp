@@ -2,13 +2,11 @@
 
 #include <string>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 
-#include "common/base/unique_fd.h"
 #include "tests/support/free_ports.h"
+#include "tests/support/http_answer.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {
@@ -16,24 +14,9 @@ namespace {
 
 class MetricsServerTest : public testing::Test {
   protected:
-    /// What the server answers to these bytes, until it closes.
-    std::string answer_to(const std::string& request) const {
-        const UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(static_cast<std::uint16_t>(port_));
-        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) return "";
-        (void)::send(fd.get(), request.data(), request.size(), MSG_NOSIGNAL);
-        std::string answer;
-        char buffer[4096];
-        for (ssize_t size = 0; (size = ::recv(fd.get(), buffer, sizeof buffer, 0)) > 0;)
-            answer.append(buffer, static_cast<std::size_t>(size));
-        return answer;
-    }
+    std::string answer_to(const std::string& request) const { return http_answer(port_, request); }
     std::string answer_of(const std::string& method, const std::string& path) const {
-        return answer_to(
-            fmt::format("{} {} HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", method, path));
+        return http_answer(port_, method, path);
     }
 
     const int port_ = two_free_ports().first;
