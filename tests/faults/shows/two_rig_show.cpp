@@ -1,5 +1,6 @@
 #include "tests/faults/shows/two_rig_show.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -22,13 +23,13 @@ void TwoRigShow::SetUp() {
     std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
     near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
     std::ofstream(file("stage.toml"))
-        << "version = 1\nrate_hz = 5\nlatency_budget_ms = 400\nkey_file = \"host.key\"\n"
+        << stage_head
         << fmt::format(
                "[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\n"
                "public_key = \"{}\"\n",
                ImpairedRoad::rig_address, rig_keys.public_key)
         << fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_)
-        << "[view]\nwidth_px = 96\nheight_px = 64\n";
+        << stage_view;
     far_ = start_far();
     near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
     wait_for(*far_, "publishing on");
@@ -66,10 +67,10 @@ std::unique_ptr<ChildProgram> TwoRigShow::start_far() {
     return rig;
 }
 
-void TwoRigShow::start_host(const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{
-        "live",    "--stage", file("stage.toml"), "--headless", "--json", "--wait", "60",
-        "--synth", "mesh",    "--rate",           "10"};
+void TwoRigShow::start_host(const std::vector<std::string>& options, const std::string& stage) {
+    std::vector<std::string> arguments{"live",   "--stage", file(stage), "--headless",
+                                       "--json", "--wait",  "60",        "--synth",
+                                       "mesh",   "--rate",  "10"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
 }
@@ -130,6 +131,23 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     EXPECT_GE(waiting, 0) << rig;
     EXPECT_LE(waiting, 4) << "the queue of a host: " << rig;
     EXPECT_EQ(count("host", "undecodable"), 0) << rig;
+}
+
+void TwoRigShow::expect_unharmed(ChildProgram& rig) {
+    rig.send_signal(SIGTERM);
+    const ProgramResult end = rig.wait();
+    EXPECT_EQ(end.status, 0) << end.err;
+    const nlohmann::json own = nlohmann::json::parse(end.out);
+    EXPECT_EQ(own["captured"].get<std::int64_t>(),
+              own["published"].get<std::int64_t>() + own["late"].get<std::int64_t>())
+        << own;
+    for (const nlohmann::json& host : own["hosts"]) {
+        const auto waiting =
+            host["offered"].get<std::int64_t>() - host["sent"].get<std::int64_t>() -
+            host["send_dropped"].get<std::int64_t>() - host["thinned"].get<std::int64_t>();
+        EXPECT_GE(waiting, 0) << own;
+        EXPECT_LE(waiting, 4) << "the queue of a host: " << own;
+    }
 }
 
 }  // namespace vantage

@@ -19,6 +19,11 @@ namespace vantage {
 /// process.
 class TwoRigShow : public testing::Test {
   protected:
+    // stage.toml but for its rigs.
+    static constexpr const char* stage_head =
+        "version = 1\nrate_hz = 5\nlatency_budget_ms = 400\nkey_file = \"host.key\"\n";
+    static constexpr const char* stage_view = "[view]\nwidth_px = 96\nheight_px = 64\n";
+
     void SetUp() override;
     void TearDown() override;
 
@@ -27,7 +32,8 @@ class TwoRigShow : public testing::Test {
     std::unique_ptr<ChildProgram> start_rig(const std::string& name, double azimuth_deg,
                                             const std::string& stream);
     std::unique_ptr<ChildProgram> start_far();
-    void start_host(const std::vector<std::string>& options);
+    void start_host(const std::vector<std::string>& options,
+                    const std::string& stage = "stage.toml");
 
     template <class Condition>
     static bool comes(Condition condition) {
@@ -48,6 +54,8 @@ class TwoRigShow : public testing::Test {
     /// Who waited for a rig, a network or a person would miss ten a second.
     static void expect_ticks_held(const nlohmann::json& summary);
     static void expect_balanced(const nlohmann::json& rig);
+    /// Ends a rig, which has counted every frame that it filmed.
+    static void expect_unharmed(ChildProgram& rig);
 
     TemporaryFolder folder_;
     int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
