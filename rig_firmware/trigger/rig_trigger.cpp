@@ -4,6 +4,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <pthread.h>
 
@@ -150,7 +151,8 @@ class FollowingTrigger final : public IndexingTrigger {
                 if (edge && edge->leading) {
                     take(*edge);
                     last = MonotonicClock::now();
-                    is_silent = false;
+                    if (std::exchange(is_silent, false))
+                        log_info("pulses are seen again on {}", line_text_);
                 } else if (!is_silent && MonotonicClock::now() - last > silence) {
                     is_silent = true;
                     log_warning(

@@ -1,7 +1,10 @@
 #include <atomic>
+#include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +76,31 @@ class TriggerRole : public testing::Test {
         EXPECT_GE(synchronized_.size(), wanted) << rig.log();
     }
 
+    /// Another rig's pulses: those that `sends` says.
+    std::jthread lead(std::function<bool(std::uint64_t)> sends) const {
+        std::shared_ptr<PulseLine> wire = open_pulse_line(line("TRIGGER"));
+        return std::jthread(
+            [this, wire = std::move(wire), sends = std::move(sends)](const std::stop_token& stop) {
+                while (!stop.stop_requested()) {
+                    const std::uint64_t index = grid_.index_at_or_before(TaiClock::now()) + 1;
+                    std::this_thread::sleep_for(grid_.time_of(index) - TaiClock::now());
+                    if (!sends(index)) continue;
+                    wire->set(true);
+                    std::this_thread::sleep_for(100ms);
+                    wire->set(false);
+                }
+            });
+    }
+
+    /// Whether it says so within two minutes, beyond so many bytes of its log.
+    static bool says(const RigProcess& rig, const std::string& sentence, std::size_t beyond) {
+        for (int i = 0; i < 1200; ++i) {
+            if (rig.log().find(sentence, beyond) != std::string::npos) return true;
+            std::this_thread::sleep_for(100ms);
+        }
+        return false;
+    }
+
     TemporaryFolder folder_;
     std::string calibration_;
     const PulseGrid grid_{rate_hz};
@@ -82,24 +110,12 @@ class TriggerRole : public testing::Test {
 };
 
 TEST_F(TriggerRole, FollowGivesFramesTheIndexOfThePulseThatTheKernelSaw) {
-    const auto wire = open_pulse_line(line("TRIGGER"));
     RigProcess rig(parts("follow", "TRIGGER_SEEN"));
-    // Another rig's pulses, of which every fourth is not sent.
-    std::atomic<bool> done = false;
     std::set<std::uint64_t> sent;
-    std::jthread leader([&] {
-        while (!done) {
-            const std::uint64_t index = grid_.index_at_or_before(TaiClock::now()) + 1;
-            std::this_thread::sleep_for(grid_.time_of(index) - TaiClock::now());
-            if (index % 4 == 0) continue;
-            wire->set(true);
-            sent.insert(index);
-            std::this_thread::sleep_for(100ms);
-            wire->set(false);
-        }
-    });
+    std::jthread leader =
+        lead([&](std::uint64_t index) { return index % 4 != 0 && sent.insert(index).second; });
     take_frames(rig, 6);
-    done = true;
+    leader.request_stop();
     leader.join();
     for (const std::uint64_t index : synchronized_)
         EXPECT_TRUE(sent.contains(index)) << index << " was not sent";
@@ -112,6 +128,34 @@ TEST_F(TriggerRole, FollowGivesFramesTheIndexOfThePulseThatTheKernelSaw) {
     EXPECT_GE(summary["sync"]["unsynchronized"], 4) << summary;
     EXPECT_THAT(rig.log(), HasSubstr("every picture is copied to the GPU: as configured"));
     EXPECT_GE(summary["source"]["copied_pictures"], 12) << summary;
+}
+
+TEST_F(TriggerRole, FollowNamesAWireThatIsPulledAndIsInStepOnceItIsBack) {
+    RigProcess rig(parts("follow", "TRIGGER_SEEN"));
+    std::atomic<bool> is_pulled = false;
+    const std::jthread leader = lead([&](std::uint64_t) { return !is_pulled; });
+    take_frames(rig, 2);
+    const std::uint64_t session = session_;
+    std::size_t said = rig.log().size();
+    is_pulled = true;
+    EXPECT_TRUE(says(rig, "no pulse seen on ", said)) << rig.log();
+    const TaiTime named = TaiClock::now();
+    // This camera runs by itself. One that waits for its pulse sends nothing now.
+    for (int others = 0; others < 3;) {
+        const auto frame = rig.next_frame();
+        if (frame->exposure < named) continue;
+        EXPECT_FALSE(frame->synchronized) << frame->trigger_index;
+        ++others;
+    }
+    said = rig.log().size();
+    is_pulled = false;
+    EXPECT_TRUE(says(rig, "pulses are seen again on ", said)) << rig.log();
+    take_frames(rig, 3);
+    EXPECT_EQ(session_, session) << "its daemon went on";
+    const nlohmann::json summary = nlohmann::json::parse(rig.stop());
+    std::printf("hil: pulled %s\n", summary["sync"].dump().c_str());
+    EXPECT_GE(summary["sync"]["skipped"], 1) << "pulses that were not seen: " << summary;
+    EXPECT_GE(summary["sync"]["unsynchronized"], 3) << summary;
 }
 
 TEST_F(TriggerRole, LeadGivesFramesTheIndexOfThePulseThatItSent) {
