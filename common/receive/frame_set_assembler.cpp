@@ -14,6 +14,9 @@ constexpr std::chrono::seconds behind_limit{5};
 
 /// Late frames in a row, after which a rig lags.
 constexpr int lagging_after = 10;
+/// Frames in a row without a pulse, after which a rig is told to get none. One that films more
+/// often than it is triggered has some.
+constexpr int pulseless_after = 10;
 
 /// A rig in play may be late by the budget, and miss one of the pulses it is asked for.
 std::chrono::nanoseconds patience(const FrameSetAssembler::Options& options,
@@ -38,8 +41,11 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
                                  MonotonicTime arrival) {
     assert(rig_number < rigs_.size());
     Rig& rig = rigs_[rig_number];
-    rig.unsynchronized = !frame->synchronized && rigs_.size() > 1;
-    if (rig.unsynchronized) return FrameFate::unsynchronized;
+    if (!frame->synchronized && rigs_.size() > 1) {
+        rig.unsynchronized_in_a_row = std::min(rig.unsynchronized_in_a_row + 1, pulseless_after);
+        return FrameFate::unsynchronized;
+    }
+    rig.unsynchronized_in_a_row = 0;
 
     const std::uint64_t index = frame->trigger_index;
     const bool new_session = rig.session && *rig.session != frame->session;
@@ -107,7 +113,7 @@ bool FrameSetAssembler::asked_for(std::size_t rig, std::uint64_t index) const {
 
 bool FrameSetAssembler::in_play(std::size_t number, std::uint64_t index, MonotonicTime now) const {
     const Rig& rig = rigs_[number];
-    return rig.connected && !rig.unsynchronized && rig.newest &&
+    return rig.connected && rig.unsynchronized_in_a_row == 0 && rig.newest &&
            now - rig.heard <= patience(options_, rig.rate_divisor) && asked_for(number, index) &&
            !is_out_of_step(number) && !lags(number);
 }
@@ -118,6 +124,10 @@ bool FrameSetAssembler::is_out_of_step(std::size_t rig) const {
 
 bool FrameSetAssembler::lags(std::size_t rig) const {
     return rigs_[rig].late_in_a_row >= lagging_after;
+}
+
+bool FrameSetAssembler::names_no_pulse(std::size_t rig) const {
+    return rigs_[rig].unsynchronized_in_a_row >= pulseless_after;
 }
 
 bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSet& set,
@@ -132,7 +142,7 @@ bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSe
 Absence FrameSetAssembler::absence(std::size_t rig, std::uint64_t index) const {
     if (!rigs_[rig].connected) return Absence::disconnected;
     if (!asked_for(rig, index)) return Absence::not_asked;
-    if (rigs_[rig].unsynchronized) return Absence::unsynchronized;
+    if (rigs_[rig].unsynchronized_in_a_row > 0) return Absence::unsynchronized;
     if (is_out_of_step(rig)) return Absence::out_of_step;
     if (rigs_[rig].newest && *rigs_[rig].newest > index) return Absence::missed_by_rig;
     return Absence::late;

@@ -69,6 +69,8 @@ class FrameSetAssembler {
     bool is_out_of_step(std::size_t rig) const;
     /// Whether its frames come so late that it is not waited for.
     bool lags(std::size_t rig) const;
+    /// Whether none of its frames names a pulse any more.
+    bool names_no_pulse(std::size_t rig) const;
 
     std::size_t open_sets() const { return open_.size(); }
 
@@ -81,11 +83,11 @@ class FrameSetAssembler {
         std::string name;
         bool connected = false;
         std::uint32_t rate_divisor = 1;  ///< 0: no frames are asked for
-        bool unsynchronized = false;
         std::optional<std::uint64_t> session;
         std::optional<std::uint64_t> newest;  ///< index
         MonotonicTime heard{};                ///< when that came
         int late_in_a_row = 0;
+        int unsynchronized_in_a_row = 0;
     };
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;

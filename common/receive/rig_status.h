@@ -41,6 +41,7 @@ struct RigStatus {
     /// Frames of a rig that counted pulses differently from the rest.
     std::uint64_t out_of_step = 0;
     bool is_out_of_step = false;      ///< it does so now
+    bool names_no_pulse = false;      ///< none of its frames does any more
     bool lags = false;                ///< its frames come so late that it is not waited for
     std::uint64_t queue_dropped = 0;  ///< frames dropped because the host was busy
     LinkCounters link;         ///< of the frames on their way to this host, as the rig counts

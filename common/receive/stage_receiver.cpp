@@ -191,18 +191,20 @@ struct StageReceiver::Impl {
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
             assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
             assembler.set_asked(i, rig.wish.streaming ? rig.wish.rate_divisor : 0);
-            note_step(rig, assembler.is_out_of_step(i), assembler.lags(i));
+            note_step(rig, i);
         }
         collect_closed(now);
         start_take(now);
     }
 
     /// Precondition: mutex is held.
-    static void note_step(Rig& rig, bool is_out_of_step, bool lags) {
-        const bool was_wrong = rig.status.is_out_of_step || rig.status.lags;
-        rig.status.is_out_of_step = is_out_of_step;
-        rig.status.lags = lags;
-        const bool is_wrong = is_out_of_step || lags;
+    void note_step(Rig& rig, std::size_t number) const {
+        RigStatus& status = rig.status;
+        const bool was_wrong = status.is_out_of_step || status.lags || status.names_no_pulse;
+        status.is_out_of_step = assembler.is_out_of_step(number);
+        status.lags = assembler.lags(number);
+        status.names_no_pulse = assembler.names_no_pulse(number);
+        const bool is_wrong = status.is_out_of_step || status.lags || status.names_no_pulse;
         if (is_wrong && !was_wrong)
             log_warning("rig {}: {}", rig.status.rig, trouble_of(rig.status));
         else if (was_wrong && !is_wrong)

@@ -493,6 +493,22 @@ TEST(FrameSetAssembler, UnsynchronizedFramesAreNeverJoinedWithOthers) {
     EXPECT_EQ(sets[0].slots[0].frame, nullptr);
 }
 
+TEST(FrameSetAssembler, ARigWhoseWireIsPulledIsNamedUntilItsFramesNamePulsesAgain) {
+    Stage stage(2);
+    start(stage, 2, 100);
+    std::uint64_t index = 101;
+    for (; !stage.assembler().names_no_pulse(0) && index < 200; ++index) {
+        stage.at(index, 10ms);
+        EXPECT_EQ(stage.frame(0, index, 1, false), FrameFate::unsynchronized);
+        stage.frame(1, index);
+        EXPECT_THAT(stage.closed_indices(), ElementsAre(index)) << "it is not waited for";
+    }
+    EXPECT_EQ(index, 111u) << "a few may lack theirs";
+    stage.at(index, 10ms);
+    EXPECT_EQ(stage.frame(0, index), FrameFate::in_set);
+    EXPECT_FALSE(stage.assembler().names_no_pulse(0));
+}
+
 TEST(FrameSetAssembler, OnAStageOfOneRigUnsynchronizedFramesAreTakenAsTheyCome) {
     Stage stage(1);
     for (std::uint64_t k = 1; k < 4; ++k) {
