@@ -1,10 +1,8 @@
 // What a show does whose take has no room any more.
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

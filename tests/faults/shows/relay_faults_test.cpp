@@ -4,7 +4,9 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/shows/two_rig_show.h"

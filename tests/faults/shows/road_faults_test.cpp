@@ -2,7 +2,9 @@
 #include <csignal>
 #include <regex>
 #include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/shows/two_rig_show.h"
