@@ -6,6 +6,7 @@
 
 #include "common/gl/egl_context.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "tests/bench/markdown_tables.h"
 #include "tests/bench/played_truth.h"
 #include "tests/bench/set_truth.h"
 #include "tests/bench/size_option.h"
@@ -68,10 +69,16 @@ int main(int argc, char** argv) {
     play->add_option("--settling", played.settling_s, "Seconds before the measured ones");
     play->add_option("--quality", played.quality, "As vantage live takes it");
     play->add_option("--strip", played.strip, "Picture file: some pictures above their truth");
+    std::string document;
+    play->add_option("--write", document,
+                     "Document that takes the tables, docs/results/live.md for example")
+        ->check(CLI::ExistingFile);
     CLI11_PARSE(app, argc, argv);
     try {
         if (play->parsed()) {
-            std::cout << played_table(played);
+            const std::string table = played_table(played);
+            std::cout << table;
+            if (!document.empty()) put_between_markers(document, table);
             return 0;
         }
         EglContext context;

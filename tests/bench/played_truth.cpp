@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -26,6 +27,9 @@
 
 namespace vantage {
 namespace {
+
+/// Of a good camera, in grey levels; the demo's have none.
+constexpr double noise_sigma = 1;
 
 struct Shown {
     ColourImage picture;
@@ -128,6 +132,9 @@ std::string played_table(const PlayedTruth& wanted) {
     const ShaderLibrary shaders;
     VirtualStage stage(shaders);
     Fidelity instant, tick;
+    Wavering wavering(noise_sigma);
+    std::optional<std::size_t> before;  // the last new picture
+    ColourImage truth_before;
     std::vector<cv::Mat> strip;
     const auto first = static_cast<std::size_t>(wanted.settling_s * wanted.rate_hz);
     constexpr std::size_t pictures_of_strip = 5;
@@ -138,6 +145,14 @@ std::string played_table(const PlayedTruth& wanted) {
         const ColourImage truth = truth_of(stage, shown, shown.exposure);
         instant.add(shown.picture, truth);
         tick.add(shown.picture, truth_of(stage, shown, shown.handed_over));
+        if (const bool is_new = !before || shown.picture.data != played.shown[*before].picture.data;
+            is_new) {
+            if (before)
+                wavering.add(played.shown[*before].picture, truth_before, shown.picture, truth,
+                             cv::Mat1b(truth.size(), 255));
+            before = i;
+            truth_before = truth;
+        }
         if (!wanted.strip.empty() && (i - first) % every == every / 2) {
             cv::Mat both;
             cv::vconcat(shown.picture, truth, both);
@@ -154,7 +169,7 @@ std::string played_table(const PlayedTruth& wanted) {
     const auto levels = [](const std::vector<double>& shares) {
         std::string text;
         for (std::size_t i = 0; i < shares.size(); ++i)
-            if (shares[i] > 0.005)
+            if (shares[i] >= 0.005)
                 text += fmt::format("{}{}: {:.0f} %", text.empty() ? "" : ", ", i, 100 * shares[i]);
         return text;
     };
@@ -164,14 +179,23 @@ std::string played_table(const PlayedTruth& wanted) {
         "| against | PSNR dB | SSIM | debris |\n| --- | --- | --- | --- |\n"
         "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
         "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
-        "New pictures: {} of {} ticks. Exposure to picture p50 {:.0f}, p95 {:.0f}, p99 {:.0f} ms; "
-        "between two new pictures p50 {:.0f}, p99 {:.0f} ms. Rendering levels {}; preparing levels "
-        "{}.\n",
+        "| | |\n| --- | --- |\n"
+        "| wavering while the camera flies | {:.1f} times a camera's noise |\n"
+        "| ticks: all, repeated, missed | {}, {}, {} |\n"
+        "| hand-over after the tick: p50, p99, most | {:.1f}, {:.1f}, {:.0f} ms |\n"
+        "| exposure to picture: p50, p95, p99 | {:.0f}, {:.0f}, {:.0f} ms |\n"
+        "| between two new pictures: p50, p99 | {:.0f}, {:.0f} ms |\n"
+        "| instants a second | {:.1f} |\n"
+        "| levels by time: rendering | {} |\n"
+        "| levels by time: preparing | {} |\n",
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
         wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.debris(),
-        tick.psnr_db(), tick.ssim(), 100 * tick.debris(), books.pictures, books.ticks,
+        tick.psnr_db(), tick.ssim(), 100 * tick.debris(), wavering.against_a_camera(), books.ticks,
+        books.repeated, books.missed, books.late_ms.p50, books.late_ms.p99, books.late_ms.max,
         books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
-        books.interval_ms.p99, levels(books.render_shares), levels(books.prepare_shares));
+        books.interval_ms.p99,
+        static_cast<double>(played.report.instants_prepared) / books.duration_s,
+        levels(books.render_shares), levels(books.prepare_shares));
 }
 
 }  // namespace vantage
