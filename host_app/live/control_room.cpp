@@ -50,8 +50,8 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.coverage = lines.corridor.now ? lines.corridor.now->share : -1;
     lamps.wheel_mode = lines.wheel_mode;
     lamps.synthesiser = state.synthesiser;
-    lamps.render_level = state.render_level;
-    lamps.prepare_level = state.prepare_level;
+    lamps.render_level = state.render_level();
+    lamps.prepare_level = state.prepare_level();
     lamps.repeated_ticks = static_cast<double>(show.books().repeated);
     show_replay(state);
     lamps.film = false;

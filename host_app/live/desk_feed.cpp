@@ -348,8 +348,8 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.behind_s = programme.behind_s;
     state_.time = desk_time(show, programme, take);
     state_.synthesiser = programme.synthesiser;
-    state_.render_level = programme.render_level;
-    state_.prepare_level = programme.prepare_level;
+    state_.render_level = programme.render_level();
+    state_.prepare_level = programme.prepare_level();
     state_.renderer = renderer_;
     state_.view = programme.view;
     const FlightControls::Lines lines = show.controls().lines();

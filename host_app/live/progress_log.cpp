@@ -41,7 +41,7 @@ std::string ProgressLog::line(const LiveShow& show) {
         books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
         static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
         static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
-        now_words, state.render_level, state.prepare_level, state.view.azimuth_rad * deg);
+        now_words, state.render_level(), state.prepare_level(), state.view.azimuth_rad * deg);
     pictures_ = books.pictures;
     repeated_ = books.repeated;
     instants_ = instants.prepared;

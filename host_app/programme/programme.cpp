@@ -385,8 +385,6 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         if (fresh) {
             note_rest(*fresh, now);
             shown_ = state_.picture = std::move(fresh);
-            state_.render_level = shown_->job.level.rank;
-            state_.prepare_level = shown_->job.instant->instant->level;
         }
         if (!shown_) return;
         books_.ticks += passed_ticks;

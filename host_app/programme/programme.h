@@ -66,8 +66,11 @@ struct ProgrammeState {
     std::optional<PastSets::Span> past;  ///< that there is
     std::optional<double> behind_s;      ///< in a stage's past: how far
     std::string synthesiser;
-    int render_level = 0, prepare_level = 0;  ///< of the picture
     double latency_ms = 0;
+
+    // Of the picture's quality; 0 is the best, and before the first.
+    int render_level() const { return picture ? picture->job.level.rank : 0; }
+    int prepare_level() const { return picture ? picture->job.instant->instant->level : 0; }
 };
 
 /// The programme's clock: at every tick the newest picture goes to the sinks, and the next one is

@@ -13,6 +13,7 @@
 #include "common/config/rig_config.h"
 #include "common/pairing/pairing_place.h"
 #include "common/wire/status_report.h"
+#include "rig_firmware/commands/help_words.h"
 #include "rig_firmware/daemon/rig_daemon.h"
 #include "rig_firmware/daemon/service_notifier.h"
 #include "rig_firmware/pairing/service_announcement.h"
@@ -142,11 +143,7 @@ CommandEntry run_command_entry() {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             program.add_subcommand("run", "The rig daemon: capture, rectify, match, stream");
-        command
-            ->add_option("--config", options->config,
-                         "The rig (TOML); every key is in hw_config/rig.toml (installed: "
-                         "/etc/vantage/rig.toml)")
-            ->required();
+        command->add_option("--config", options->config, rig_file_help)->required();
         command->add_option("--frames", options->frames,
                             "End after so many published frames (default: on SIGINT or SIGTERM)");
         command->add_flag("--json", options->json, "Print the closing summary as JSON");

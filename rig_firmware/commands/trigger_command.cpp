@@ -11,6 +11,7 @@
 #include "common/base/stop_signal.h"
 #include "common/config/rig_config.h"
 #include "common/wire/status_report.h"
+#include "rig_firmware/commands/help_words.h"
 #include "rig_firmware/trigger/pulse_sender.h"
 
 namespace vantage {
@@ -76,11 +77,7 @@ CommandEntry trigger_command_entry() {
         auto options = std::make_shared<TriggerOptions>();
         CLI::App* command =
             program.add_subcommand("trigger", "Pulses only; reports how late they were");
-        command
-            ->add_option("--config", options->config,
-                         "The rig (TOML); every key is in hw_config/rig.toml (installed: "
-                         "/etc/vantage/rig.toml)")
-            ->required();
+        command->add_option("--config", options->config, rig_file_help)->required();
         command->add_option("--count", options->count, "Pulses to send")
             ->required()
             ->check(CLI::PositiveNumber);

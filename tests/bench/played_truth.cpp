@@ -19,6 +19,7 @@
 #include "common/gl/limits.h"
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "host_app/live/live_report.h"
 #include "host_app/live/live_show.h"
 #include "tests/bench/fidelity.h"
 #include "tests/support/child_program.h"
@@ -166,13 +167,6 @@ std::string played_table(const PlayedTruth& wanted) {
         write_colour_image(wanted.strip, ColourImage(all));
     }
     const ProgrammeBooks& books = played.report.programme;
-    const auto levels = [](const std::vector<double>& shares) {
-        std::string text;
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            if (shares[i] >= 0.005)
-                text += fmt::format("{}{}: {:.0f} %", text.empty() ? "" : ", ", i, 100 * shares[i]);
-        return text;
-    };
     return fmt::format(
         "The demo's rigs and a programme of {:g} pictures a second, quality {}, on {}: {} pictures "
         "after the first {:g} s, repeated ones too.\n\n"
@@ -195,7 +189,7 @@ std::string played_table(const PlayedTruth& wanted) {
         books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
         books.interval_ms.p99,
         static_cast<double>(played.report.instants_prepared) / books.duration_s,
-        levels(books.render_shares), levels(books.prepare_shares));
+        shares_text(books.render_shares), shares_text(books.prepare_shares));
 }
 
 }  // namespace vantage

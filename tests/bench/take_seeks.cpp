@@ -85,7 +85,7 @@ void measure(const Wanted& wanted) {
         "render {}, prepare {}.\n\n"
         "| ms | median | 95 % | 99 % | most |\n| --- | --- | --- | --- | --- |\n",
         take->duration_s(), take->facts().rigs.size(), books.seek_ms.count, wrong,
-        played.render_level, played.prepare_level);
+        played.render_level(), played.prepare_level());
     const auto row = [](const char* name, const Percentiles& p) {
         std::cout << fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", name, p.p50, p.p95,
                                  p.p99, p.max);

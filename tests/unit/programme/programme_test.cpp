@@ -507,8 +507,8 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
         const auto picture = programme_->state().picture;
         return picture->job.instant->instant->level == 0 && picture->job.level.rank == 0;
     })) << "what stands still is shown as well as can be";
-    EXPECT_EQ(programme_->state().render_level, 0) << "of what is shown";
-    EXPECT_EQ(programme_->state().prepare_level, 0);
+    EXPECT_EQ(programme_->state().render_level(), 0) << "of what is shown";
+    EXPECT_EQ(programme_->state().prepare_level(), 0);
     EXPECT_EQ(programme_->books().rest_ms.count, 1u);
     EXPECT_GT(programme_->books().rest_ms.max, 0);
     const std::uint64_t held = shown_pulse();
