@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds for computers with a 64-bit ARM processor on another computer: the Debian packages in build/arm64/packages, and
-# the tests of the rig's wire, threads, clocks and files, which it runs under qemu-user.
+# Builds for computers with a 64-bit ARM processor on another computer: the Debian packages in build/arm64/packages, which
+# lintian looks at, and the tests of the rig's wire, threads, clocks and files, which it runs under qemu-user.
 #   tools/arm64.sh        vantage-rig, vantage and vantage-calib
 #   tools/arm64.sh rig    only vantage-rig: what a rig computer needs
 #   tools/arm64.sh rig build     compiles that, and packs and runs nothing
@@ -29,5 +29,6 @@ rm -rf build/arm64/packages
 for package in build/arm64/packages/*_arm64.deb; do
   echo "$package needs: $(dpkg-deb -f "$package" Depends)"
 done
+lintian --allow-root --fail-on error,warning --tag-display-limit 0 build/arm64/packages/*_arm64.deb
 # Death tests start themselves anew, which the kernel refuses where binfmt knows no qemu.
 GTEST_FILTER='-*DeathTest*' tools/run_ctest.sh arm64 -L arm64

@@ -3,11 +3,13 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include <fmt/format.h>
 
 #include "common/wire/curve_keys.h"
 #include "tests/support/free_ports.h"
+#include "tests/support/http_answer.h"
 
 namespace vantage {
 
@@ -22,14 +24,11 @@ void TwoRigShow::SetUp() {
     write_key_file(file("rig.key"), rig_keys);
     std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
     near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
-    std::ofstream(file("stage.toml"))
-        << stage_head
-        << fmt::format(
-               "[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\n"
-               "public_key = \"{}\"\n",
-               ImpairedRoad::rig_address, rig_keys.public_key)
-        << fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_)
-        << stage_view;
+    far_entry_ =
+        fmt::format("[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\npublic_key = \"{}\"\n",
+                    ImpairedRoad::rig_address, rig_keys.public_key);
+    near_entry_ = fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_);
+    std::ofstream(file("stage.toml")) << stage_head << far_entry_ << near_entry_ << stage_view;
     far_ = start_far();
     near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
     wait_for(*far_, "publishing on");
@@ -68,9 +67,19 @@ std::unique_ptr<ChildProgram> TwoRigShow::start_far() {
 }
 
 void TwoRigShow::start_host(const std::vector<std::string>& options, const std::string& stage) {
-    std::vector<std::string> arguments{"live",   "--stage", file(stage), "--headless",
-                                       "--json", "--wait",  "60",        "--synth",
-                                       "mesh",   "--rate",  "10"};
+    std::vector<std::string> arguments{"live",
+                                       "--stage",
+                                       file(stage),
+                                       "--headless",
+                                       "--json",
+                                       "--wait",
+                                       "60",
+                                       "--synth",
+                                       "mesh",
+                                       "--rate",
+                                       "10",
+                                       "--metrics",
+                                       fmt::format("http://:{}", metrics_port)};
     arguments.insert(arguments.end(), options.begin(), options.end());
     host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
 }
@@ -102,6 +111,38 @@ std::size_t TwoRigShow::count_of(const std::string& words) const {
 void TwoRigShow::wait_for_progress() {
     const std::size_t now = progress();
     ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
+}
+
+TwoRigShow::Sets TwoRigShow::next_sets() {
+    std::string text;
+    EXPECT_TRUE(comes([&] {
+        text = http_answer(metrics_port, "GET", "/metrics");
+        text.erase(0, text.find("\r\n\r\n"));
+        return !text.empty() && text != last_word_;
+    }));
+    last_word_ = text;
+    const auto count = [&](const std::string& rig) {
+        const std::regex line("vantage_rig_frames_total\\{rig=\"" + rig +
+                              "\",place=\"host\",result=\"in_sets\"\\} ([0-9]+)");
+        std::smatch found;
+        return std::regex_search(text, found, line) ? std::stoi(found[1]) : 0;
+    };
+    return {count("far"), count("near")};
+}
+
+int TwoRigShow::sets_until_far_is_back(const std::function<void()>& end_trouble) {
+    (void)next_sets();  // of whenever the host said it
+    const Sets at_first = next_sets();
+    end_trouble();
+    Sets before = at_first;
+    while (true) {
+        const Sets now = next_sets();
+        const int missed = now.near - at_first.near - (now.far - at_first.far);
+        const bool is_back =
+            now.near > before.near && now.far - before.far >= now.near - before.near;
+        if (is_back || missed > 10 * sets_to_recover || HasFailure()) return missed;
+        before = now;
+    }
 }
 
 void TwoRigShow::expect_ticks_held(const nlohmann::json& summary) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ class TwoRigShow : public testing::Test {
     static constexpr const char* stage_head =
         "version = 1\nrate_hz = 5\nlatency_budget_ms = 400\nkey_file = \"host.key\"\n";
     static constexpr const char* stage_view = "[view]\nwidth_px = 96\nheight_px = 64\n";
+    /// Nobody else listens where the host is.
+    static constexpr int metrics_port = 9464;
+    /// Two seconds.
+    static constexpr int sets_to_recover = 10;
 
     void SetUp() override;
     void TearDown() override;
@@ -50,6 +55,10 @@ class TwoRigShow : public testing::Test {
     std::size_t count_of(const std::string& words) const;
     std::size_t progress() const { return count_of(" pictures, "); }
     void wait_for_progress();
+    /// Sets that lacked the far rig after its trouble's end, before it was in every one again.
+    /// Counted by the rig beside, so that a slow computer has as much time as it takes to film
+    /// them.
+    int sets_until_far_is_back(const std::function<void()>& end_trouble);
 
     /// Who waited for a rig, a network or a person would miss ten a second.
     static void expect_ticks_held(const nlohmann::json& summary);
@@ -61,7 +70,17 @@ class TwoRigShow : public testing::Test {
     int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
     std::unique_ptr<ImpairedRoad> road_;
     std::string near_endpoint_;
+    std::string far_entry_, near_entry_;  ///< of a stage.toml
     std::unique_ptr<ChildProgram> far_, near_, host_;
+
+  private:
+    struct Sets {
+        int far = 0, near = 0;
+    };
+    /// The sets that each rig has been in, both at one moment: the host's next word of them.
+    Sets next_sets();
+
+    std::string last_word_;
 };
 
 }  // namespace vantage
