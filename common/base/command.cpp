@@ -40,19 +40,21 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return words;
 }
 
-/// Threads that come and go, such as those that compile shaders, leave what they freed to the arena
-/// of their time; with up to eight a processor, as glibc has them, memory grows with every
-/// change of the synthesiser.
-void share_arenas() {
-    constexpr int arenas = 2;
+/// Keeps memory flat where things come and go for hours. Threads, such as those that compile
+/// shaders, leave what they freed to the arena of their time, of which glibc has up to eight a
+/// processor. And once a large block was freed glibc takes blocks of its size from arenas too,
+/// where small ones that live on part them: pictures of encoders, of windows, of takes.
+void bound_heap() {
+    constexpr int arenas = 2, large_bytes = 1 << 20;
     mallopt(M_ARENA_MAX, arenas);
+    mallopt(M_MMAP_THRESHOLD, large_bytes);
 }
 
 }  // namespace
 
 int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
                 char** argv) {
-    share_arenas();
+    bound_heap();
     CLI::App program{std::string(facts.description), std::string(facts.name)};
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text(facts));

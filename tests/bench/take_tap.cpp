@@ -53,7 +53,7 @@ struct Note {
     bool operator==(const Note&) const = default;
 };
 
-int compare(const std::string& take_file, const std::string& notes) {
+int compare(const std::string& take_file, const std::string& notes, bool all) {
     std::map<std::string, std::map<std::uint64_t, Note>> noted;
     std::ifstream in(notes);
     for (std::string line; std::getline(in, line);) {
@@ -91,7 +91,7 @@ int compare(const std::string& take_file, const std::string& notes) {
                        pulse <= take.frames(rig).back().pulse && !there.contains(pulse);
         std::cout << fmt::format("| {} | {} | {} | {} | {} | {} |\n", name, take.frames(rig).size(),
                                  compared, differing, lacking, sessions.size());
-        is_same = is_same && differing == 0 && compared > 0;
+        is_same = is_same && differing == 0 && compared > 0 && !(all && lacking > 0);
     }
     return is_same ? 0 : 1;
 }
@@ -110,9 +110,11 @@ int main(int argc, char** argv) {
     CLI::App* comparing = app.add_subcommand("compare", "Ends with 1 if a frame differs");
     comparing->add_option("TAKE", take)->required();
     comparing->add_option("NOTES", notes)->required();
+    bool all = false;
+    comparing->add_flag("--all", all, "Also if a noted frame is not in the take");
     CLI11_PARSE(app, argc, argv);
     try {
-        if (comparing->parsed()) return compare(take, notes);
+        if (comparing->parsed()) return compare(take, notes, all);
         note(stage, notes);
         return 0;
     } catch (const std::exception& error) {
