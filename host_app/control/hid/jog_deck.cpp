@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <set>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -138,10 +139,6 @@ JogDeck::~JogDeck() {
 }
 
 std::optional<DeckEvent> JogDeck::next(std::chrono::nanoseconds timeout) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (failure_) std::rethrow_exception(failure_);
-    }
     return events_.pop_for(timeout);
 }
 
@@ -153,14 +150,17 @@ std::vector<DeckDevice> JogDeck::devices() const {
 void JogDeck::run() {
     // Its readers push to this deck, so they end before it does.
     std::map<std::string, Seen> seen;
-    try {
-        while (!end_.closed()) {
+    bool is_told = false;
+    while (!end_.closed()) {
+        try {
             look(seen);
-            end_.pop_for(options_.look_every);
+            is_told = false;
+        } catch (const std::exception& error) {
+            // What is open is read on, and a wheel that went or came meanwhile is seen later.
+            if (!std::exchange(is_told, true))
+                log_warning("jog wheels are looked for again and again: {}", error.what());
         }
-    } catch (...) {
-        const std::lock_guard lock(mutex_);
-        failure_ = std::current_exception();
+        end_.pop_for(options_.look_every);
     }
 }
 

@@ -42,7 +42,8 @@ struct DeckDevice {
 
 /// The jog controllers of this computer: finds them as they are plugged in, reads each on a thread
 /// of its own, and notices when one goes. A device that may not be opened, or that does not start,
-/// is tried again and again, since its permissions may come a moment after its node.
+/// is tried again and again, since its permissions may come a moment after its node; so is a bus
+/// that cannot be listed.
 class JogDeck {
   public:
     struct Options {
@@ -56,8 +57,7 @@ class JogDeck {
     JogDeck(const JogDeck&) = delete;
     JogDeck& operator=(const JogDeck&) = delete;
 
-    /// The oldest event that was not taken; waits for one until the time is up. Throws what the bus
-    /// threw while it was being listed.
+    /// The oldest event that was not taken; waits for one until the time is up.
     std::optional<DeckEvent> next(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
     /// Events that had to make room because nobody took them.
     std::uint64_t dropped() const { return events_.dropped_count(); }
@@ -87,9 +87,8 @@ class JogDeck {
     Options options_;
     BoundedQueue<DeckEvent> events_{4096};
     BoundedQueue<int> end_{1};  ///< closed: the looking thread ends
-    mutable std::mutex mutex_;  ///< of devices_ and failure_
+    mutable std::mutex mutex_;  ///< of devices_
     std::vector<DeckDevice> devices_;
-    std::exception_ptr failure_;
     std::thread thread_;
 };
 

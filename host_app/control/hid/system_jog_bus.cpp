@@ -138,7 +138,9 @@ class SystemJogBus final : public JogBus {
     std::vector<JogPlace> list() override {
         std::vector<JogPlace> places;
         hid_device_info* const first = hid_enumerate(0, 0);
-        for (const hid_device_info* info = first; info; info = info->next)
+        for (const hid_device_info* info = first; info; info = info->next) {
+            // Of one that is being pulled out hidapi may have no node any more.
+            if (!info->path) continue;
             places.push_back({JogTransport::hidraw,
                               info->path,
                               {info->vendor_id, info->product_id},
@@ -147,6 +149,7 @@ class SystemJogBus final : public JogBus {
                               info->interface_number,
                               info->usage_page,
                               info->usage});
+        }
         hid_free_enumeration(first);
         list_evdev(places);
         return places;

@@ -290,7 +290,8 @@ TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
     EXPECT_EQ(azimuth_now(), held) << live.err();
 
     wheel.emplace(xpress());
-    ASSERT_TRUE(comes([&] { return live.err().rfind("is ready") > live.err().find("is gone"); }));
+    ASSERT_TRUE(comes([&] { return live.err().rfind("is ready") > live.err().find("is gone"); }))
+        << live.err();
     wheel->send({0, 3, 0, 0, 0});
     wheel->send({0, 0, 0, 0, 0});
     EXPECT_TRUE(comes([&] { return std::abs(azimuth_now() - (held - 3)) < 0.11; })) << live.err();

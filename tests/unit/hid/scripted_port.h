@@ -90,6 +90,12 @@ class ScriptedSockets {
         const std::lock_guard lock(mutex_);
         failure_ = std::move(sentence);
     }
+    void list_again() { stop_listing({}); }
+    /// Times that a listing failed so far.
+    int failed_listings() {
+        const std::lock_guard lock(mutex_);
+        return failed_listings_;
+    }
 
     std::unique_ptr<JogBus> bus() { return std::make_unique<Bus>(*this); }
 
@@ -99,7 +105,10 @@ class ScriptedSockets {
         explicit Bus(ScriptedSockets& sockets) : sockets_(sockets) {}
         std::vector<JogPlace> list() override {
             const std::lock_guard lock(sockets_.mutex_);
-            if (!sockets_.failure_.empty()) throw Error(sockets_.failure_);
+            if (!sockets_.failure_.empty()) {
+                ++sockets_.failed_listings_;
+                throw Error(sockets_.failure_);
+            }
             std::vector<JogPlace> places;
             for (const auto& device : sockets_.devices_) places.push_back(device->place);
             return places;
@@ -121,6 +130,7 @@ class ScriptedSockets {
     std::mutex mutex_;
     std::vector<std::shared_ptr<ScriptedDevice>> devices_;
     std::string failure_;
+    int failed_listings_ = 0;
 };
 
 }  // namespace vantage
