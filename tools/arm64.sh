@@ -29,6 +29,6 @@ rm -rf build/arm64/packages
 for package in build/arm64/packages/*_arm64.deb; do
   echo "$package needs: $(dpkg-deb -f "$package" Depends)"
 done
-lintian --allow-root --fail-on error,warning --tag-display-limit 0 build/arm64/packages/*_arm64.deb
+tools/lint_packages.sh build/arm64/packages/*_arm64.deb
 # Death tests start themselves anew, which the kernel refuses where binfmt knows no qemu.
 GTEST_FILTER='-*DeathTest*' tools/run_ctest.sh arm64 -L arm64

@@ -13,10 +13,6 @@ rm -rf "$work/packages-first" "$work/packages-next"
   version=$(dpkg-deb -f "$work"/packages-first/vantage-rig_*.deb Version)
   cpack -B "$work/packages-next" -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
 ) || { tail -20 "$work/cpack.log" >&2; exit 1; }
-if ! command -v lintian >/dev/null; then
-  echo "hil: lintian is missing; ./test installs it" >&2
-  exit 1
-fi
-lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/packages-first/*.deb || exit 1
+"$here/../../tools/lint_packages.sh" "$work"/packages-first/*.deb || exit 1
 HIL_QEMU="-netdev user,id=card,restrict=on -device e1000e,netdev=card" HIL_INIT=init_systemd HIL_TIMEOUT_S=2700 exec "$here/boot.sh" "$work" packages \
   "HIL_DOCUMENTS=$(realpath "$here/../documents")" "PACKAGES=$(realpath "$work/packages-first")" "UPGRADE=$(realpath "$work"/packages-next/vantage-rig_*.deb)"

@@ -23,14 +23,14 @@ void TwoRigShow::SetUp() {
     write_key_file(file("host.key"), host_keys);
     write_key_file(file("rig.key"), rig_keys);
     std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
-    near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
+    const std::string near_endpoint = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
     far_entry_ =
         fmt::format("[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\npublic_key = \"{}\"\n",
                     ImpairedRoad::rig_address, rig_keys.public_key);
-    near_entry_ = fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_);
+    near_entry_ = fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint);
     std::ofstream(file("stage.toml")) << stage_head << far_entry_ << near_entry_ << stage_view;
     far_ = start_far();
-    near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
+    near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint));
     wait_for(*far_, "publishing on");
     wait_for(*near_, "publishing on");
 }

@@ -69,7 +69,6 @@ class TwoRigShow : public testing::Test {
     TemporaryFolder folder_;
     int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
     std::unique_ptr<ImpairedRoad> road_;
-    std::string near_endpoint_;
     std::string far_entry_, near_entry_;  ///< of a stage.toml
     std::unique_ptr<ChildProgram> far_, near_, host_;
 
