@@ -10,6 +10,7 @@
 #include "common/gl/context_group.h"
 #include "common/gl/sliced_drawing.h"
 #include "host_app/instants/rig_demand.h"
+#include "tests/support/eventually.h"
 #include "tests/support/gpu_reset.h"
 #include "tests/unit/sets/scripted_feed.h"
 
@@ -79,16 +80,8 @@ class InstantThreadTest : public testing::Test {
     void go_to(std::optional<double> pulse, std::uint64_t jumps) {
         thread_->wish({.pulse = pulse, .target = {}, .level = {}, .jumps = jumps});
     }
-    template <class Condition>
-    static bool wait_for(Condition condition) {
-        for (int i = 0; i < 15000; ++i) {
-            if (condition()) return true;
-            std::this_thread::sleep_for(2ms);
-        }
-        return false;
-    }
     bool wait_for_pulse(std::uint64_t pulse) {
-        return wait_for([&] {
+        return eventually([&] {
             const auto newest = thread_->newest();
             return newest && newest->set->trigger_index == pulse;
         });
@@ -123,7 +116,7 @@ TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) 
     }
     const auto shows = [&](double pulse, int moments, std::uint64_t wanted, double share) {
         thread_->wish({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
-        return wait_for([&] {
+        return eventually([&] {
             const auto newest = thread_->newest();
             return newest->set->trigger_index == wanted && newest->share == share;
         });
@@ -168,7 +161,7 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
         orders_->draws_next_until_released = true;
         go_to(pulse, jumps);
         if (!pulse) push(4);
-        return wait_for([&] { return !orders_->draws_next_until_released; });
+        return eventually([&] { return !orders_->draws_next_until_released; });
     };
     go_to(1, 1);
     ASSERT_TRUE(wait_for_pulse(1));
@@ -181,7 +174,7 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
     const int taken = orders_->taken;
     ASSERT_TRUE(draw_until_the_jump(2, 2));
     go_to(3, 3);
-    ASSERT_TRUE(wait_for([&] { return orders_->taken == taken + 1; }));
+    ASSERT_TRUE(eventually([&] { return orders_->taken == taken + 1; }));
     // A live one that is given up is counted.
     const std::uint64_t superseded = thread_->books().superseded.sets;
     ASSERT_TRUE(draw_until_the_jump(std::nullopt, 3));
@@ -201,7 +194,7 @@ TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) 
     const int prepared = orders_->prepared;
     orders_->draws_next_until_released = true;
     go_to(2, 1);
-    ASSERT_TRUE(wait_for([&] { return !orders_->draws_next_until_released; }));
+    ASSERT_TRUE(eventually([&] { return !orders_->draws_next_until_released; }));
     go_to(1, 2);
     std::this_thread::sleep_for(50ms);
     orders_->is_released = true;
@@ -212,16 +205,16 @@ TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) 
 TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
     thread_->wish({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
     push(1);
-    ASSERT_TRUE(wait_for([&] { return orders_->prepared > 0; }));
+    ASSERT_TRUE(eventually([&] { return orders_->prepared > 0; }));
     ASSERT_TRUE(wait_for_pulse(1));
     const auto before = thread_->newest();
     thread_->wish({.pulse = {}, .is_held = true, .target = {}, .level = prepare_levels()[0]});
-    ASSERT_TRUE(wait_for([&] { return thread_->newest()->number > before->number; }));
+    ASSERT_TRUE(eventually([&] { return thread_->newest()->number > before->number; }));
     EXPECT_EQ(orders_->rank, 0);
     EXPECT_EQ(thread_->newest()->set, before->set);
     const int prepared = orders_->prepared;
     push(2);
-    ASSERT_TRUE(wait_for([&] { return feed_.drained(); }));
+    ASSERT_TRUE(eventually([&] { return feed_.drained(); }));
     std::this_thread::sleep_for(300ms);
     EXPECT_EQ(thread_->newest()->set, before->set);
     EXPECT_EQ(orders_->prepared, prepared) << "nothing better is wished for";
@@ -255,7 +248,7 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
     wish.target.K << 40, 0, 31.5, 0, 40, 23.5, 0, 0, 1;
     wish.target.world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
     const auto shows = [&](std::uint64_t pulse) {
-        return wait_for([&] {
+        return eventually([&] {
             const auto newest = thread.newest();
             return newest && newest->set->trigger_index == pulse;
         });
@@ -284,7 +277,7 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
     wish.pulse.reset();
     thread.wish(wish);
     push_all(4);
-    EXPECT_TRUE(wait_for([&] { return asks == 1; })) << "live it is";
+    EXPECT_TRUE(eventually([&] { return asks == 1; })) << "live it is";
 }
 
 TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
@@ -292,7 +285,7 @@ TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
     ASSERT_TRUE(wait_for_pulse(1));
     orders_->fails_to_take = true;
     push(2);
-    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 2; })) << "it tries again";
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 2; })) << "it tries again";
     EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "what was ready stays";
     orders_->fails_to_take = false;
     push(3);
@@ -307,7 +300,7 @@ TEST_F(InstantThreadTest, KeepsThePreparerOfASynthesiserThatAnotherTookOverFrom)
         thread_->prepare_for(synthesiser, [orders](const ShaderLibrary&) {
             return std::make_unique<OrderedPreparer>(orders);
         });
-        return wait_for([&] { return thread_->newest()->synthesiser == synthesiser; });
+        return eventually([&] { return thread_->newest()->synthesiser == synthesiser; });
     };
     const auto others = std::make_shared<Orders>();
     ASSERT_TRUE(change_to("other", others));
@@ -326,7 +319,7 @@ TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
     reset_gpu();
     // What was lost shows at the next set, and this one counts as one that could not be prepared.
     push(2);
-    ASSERT_TRUE(wait_for([&] { return thread_->newest()->generation > before->generation; }));
+    ASSERT_TRUE(eventually([&] { return thread_->newest()->generation > before->generation; }));
     EXPECT_EQ(contexts_.losses(), 1);
     EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "of what was shown, at once";
     push(3);
@@ -341,7 +334,7 @@ TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(thread_->books().faults, 1) << "it is not tried again";
@@ -351,11 +344,11 @@ TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
     orders_->draws_next_until_released = true;
     go_to(std::nullopt, 1);
     push(3);
-    ASSERT_TRUE(wait_for([&] { return !orders_->draws_next_until_released; }));
+    ASSERT_TRUE(eventually([&] { return !orders_->draws_next_until_released; }));
     orders_->is_released = true;
     EXPECT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(thread_->books().faults, 1);
@@ -365,10 +358,10 @@ TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
     orders_->fails_to_take = true;
     push(3);
-    ASSERT_TRUE(wait_for([&] { return thread_->books().faults >= 3; }));
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 3; }));
     orders_->fails_to_take = false;
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
@@ -381,7 +374,7 @@ TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
 
 TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {
     feed_.fail_with("the receiver broke");
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(eventually([&] {
         try {
             thread_->newest();
             return false;
