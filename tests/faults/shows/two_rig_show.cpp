@@ -1,5 +1,7 @@
 #include "tests/faults/shows/two_rig_show.h"
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/http_answer.h"
@@ -23,14 +26,14 @@ void TwoRigShow::SetUp() {
     write_key_file(file("host.key"), host_keys);
     write_key_file(file("rig.key"), rig_keys);
     std::ofstream(file("hosts.keys")) << host_keys.public_key << " the host\n";
-    const std::string near_endpoint = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
+    near_endpoint_ = fmt::format("tcp://127.0.0.1:{}", two_free_ports().first);
     far_entry_ =
         fmt::format("[[rigs]]\nname = \"far\"\nendpoint = \"tcp://{}:5600\"\npublic_key = \"{}\"\n",
                     ImpairedRoad::rig_address, rig_keys.public_key);
-    near_entry_ = fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint);
+    near_entry_ = fmt::format("[[rigs]]\nname = \"near\"\nendpoint = \"{}\"\n", near_endpoint_);
     std::ofstream(file("stage.toml")) << stage_head << far_entry_ << near_entry_ << stage_view;
     far_ = start_far();
-    near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint));
+    near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
     wait_for(*far_, "publishing on");
     wait_for(*near_, "publishing on");
 }
@@ -141,6 +144,31 @@ int TwoRigShow::sets_until_far_is_back(const std::function<void()>& end_trouble)
         const bool is_back =
             now.near > before.near && now.far - before.far >= now.near - before.near;
         if (is_back || missed > 10 * sets_to_recover || HasFailure()) return missed;
+        before = now;
+    }
+}
+
+int TwoRigShow::frames_beside_until_both_are_back(const std::function<void()>& end_trouble) {
+    StageConfig stage;
+    stage.rate_hz = 5;
+    stage.rigs.push_back({"near", near_endpoint_, ""});
+    std::atomic<int> frames = 0;
+    StageReceiver beside(stage, StageReceiver::Purpose::look_on,
+                         [&](const ArrivedFrame&) { ++frames; });
+    beside.ask("near", true, 1);
+    EXPECT_TRUE(comes([&] { return frames > 0; }));
+    const int at_first = frames;
+    end_trouble();
+    Sets before = next_sets();
+    while (true) {
+        const int frames_before = frames;
+        const Sets now = next_sets();
+        // The host said its word somewhat before it was heard.
+        const int due = frames - frames_before - 1;
+        const bool are_back =
+            due > 0 && std::min(now.far - before.far, now.near - before.near) >= due;
+        const int missed = frames_before - at_first;
+        if (are_back || missed > 10 * sets_to_recover || HasFailure()) return missed;
         before = now;
     }
 }

@@ -59,6 +59,9 @@ class TwoRigShow : public testing::Test {
     /// Counted by the rig beside, so that a slow computer has as much time as it takes to film
     /// them.
     int sets_until_far_is_back(const std::function<void()>& end_trouble);
+    /// Frames that another host gets of the near rig after the end of this one's trouble, before
+    /// this one's first word, a second later or less, after which both rigs are in every set.
+    int frames_beside_until_both_are_back(const std::function<void()>& end_trouble);
 
     /// Who waited for a rig, a network or a person would miss ten a second.
     static void expect_ticks_held(const nlohmann::json& summary);
@@ -69,6 +72,7 @@ class TwoRigShow : public testing::Test {
     TemporaryFolder folder_;
     int clock_set_ms_ = 1000;  ///< by which a rig that is started from now on has its clock set
     std::unique_ptr<ImpairedRoad> road_;
+    std::string near_endpoint_;
     std::string far_entry_, near_entry_;  ///< of a stage.toml
     std::unique_ptr<ChildProgram> far_, near_, host_;
 
