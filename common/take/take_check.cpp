@@ -29,8 +29,11 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
 void look_at_sound(const TakeReader& take, const PulseSpan& span, TakeVerdict& verdict) {
     if (!take.facts().has_sound) return;
     const PulseGrid pulses(take.facts().pulse_rate_hz);
-    // Sound that begins or ends within a second of the take has no gap there.
-    std::int64_t end = sound_sample_at(pulses.time_of(span.first)) + sound_rate_hz;
+    // A programme has no sound before its first picture. What begins or ends within a second has no
+    // gap there.
+    TaiTime begin = pulses.time_of(span.first);
+    if (!take.cameras().empty()) begin = std::max(begin, take.cameras().front().time);
+    std::int64_t end = sound_sample_at(begin) + sound_rate_hz;
     const std::int64_t last = sound_sample_at(pulses.time_of(span.last)) - sound_rate_hz;
     const auto add_gap = [&](std::int64_t from, std::int64_t to) {
         if (to > from)

@@ -25,6 +25,7 @@ class PictureDelay {
         if (seen_ == 1 || std::chrono::abs(*middle - now_) > unseen) now_ = *middle;
     }
     std::chrono::nanoseconds now() const { return now_; }
+    std::size_t seen() const { return seen_; }
 
   private:
     /// Some seconds of instants.

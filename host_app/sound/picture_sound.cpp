@@ -11,6 +11,13 @@ namespace {
 constexpr std::int64_t longest_slide = sound_rate_hz / 10;
 /// Of a tick's samples, that are put in or taken out at the most: 9 hundredths of a semitone.
 constexpr std::int64_t slide_share = 200;
+/// A take's sound has no hole for less: its pictures' delay falls by half a second while a show
+/// begins.
+constexpr std::int64_t longest_tap_slide = sound_rate_hz;
+/// Nobody hears that sound is off by so much: 5 ms.
+constexpr std::int64_t unheard = sound_rate_hz / 200;
+/// Of pictures, before a take's sound begins: the first is late.
+constexpr std::size_t fewest_latencies = 3;
 /// Where silence and sound, or two pieces of sound, meet: 5 ms.
 constexpr std::size_t fade_samples = sound_rate_hz / 200;
 
@@ -25,6 +32,12 @@ void fade_over(std::vector<float>& samples, std::span<const float> from) {
             samples[at] = share * samples[at] + (1 - share) * before;
         }
     }
+}
+
+/// Samples by which a tick of `count` is to be longer or shorter, to get over `off`.
+std::int64_t slide_towards(std::int64_t off, std::int64_t count) {
+    const std::int64_t most = std::max<std::int64_t>(1, count / slide_share);
+    return std::clamp(off, -most, most);
 }
 
 /// How fast a meter falls, as peak programme meters do (IEC 60268-10: 20 dB in 1.7 s).
@@ -87,8 +100,7 @@ std::shared_ptr<const SoundBlock> PictureSound::next(const Tick& tick) {
         fade_over(block->samples, before);
         position_.reset();
     } else if (position_ && !jumps) {
-        const std::int64_t most = std::max<std::int64_t>(1, count / slide_share);
-        slide = std::clamp(*from - *position_, -most, most);
+        slide = slide_towards(*from - *position_, count);
         block->samples =
             stretched(read(*position_, count + slide, &missing), static_cast<std::size_t>(count));
         *position_ += count + slide;
@@ -109,11 +121,14 @@ std::shared_ptr<const SoundBlock> PictureSound::next(const Tick& tick) {
 }
 
 void PictureSound::give_to_tap(const Tick& tick, const SoundBlock& block) {
-    if (!settings_.tap || !source_->goes_with_ticks()) return;
+    if (!settings_.tap || !source_->goes_with_ticks() || live_.seen() < fewest_latencies) return;
     const std::int64_t heard = sound_sample_at(tick.now - live_.now());
-    if (!tapped_ || std::abs(heard - *tapped_) > longest_slide) tapped_ = heard;
-    settings_.tap({*tapped_, block.samples});
-    *tapped_ += block.count();
+    if (!tapped_ || std::abs(heard - *tapped_) > longest_tap_slide) tapped_ = heard;
+    const std::int64_t off = heard - *tapped_;
+    const std::int64_t slide = std::abs(off) > unheard ? slide_towards(off, block.count()) : 0;
+    const auto count = static_cast<std::size_t>(block.count() + slide);
+    settings_.tap({*tapped_, slide ? stretched(block.samples, count) : block.samples});
+    *tapped_ += static_cast<std::int64_t>(count);
 }
 
 SoundState PictureSound::state() const {

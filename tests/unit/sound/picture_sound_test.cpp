@@ -41,6 +41,19 @@ class PictureSoundTest : public testing::Test {
         source_ = std::make_shared<NumberedSource>(goes_with_ticks);
         sound_.emplace(PictureSound::Settings{.rate_hz = rate_hz, .delay = delay}, source_);
     }
+    /// Of a file; what goes into a take.
+    const std::vector<SoundBlock>& make_with_tap() {
+        source_ = std::make_shared<NumberedSource>(true);
+        sound_.emplace(
+            PictureSound::Settings{
+                .rate_hz = rate_hz,
+                .tap = [this](const SoundBlock& block) { taken_.push_back(block); }},
+            source_);
+        return taken_;
+    }
+    void see_live(std::chrono::nanoseconds latency) {
+        for (int i = 0; i < 3; ++i) sound_->saw_live(latency);
+    }
     std::shared_ptr<const SoundBlock> live(std::int64_t tick) {
         return sound_->next({at(960 * tick), at(960 * tick)});
     }
@@ -53,6 +66,7 @@ class PictureSoundTest : public testing::Test {
                 << i;
     }
 
+    std::vector<SoundBlock> taken_;
     std::shared_ptr<NumberedSource> source_;
     std::optional<PictureSound> sound_;
 };
@@ -143,17 +157,40 @@ TEST_F(PictureSoundTest, AFileGoesWithTheTicksToTheBitWhateverTimeDoes) {
 }
 
 TEST_F(PictureSoundTest, AFileGoesIntoATakeAtTheTimeOfItsPictures) {
-    std::vector<SoundBlock> taken;
-    source_ = std::make_shared<NumberedSource>(true);
-    sound_.emplace(
-        PictureSound::Settings{.rate_hz = rate_hz,
-                               .tap = [&](const SoundBlock& block) { taken.push_back(block); }},
-        source_);
-    sound_->saw_live(300ms);
+    const std::vector<SoundBlock>& taken = make_with_tap();
+    see_live(300ms);
     for (std::int64_t tick = 0; tick < 5; ++tick) live(tick);
     ASSERT_EQ(taken.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i)
         EXPECT_EQ(taken[i].first, begin - 14'400 + 960 * static_cast<std::int64_t>(i));
+}
+
+TEST_F(PictureSoundTest, AFilesSoundInATakeWaitsUntilTheDelayIsKnown) {
+    const std::vector<SoundBlock>& taken = make_with_tap();
+    sound_->saw_live(900ms);
+    live(0);
+    EXPECT_TRUE(taken.empty());
+    for (int i = 0; i < 2; ++i) sound_->saw_live(300ms);
+    live(1);
+    ASSERT_EQ(taken.size(), 1u);
+    EXPECT_EQ(taken[0].first, begin + 960 - 14'400);
+}
+
+TEST_F(PictureSoundTest, AFilesSoundInATakeHasNoHoleWhenTheDelayChanges) {
+    const std::vector<SoundBlock>& taken = make_with_tap();
+    see_live(600ms);
+    std::int64_t tick = 0;
+    for (; tick < 5; ++tick) live(tick);
+    for (int i = 0; i < 20; ++i) sound_->saw_live(200ms);
+    // 400 ms at half a percent.
+    for (; tick < 5000; ++tick) live(tick);
+    for (std::size_t i = 1; i < taken.size(); ++i) ASSERT_EQ(taken[i].first, taken[i - 1].end());
+    const std::int64_t heard = begin + 960 * (tick - 1) - 200 * sound_rate_hz / 1000;
+    EXPECT_NEAR(static_cast<double>(taken.back().first), static_cast<double>(heard), 240);
+    // More than a second is a jump.
+    for (int i = 0; i < 200; ++i) sound_->saw_live(1900ms);
+    live(tick);
+    EXPECT_EQ(taken.back().first, begin + 960 * tick - 1900 * sound_rate_hz / 1000);
 }
 
 }  // namespace

@@ -35,9 +35,11 @@ class TakeSoundTest : public testing::Test {
   protected:
     std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
 
-    /// Of pulses from `first` to `last`; sound in blocks as it is heard, but for a gap.
+    /// Of pulses from `first` to `last`; sound in blocks as it is heard, but for a gap. Its
+    /// programme begins at `first_tick`, if it has one.
     void write_take(const std::string& name, std::uint64_t first, std::uint64_t last,
-                    std::int64_t gap_from = 0, std::int64_t gap_to = 0) const {
+                    std::int64_t gap_from = 0, std::int64_t gap_to = 0,
+                    std::optional<std::uint64_t> first_tick = {}) const {
         TakeFacts facts = small_facts({"left"}, first);
         facts.has_sound = true;
         TakeWriter writer(at(name), facts);
@@ -45,6 +47,10 @@ class TakeSoundTest : public testing::Test {
         std::int64_t heard = sound_of_pulse(first) - 700;
         for (std::uint64_t pulse = first; pulse <= last; ++pulse) {
             writer.add(0, storer.store(sent_frame("left", pulse)));
+            if (first_tick && pulse >= *first_tick)
+                writer.add(CameraRecord{.tick = pulse - *first_tick,
+                                        .pulse = pulse,
+                                        .time = PulseGrid(take_rate_hz).time_of(pulse)});
             for (; heard < sound_of_pulse(pulse + 1); heard += 4800)
                 if (heard + 4800 <= gap_from || heard >= gap_to)
                     writer.add(SoundBlock{heard, tone(heard, 4800)});
@@ -115,6 +121,21 @@ TEST_F(TakeSoundTest, IsCutToTheSampleAndJoinedAgain) {
     std::vector<std::byte> whole = all_of(take);
     whole.resize(std::min(whole.size(), all_of(joined).size()));
     EXPECT_EQ(all_of(joined), whole);
+}
+
+TEST_F(TakeSoundTest, LacksNothingBeforeTheProgrammesFirstPicture) {
+    const std::int64_t begin = sound_of_pulse(heard_pulse);
+    const std::int64_t heard = begin + 3 * sound_rate_hz / 2;
+    const auto gaps = [&](std::optional<std::uint64_t> first_tick) {
+        write_take("late.mkv", heard_pulse, heard_pulse + 99, begin - sound_rate_hz, heard,
+                   first_tick);
+        const std::size_t count = check_take(TakeReader(at("late.mkv"))).sound_gaps.size();
+        std::filesystem::remove(at("late.mkv"));
+        return count;
+    };
+    EXPECT_EQ(gaps({}), 1u) << "half a second more than may be";
+    EXPECT_EQ(gaps(heard_pulse), 1u);
+    EXPECT_EQ(gaps(heard_pulse + 30), 0u) << "1.2 s after the take's begin";
 }
 
 TEST_F(TakeSoundTest, ItsGapsAndItsDamageAreNamed) {
