@@ -26,8 +26,11 @@
 namespace vantage {
 namespace {
 
-/// Before the first picture: what is learnt along time needs some.
-constexpr double learning_s = 5;
+/// Of a take, from which the set is learnt before the first picture: performers walk about in it.
+/// So often a second.
+constexpr double learning_s = 20, learning_rate_hz = 5;
+/// Before the first picture, every instant: what is filtered along time needs some.
+constexpr double settling_s = 1;
 /// Of the time between two pulses: what is nearer to one is that pulse.
 constexpr double least_share = 0.01;
 /// Instants further apart have nothing to say to each other.
@@ -144,20 +147,33 @@ class FilmWork {
         return view_of(picture.camera, {settings_.format.width_px, settings_.format.height_px});
     }
 
-    /// What pictures before the one at `begin` show, or what was before the first.
+    /// The set, from before the picture at `begin` and, where that is little, from after it; then
+    /// what pictures before it show.
     void learn(std::uint64_t begin, const std::function<bool()>& is_wanted) {
-        const auto before =
-            static_cast<std::uint64_t>(std::llround(learning_s * settings_.rate_hz));
-        if (begin < before) {
-            const std::uint64_t first = *instants_.sets().pulse_at(pictures_.front().pulse);
-            const auto learning =
-                static_cast<std::uint64_t>(std::llround(learning_s * pulse_rate_hz_));
-            const std::uint64_t oldest = instants_.sets().span()->oldest;
-            for (std::uint64_t pulse = std::max(oldest, first - std::min(first, learning));
-                 pulse < first && is_wanted(); ++pulse)
+        if (begin == pictures_.size()) return;
+        const PastSets::Span span = *instants_.sets().span();
+        const FilmPicture& next = pictures_[begin];
+        const std::uint64_t there = *instants_.sets().pulse_at(next.pulse);
+        const auto pulses_of = [this](double time_s) {
+            return static_cast<std::uint64_t>(std::llround(time_s * pulse_rate_hz_));
+        };
+        const std::uint64_t learning = pulses_of(learning_s);
+        const std::uint64_t first = there - std::min(there - span.oldest, learning);
+        const std::uint64_t last = std::min(first + learning, span.newest);
+        const auto every =
+            std::max<std::uint64_t>(1, std::llround(pulse_rate_hz_ / learning_rate_hz));
+        for (std::uint64_t pulse = first; pulse < last && is_wanted(); pulse += every)
+            instants_.go_to(static_cast<double>(pulse), view(next));
+        const auto settling =
+            static_cast<std::uint64_t>(std::llround(settling_s * settings_.rate_hz));
+        const std::uint64_t begun = begin - std::min(begin, settling);
+        if (begun == 0) {
+            const std::uint64_t front = *instants_.sets().pulse_at(pictures_.front().pulse);
+            for (std::uint64_t pulse = front - std::min(front - span.oldest, pulses_of(settling_s));
+                 pulse < front && is_wanted(); ++pulse)
                 instants_.go_to(static_cast<double>(pulse), view(pictures_.front()));
         }
-        for (std::uint64_t i = begin - std::min(begin, before); i < begin && is_wanted(); ++i)
+        for (std::uint64_t i = begun; i < begin && is_wanted(); ++i)
             instants_.go_to(pictures_[i].pulse, view(pictures_[i]));
     }
 

@@ -39,10 +39,10 @@ struct FilmSettings {
 
 /// Renders them at the best level, however long that takes, into a film (see VideoWriter) that is
 /// there when it is whole; until then its parts are in FILE.parts (see FilmParts), where a film of
-/// the same take, pictures and settings goes on. `is_wanted` is asked before every picture; one
-/// that is not wanted any more is left there. What is learnt along time is learnt from up to five
-/// seconds before the first picture on, or before the one that it goes on with. Throws Error if
-/// there is such a file already.
+/// the same take, pictures and settings goes on. `is_wanted` is asked before every picture, and
+/// while the set is learnt; one that is not wanted any more is left there. The set is learnt from
+/// twenty seconds before the first picture, or the one that it goes on with, and where the take has
+/// fewer from those after it. Throws Error if there is such a file already.
 ExportBooks export_film(std::shared_ptr<const TakeReader> take,
                         const std::vector<FilmPicture>& pictures, const FilmSettings& settings,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,

@@ -31,6 +31,14 @@ class FilmExport : public testing::Test {
     ExportBooks film(const std::vector<FilmPicture>& pictures, const std::string& name) const {
         return export_film(take_, pictures, settings(), path(name), [] { return true; });
     }
+    /// Its first pictures, and no more.
+    ExportBooks begin_film(const std::vector<FilmPicture>& pictures, const std::string& name,
+                           int count) const {
+        int begun = 0;
+        return export_film(
+            take_, pictures, settings(), path(name), [&] { return begun < count; },
+            [&](double) { ++begun; });
+    }
     /// Past the first rig, pulse by pulse.
     std::vector<FilmPicture> flight(std::size_t count) const {
         std::vector<FilmPicture> pictures(count, {first(), rigs_camera()});
@@ -161,10 +169,7 @@ TEST_F(FilmExport, ReplacesNothing) {
 
 TEST_F(FilmExport, GoesOnWhereItWasEndedWithoutCodingAnythingAnew) {
     const std::vector<FilmPicture> pictures = flight(12);
-    int asked = 0;
-    const ExportBooks begun =
-        export_film(take_, pictures, settings(), path("film.mkv"), [&] { return ++asked <= 7; });
-    EXPECT_EQ(begun.written, 7u);
+    EXPECT_EQ(begin_film(pictures, "film.mkv", 7).written, 7u);
     EXPECT_FALSE(std::filesystem::exists(path("film.mkv")));
     const std::filesystem::path parts = FilmParts::folder_of(path("film.mkv"));
     std::string coded = packets_of(parts / "00000000.mp4") + packets_of(parts / "00000005.mp4");
@@ -211,8 +216,7 @@ TEST_F(FilmExport, AFilmThatWasKilledGoesOn) {
 
 TEST_F(FilmExport, PartsAreOfOneExportAtATimeAndWhole) {
     const std::vector<FilmPicture> pictures = flight(6);
-    int asked = 0;
-    export_film(take_, pictures, settings(), path("film.mkv"), [&] { return ++asked <= 5; });
+    begin_film(pictures, "film.mkv", 5);
     const std::filesystem::path parts = FilmParts::folder_of(path("film.mkv"));
     {
         const FilmParts held(parts, rate_hz());
