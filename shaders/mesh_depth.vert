@@ -3,10 +3,17 @@
 #ifndef RIMS
 #define RIMS 0
 #endif
+#ifndef MATTED
+#define MATTED 0  // 1: for matted_depth.frag
+#endif
 uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
 uniform mat4 clip_from_pixel; // on (u * z, v * z, z, 1)
 #if RIMS
 uniform float reach_px;       // of a rim from the middle of its pixel
+#endif
+
+#if MATTED
+out vec2 place_px;
 #endif
 
 void main() {
@@ -20,5 +27,8 @@ void main() {
 #endif
     ivec2 at = ivec2(pixel % width, pixel / width);
     float z = abs(texelFetch(depth_map, at, 0).r);
+#if MATTED
+    place_px = vec2(at);
+#endif
     gl_Position = clip_from_pixel * vec4((vec2(at) + aside) * z, z, 1.0);
 }

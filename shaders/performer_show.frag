@@ -38,6 +38,7 @@ struct Seen {
     float covers, words;  // the rigs' shares of the pixel, by how close they look; their weight
     float most;           // that the silhouettes allow
     float best;           // how well that rig sees it which does best, 0..1
+    float first;          // how much of it the first two see, 0..1
 };
 
 void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout Seen seen) {
@@ -64,6 +65,7 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
     // The other rigs have a say where neither of the first two sees the point.
     float say = i < 2 ? 1.0 : 1.0 - smoothstep(0.2, 0.6, seen.best);
     seen.best = max(seen.best, sees * sure);
+    if (i < 2) seen.first = max(seen.first, c.a * sees * sure);
 #if !PLAIN
     if (c.a > 0.99) c.rgb = sharp(pictures, uv, 0.0);
 #endif
@@ -85,7 +87,7 @@ void main() {
     tell_origins(texelFetch(set_shares, at, 0));
 #endif
     float z[LAYERS];
-#define LOOK(i) z[i] = layer_z(layer_depth[i], at);
+#define LOOK(i) z[i] = matted_layer_z(layer_depth[i], at);
     FOR_LAYERS(LOOK)
 #if FIRST
     bool has_performer = false;
@@ -97,7 +99,7 @@ void main() {
     float share = 0.0, best_z = 0.0;
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
     // From farther aside errors of depth are longer: the other rigs are asked only where the first two show neither
-    // performers nor, now, the set.
+    // performers nor, now, the set, or for what one of these sees.
     float nearest = min(z[0], z[min(1, LAYERS - 1)]);
     bool are_first = true;
     for (int tries = 0; tries < LAYERS; ++tries) {
@@ -115,15 +117,15 @@ void main() {
         float w = (1.0 - smoothstep(1.0, 2.0, off)) * presence[i] / (apart(ray * z[i], centre[i]) + 1e-5);     \
         sum += w * z[i];                                                                                       \
         weights += w;                                                                                          \
-        if (z[i] > nearest * (1.0 + one_body) && (i < 2 || !are_first)) next = min(next, z[i]);                \
+        if (z[i] > nearest * (1.0 + one_body)) next = min(next, z[i]);                                         \
     }
         FOR_LAYERS(AVERAGE)
         float there = weights > 0.0 ? sum / weights : nearest;
         if (set_z > 0.0 && set_z < hidden * there) break;
-        Seen seen = Seen(vec3(0.0), 0.0, vec4(0.0), 0.0, 0.0, 1.0, 0.0);
+        Seen seen = Seen(vec3(0.0), 0.0, vec4(0.0), 0.0, 0.0, 1.0, 0.0, 0.0);
 #define SEE(i) look(i, colour[i], source_depth[i], pixel, there, seen);
         FOR_LAYERS(SEE)
-        if (seen.weight > 0.0) {
+        if (seen.weight > 0.0 && (!are_first || seen.first > 0.0)) {
             float its = min(seen.covers / seen.words, seen.most);
             if (its > share) best = seen, share = its, best_z = there;
         }

@@ -35,6 +35,12 @@ float layer_z(sampler2D layer, ivec2 at) {
     return d < 1.0 ? near_m / (1.0 - d) : nothing;
 }
 
+// Of a layer that matted_depth.frag drew.
+float matted_layer_z(sampler2D layer, ivec2 at) {
+    float d = texelFetch(layer, at, 0).r;
+    return d < 1.0 ? near_m / (1.0 - 2.0 * (d < 0.5 ? d : d - 0.5)) : nothing;
+}
+
 // Angle-like measure between the two lines of sight to a point: 1 - cosine.
 float apart(vec3 point, vec3 rig_centre) {
     return 1.0 - dot(normalize(point), normalize(point - rig_centre));

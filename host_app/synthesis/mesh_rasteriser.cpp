@@ -24,11 +24,17 @@ double rim_px(const RigSurface& view, const VirtualView& target) {
     return widest_rim_px * std::min(1.0, widest_rim_angle_rad / (angle_rad + 1e-9));
 }
 
+Program program(const ShaderLibrary& library, MeshRasteriser::Depths depths, const char* rims) {
+    const bool is_matted = depths == MeshRasteriser::Depths::matted;
+    return Program::render(library, "mesh_depth.vert",
+                           is_matted ? "matted_depth.frag" : "depth_only.frag",
+                           {{"RIMS", rims}, {"MATTED", is_matted ? "1" : "0"}});
+}
+
 }  // namespace
 
-MeshRasteriser::MeshRasteriser(const ShaderLibrary& library)
-    : draw_(Program::render(library, "mesh_depth.vert", "depth_only.frag")),
-      draw_rims_(Program::render(library, "mesh_depth.vert", "depth_only.frag", {{"RIMS", "1"}})) {}
+MeshRasteriser::MeshRasteriser(const ShaderLibrary& library, Depths depths)
+    : draw_(program(library, depths, "0")), draw_rims_(program(library, depths, "1")) {}
 
 void MeshRasteriser::draw_depth(const RigSurface& view, const VirtualView& target, double near_m,
                                 const Framebuffer& depth_only, QuadGrid grid) {

@@ -12,7 +12,10 @@ namespace vantage {
 /// TriangleBuilder has written their triangles.
 class MeshRasteriser {
   public:
-    explicit MeshRasteriser(const ShaderLibrary& library);
+    /// How depth is written: 1 - near / z; or, of surfaces with a matte, half of that within it and
+    /// half of that and a half beyond, so that nothing beyond a matte hides what is within one.
+    enum class Depths { plain, matted };
+    explicit MeshRasteriser(const ShaderLibrary& library, Depths depths = Depths::plain);
 
     /// Draws the view's surface into a depth-only framebuffer of the target's size: 1 - near / z, 1
     /// where there is nothing. Surfaces seen from behind are left out. Clears before.

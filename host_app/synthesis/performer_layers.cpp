@@ -5,7 +5,7 @@
 namespace vantage {
 
 PerformerLayers::PerformerLayers(const ShaderLibrary& library)
-    : layers_(library),
+    : layers_(library, RigLayers::Depths::matted),
       find_(library, "performer_show.frag", same_surface_share, {{"FIRST", "1"}}),
       show_(library, "performer_show.frag", same_surface_share),
       show_plainly_(library, "performer_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}

@@ -28,7 +28,9 @@ class RigLayers {
   public:
     static constexpr std::size_t max_layers = most_drawn_rigs;
 
-    explicit RigLayers(const ShaderLibrary& library) : rasteriser_(library) {}
+    using Depths = MeshRasteriser::Depths;
+    explicit RigLayers(const ShaderLibrary& library, Depths depths = Depths::plain)
+        : rasteriser_(library, depths) {}
 
     /// Draws the surfaces, those after the first `fine` ones by their coarse grids.
     /// Preconditions: at most max_layers, none null; the grids' triangles have been built.

@@ -29,6 +29,8 @@ struct Wanted {
     std::vector<std::uint64_t> sets{0, 1, 2};
     cv::Size size{320, 240};
     double rate_hz = 25, apart_deg = 20, share = 0.5, start_s = 2, apart_s = 0.7;
+    /// Of a live stage; so long before the first moment the set is learnt, an instant so often.
+    double learning_s = 5, learning_apart_s = 0.2;
     int moments = 6;
     bool with_exact_depth = false, with_camera = true;
     std::string pictures;
@@ -91,7 +93,6 @@ RigFrame frame_of(const MatchingRig& rig, const StereoCalibration& calibration, 
     return frame;
 }
 
-/// What the set looked like so far: the preparer learns it.
 struct Camera {
     CameraState state;
     StageCamera camera;
@@ -157,16 +158,28 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
             for (const RigFrame& frame : frames) views.push_back(depth_view_of(frame));
             runner.preparer->take(views, dt_s);
             const VirtualView target = view_of(camera.state, wanted.size);
+            for (std::size_t rig = 0; rig < views.size(); ++rig) runner.preparer->improve(target);
             const auto ready = runner.preparer->prepare(target, prepare_levels().front());
             ColourImage picture;
             if (paints)
                 picture = runner.painter->paint(*ready, camera.state, render_levels().front());
             return picture;
         };
+        // Once around, so that no time is before the stage's beginning.
+        constexpr double loop_s = 24;
+        const auto time_of = [&](double since_start_s) {
+            return nanoseconds(
+                static_cast<std::int64_t>(1e9 * (loop_s + wanted.start_s + since_start_s)));
+        };
+        if (wanted.with_camera)
+            for (double time_s = -wanted.learning_s; time_s < -wanted.learning_apart_s / 2;
+                 time_s += wanted.learning_apart_s) {
+                const std::vector<RigFrame> frames = film(time_of(time_s));
+                for (Runner& runner : runners) show(runner, frames, wanted.learning_apart_s, false);
+            }
         for (int moment = 0; moment < wanted.moments; ++moment) {
             const auto at = [&](double pulses) {
-                return nanoseconds(static_cast<std::int64_t>(
-                    1e9 * (wanted.start_s + moment * wanted.apart_s + pulses / wanted.rate_hz)));
+                return time_of(moment * wanted.apart_s + pulses / wanted.rate_hz);
             };
             const std::vector<RigFrame> a = film(at(0)), b = film(at(1));
             std::vector<RigFrame> between[ways];
@@ -211,7 +224,7 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                 }
             }
             if (!wanted.with_camera) continue;
-            // The set is learnt from the pulses, and the in-between is shown after the first.
+            // The in-between is shown after the first pulse.
             const ColourImage before = truth_stage.render(camera.camera, at(0)).colour;
             const ColourImage truth = truth_stage.render(camera.camera, at(wanted.share)).colour;
             const ColourImage after = truth_stage.render(camera.camera, at(1)).colour;
@@ -221,7 +234,6 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                 show(runners[static_cast<std::size_t>(way)], a, wanted.apart_s, false);
                 const ColourImage picture = show(runners[static_cast<std::size_t>(way)],
                                                  between[way], wanted.share / wanted.rate_hz, true);
-                if (moment * 2 < wanted.moments) continue;
                 at_camera[way].add(picture, truth, moving);
                 all_camera[way].add(picture, truth, moving);
                 pictures.push_back(picture);
@@ -272,6 +284,9 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     app.add_option("--start", wanted.start_s, "In the stage's loop of 24 s");
+    app.add_option("--learn", wanted.learning_s, "Before it, from which the set is learnt")
+        ->check(CLI::Range(0.0, 24.0))
+        ->capture_default_str();
     app.add_option("--moments", wanted.moments, "That are looked at, 0.7 s apart");
     app.add_flag("--exact", wanted.with_exact_depth, "Depth of the stage, not of the matchers");
     app.add_flag("--rigs-only", without_camera, "No camera between the rigs");
