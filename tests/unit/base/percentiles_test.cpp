@@ -1,5 +1,7 @@
 #include "common/base/percentiles.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace vantage {
@@ -43,6 +45,16 @@ TEST(Percentiles, SpeakOfTheNewestSamplesWhileCountAndMaxSpeakOfAll) {
     EXPECT_EQ(p.p99, 24);
     EXPECT_GE(p.p50, 19) << "of 15..24";
     EXPECT_LE(p.p50, 20);
+}
+
+TEST(Percentiles, LeaveOutWhatIsNoNumber) {
+    PercentileRecorder recorder(3);
+    for (const double sample : {1.0, std::nan(""), 2.0, 2.0, std::nan(""), 3.0, 2.0})
+        recorder.add(sample);
+    const Percentiles p = recorder.summary();
+    EXPECT_EQ(p.count, 5u);
+    EXPECT_EQ(p.p50, 2);
+    EXPECT_EQ(p.p99, 3);
 }
 
 }  // namespace
