@@ -150,28 +150,29 @@ class FilmWork {
     /// The set, from before the picture at `begin` and, where that is little, from after it; then
     /// what pictures before it show.
     void learn(std::uint64_t begin, const std::function<bool()>& is_wanted) {
-        if (begin == pictures_.size()) return;
         const PastSets::Span span = *instants_.sets().span();
-        const FilmPicture& next = pictures_[begin];
-        const std::uint64_t there = *instants_.sets().pulse_at(next.pulse);
         const auto pulses_of = [this](double time_s) {
             return static_cast<std::uint64_t>(std::llround(time_s * pulse_rate_hz_));
         };
-        const std::uint64_t learning = pulses_of(learning_s);
-        const std::uint64_t first = there - std::min(there - span.oldest, learning);
-        const std::uint64_t last = std::min(first + learning, span.newest);
+        const auto before = [&](std::uint64_t pulse, double time_s) {
+            return pulse - std::min(pulse - span.oldest, pulses_of(time_s));
+        };
+        const auto see = [&](std::uint64_t from, std::uint64_t to, std::uint64_t every,
+                             const FilmPicture& picture) {
+            for (std::uint64_t pulse = from; pulse < to && is_wanted(); pulse += every)
+                instants_.go_to(static_cast<double>(pulse), view(picture));
+        };
+        const std::uint64_t first =
+            before(*instants_.sets().pulse_at(pictures_[begin].pulse), learning_s);
         const auto every =
             std::max<std::uint64_t>(1, std::llround(pulse_rate_hz_ / learning_rate_hz));
-        for (std::uint64_t pulse = first; pulse < last && is_wanted(); pulse += every)
-            instants_.go_to(static_cast<double>(pulse), view(next));
+        see(first, std::min(first + pulses_of(learning_s), span.newest), every, pictures_[begin]);
         const auto settling =
             static_cast<std::uint64_t>(std::llround(settling_s * settings_.rate_hz));
         const std::uint64_t begun = begin - std::min(begin, settling);
         if (begun == 0) {
             const std::uint64_t front = *instants_.sets().pulse_at(pictures_.front().pulse);
-            for (std::uint64_t pulse = front - std::min(front - span.oldest, pulses_of(settling_s));
-                 pulse < front && is_wanted(); ++pulse)
-                instants_.go_to(static_cast<double>(pulse), view(pictures_.front()));
+            see(before(front, settling_s), front, 1, pictures_.front());
         }
         for (std::uint64_t i = begun; i < begin && is_wanted(); ++i)
             instants_.go_to(pictures_[i].pulse, view(pictures_[i]));
