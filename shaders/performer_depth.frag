@@ -1,9 +1,16 @@
 // The depth of what stands before a rig's set: measured where it was, elsewhere that of the nearest around; smoothed
 // within surfaces. Beyond the matte it goes on for some pixels, negative, unless the set stands before it: the matte
 // ends a performer, not where depth does.
-uniform sampler2D depth_map;  // from performer_carve.frag, metres, 0 = unknown
+#ifndef FAR
+#define FAR 0  // 1: also what performer_far.frag found
+#endif
+
+uniform sampler2D depth_map;  // metres, 0 = unknown
 uniform sampler2D matte;      // the performers' share
 uniform sampler2D set_depth;  // metres
+#if FAR
+uniform sampler2D far_depth;  // metres, 0 = none
+#endif
 uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
 
 layout(location = 0) out float performer_m;  // metres, 0 = nothing, negative = beyond the matte
@@ -14,6 +21,7 @@ const ivec2 taps[rings * ring_taps] = ivec2[](
     ivec2(1, 2), ivec2(-1, 2), ivec2(-2, 1), ivec2(-2, -1), ivec2(-1, -2), ivec2(1, -2), ivec2(2, -1), ivec2(2, 1),
     ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3), ivec2(4, 0),
     ivec2(2, 6), ivec2(-2, 6), ivec2(-6, 2), ivec2(-6, -2), ivec2(-2, -6), ivec2(2, -6), ivec2(6, -2), ivec2(6, 2));
+const int block_px = 4;            // of performer_far.frag
 const float smooth_weight = 0.24;  // of the first ring in the mean
 const float none = 1e9;
 
@@ -33,12 +41,16 @@ void main() {
         for (int k = 0; k < ring_taps; ++k) farther = nearer(farther, depth_at(at + taps[ring_taps * ring + k]));
         nearest = nearest == none ? farther : nearest;
     }
-    if (nearest == none) nearest = 0.0;
+    bool is_alone = nearest == none;
+    if (is_alone) nearest = 0.0;
     if (textureLod(matte, gl_FragCoord.xy / vec2(textureSize(depth_map, 0)), 0.0).r == 0.0) {
         float set = texelFetch(set_depth, at, 0).r;
         performer_m = set <= 0.0 || set > nearest ? -nearest : 0.0;
         return;
     }
+#if FAR
+    if (is_alone) nearest = texelFetch(far_depth, at / block_px, 0).r;
+#endif
     float depth = measured > 0.0 ? measured : nearest;
     float all = 1.0, sum = 1.0 / max(depth, 1e-3);
     for (int k = 0; k < ring_taps; ++k) {

@@ -11,19 +11,47 @@ namespace {
 
 /// Of one instant nothing is told: a matte is empty, whatever stands there.
 constexpr int told_from_instants = 2;
+constexpr int block_px = 4;  // of performer_far.frag
+
+VirtualView depth_camera(const RigHistory& rig) {
+    const cv::Size size = rig.depth().size();
+    return {size.width, size.height, rig.K_depth(), rig.camera().world_from_camera};
+}
 
 }  // namespace
 
-const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* const> all) {
-    const cv::Size size = rig.depth().size();
-    const VirtualView camera{size.width, size.height, rig.K_depth(),
-                             rig.camera().world_from_camera};
-    std::vector<RigHistory*> others;
-    for (RigHistory* other : most_useful(all, camera, max_others + 1))
+std::vector<const RigHistory*> PerformerDepth::others_of(const RigHistory& rig,
+                                                         std::span<RigHistory* const> all) {
+    std::vector<const RigHistory*> others;
+    for (const RigHistory* other : most_useful(all, depth_camera(rig), max_others + 1))
         if (other != &rig && other->learnt_instants() >= told_from_instants &&
             others.size() < max_others)
             others.push_back(other);
-    carved_.resize(size);
+    return others;
+}
+
+GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
+                            std::span<const RigHistory* const> others, int unit) {
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const auto set = [&](const char* name, const auto& value) {
+            program.set(fmt::format("{}[{}]", name, i), value);
+        };
+        const RigHistory& other = *others[i];
+        set("other_matte", unit);
+        other.matte().bind(unit++);
+        set("other_set", unit);
+        other.steady_depth().bind(unit++);
+        set("other_from_pixel",
+            Eigen::Matrix4f(
+                pixel_from_target_pixel(other.camera(), depth_camera(rig)).cast<float>()));
+        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
+                                          static_cast<float>(other.colour().height_px())));
+    }
+    return static_cast<GLuint>(unit);
+}
+
+void PerformerDepth::carve(const RigHistory& rig, std::span<const RigHistory* const> others) {
+    carved_.resize(rig.depth().size());
     TilePass& carving = carve_[others.size()];
     Program& carve = carving.use();
     carve.set("depth_map", 0);
@@ -31,42 +59,45 @@ const Texture& PerformerDepth::carve(RigHistory& rig, std::span<RigHistory* cons
     carve.set("matte", 2);
     rig.depth().bind(0);
     rig.set_state().seen().bind(1);
-    rig.matte().texture().bind(2);
-    int unit = 3;
-    for (std::size_t i = 0; i < others.size(); ++i) {
-        const auto set = [&](const char* name, const auto& value) {
-            carve.set(fmt::format("{}[{}]", name, i), value);
-        };
-        RigHistory& other = *others[i];
-        set("other_matte", unit);
-        other.matte().texture().bind(unit++);
-        set("other_set", unit);
-        other.steady_depth().bind(unit++);
-        set("other_from_pixel",
-            Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
-        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
-                                          static_cast<float>(other.colour().height_px())));
-    }
-    carving.draw(carved_.target(), rig.matte_tiles().texture(), unit, rig.fresh_colour().size());
-    return carved_.texture();
+    rig.matte().bind(2);
+    carving.draw(carved_.target(), rig.matte_tiles(), bind(carve, rig, others, 3),
+                 rig.fresh_colour().size());
 }
 
-void PerformerDepth::close(const Texture& depth_m, const RigHistory& rig,
+void PerformerDepth::look_far(const RigHistory& rig, std::span<const RigHistory* const> others) {
+    const cv::Size size = rig.depth().size();
+    far_.resize({(size.width + block_px - 1) / block_px, (size.height + block_px - 1) / block_px});
+    TilePass& looking = look_far_[others.size()];
+    Program& look = looking.use();
+    look.set("depth_map", 0);
+    look.set("matte", 1);
+    carved_.texture().bind(0);
+    rig.matte().bind(1);
+    looking.draw(far_.target(), rig.matte_tiles(), bind(look, rig, others, 2),
+                 rig.fresh_colour().size());
+}
+
+void PerformerDepth::close(TilePass& closing, const Texture& depth_m, const RigHistory& rig,
                            const Framebuffer& closed) {
-    Program& depth = close_.use();
-    depth.set("depth_map", 0);
-    depth.set("matte", 1);
-    depth.set("set_depth", 2);
-    depth.set("edge_ratio", depth_edge_ratio);
+    Program& close = closing.use();
+    close.set("depth_map", 0);
+    close.set("matte", 1);
+    close.set("set_depth", 2);
+    close.set("far_depth", 3);
+    close.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
     rig.matte().bind(1);
     rig.steady_depth().bind(2);
-    close_.draw(closed, rig.matte_tiles(), 3, rig.fresh_colour().size());
+    far_.texture().bind(3);
+    closing.draw(closed, rig.matte_tiles(), 4, rig.fresh_colour().size());
 }
 
-void PerformerDepth::find(RigHistory& rig, std::span<RigHistory* const> all,
+void PerformerDepth::find(const RigHistory& rig, std::span<RigHistory* const> all,
                           const Framebuffer& found) {
-    close(carve(rig, all), rig, found);
+    const std::vector<const RigHistory*> others = others_of(rig, all);
+    carve(rig, others);
+    look_far(rig, others);
+    close(close_from_afar_, carved_.texture(), rig, found);
 }
 
 void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
@@ -77,7 +108,8 @@ void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> 
     };
     std::vector<ComparedView> views;
     for (const RigHistory* one : all) views.push_back(performers(*one));
-    close(consensus_.better_performers(performers(rig), views, rig.matte_tiles()), rig, found);
+    close(close_, consensus_.better_performers(performers(rig), views, rig.matte_tiles()), rig,
+          found);
 }
 
 }  // namespace vantage

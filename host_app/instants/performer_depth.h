@@ -10,16 +10,20 @@ namespace vantage {
 class PerformerDepth {
   public:
     explicit PerformerDepth(const ShaderLibrary& library)
-        : close_(library, "performer_depth.frag"), consensus_(library) {
-        for (std::size_t others = 0; others <= max_others; ++others)
-            carve_.emplace_back(library, "performer_carve.frag",
-                                ShaderDefines{{"OTHERS", std::to_string(others)}});
+        : close_(library, "performer_depth.frag"),
+          close_from_afar_(library, "performer_depth.frag", {{"FAR", "1"}}),
+          consensus_(library) {
+        for (std::size_t others = 0; others <= max_others; ++others) {
+            const ShaderDefines count{{"OTHERS", std::to_string(others)}};
+            carve_.emplace_back(library, "performer_carve.frag", count);
+            look_far_.emplace_back(library, "performer_far.frag", count);
+        }
     }
 
     /// Draws the rig's, r32f of its depth map's size: metres, 0 = none, negative beyond its matte.
     /// `all`, of this instant, may hold the rig itself. Precondition: a SetLearner has learnt of
     /// all of them.
-    void find(RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
+    void find(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
     /// The same, bettered by the other rigs. Precondition: their performer_depth() was found, and
     /// the rig's.
@@ -28,14 +32,23 @@ class PerformerDepth {
   private:
     static constexpr std::size_t max_others = 3;
 
-    const Texture& carve(RigHistory& rig, std::span<RigHistory* const> all);
+    /// Those whose silhouettes are looked at.
+    static std::vector<const RigHistory*> others_of(const RigHistory& rig,
+                                                    std::span<RigHistory* const> all);
+    /// Their mattes and sets, from a texture unit on. Returns the first free one.
+    static GLuint bind(Program& program, const RigHistory& rig,
+                       std::span<const RigHistory* const> others, int unit);
+    void carve(const RigHistory& rig, std::span<const RigHistory* const> others);
+    /// For the holes in what is left that are too wide for their edges.
+    void look_far(const RigHistory& rig, std::span<const RigHistory* const> others);
     /// Fills and smooths.
-    void close(const Texture& depth_m, const RigHistory& rig, const Framebuffer& closed);
+    void close(TilePass& closing, const Texture& depth_m, const RigHistory& rig,
+               const Framebuffer& closed);
 
-    std::vector<TilePass> carve_;  ///< one for every number of other rigs
-    TilePass close_;
+    std::vector<TilePass> carve_, look_far_;  ///< one for every number of other rigs
+    TilePass close_, close_from_afar_;
     RigConsensus consensus_;
-    DrawnTexture carved_{TextureFormat::r32f};
+    DrawnTexture carved_{TextureFormat::r32f}, far_{TextureFormat::r32f};
 };
 
 }  // namespace vantage

@@ -113,12 +113,25 @@ TEST_F(PerformerDepthTest, IsWhereverARigIsThatHasJustCome) {
               1e-4);
 }
 
-TEST_F(PerformerDepthTest, IsThatOfLikeColourAroundWhereNothingWasMeasured) {
+TEST_F(PerformerDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
     DepthView torn = film(0, true);
     const cv::Rect hole(44, 30, 5, 9);
     torn.depth_m(hole) = 0.0f;
     const DepthImage whole = found(torn, {0.4});
     EXPECT_LT(cv::norm(whole(hole), DepthImage(hole.size(), square_m), cv::NORM_INF), 1e-4);
+}
+
+/// What another rig takes away leaves a hole that is too wide for its edges: 1 m * 78 px * (1 / 2 m
+/// - 1 / 3 m) = 13 px.
+TEST_F(PerformerDepthTest, IsThatFromAfarIfAnotherRigSeesAPerformerThere) {
+    DepthView wrong = film(0, true);
+    const cv::Rect box = cv::boundingRect(square());
+    const cv::Rect strip(box.x, box.y, 12, box.height);
+    wrong.depth_m(strip) = 3.0f;
+    EXPECT_GT(cv::mean(found(wrong, {})(strip))[0], 2.9);
+    const DepthImage whole = found(wrong, {-1.0});
+    EXPECT_LT(cv::norm(whole(strip), DepthImage(strip.size(), square_m), cv::NORM_INF), 1e-3)
+        << whole(strip);
 }
 
 TEST_F(PerformerDepthTest, IsSmoothedWithinASurface) {
