@@ -10,9 +10,9 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "rig_firmware/stream/publisher.h"
-#include "tests/faults/comes_true.h"
 #include "tests/faults/impaired_road.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -62,7 +62,7 @@ class LinkFaults : public testing::TestWithParam<NetworkFault> {
             {"far", fmt::format("tcp://{}:5600", ImpairedRoad::rig_address), far_->public_key()});
         stage.rigs.push_back({"near", near_->endpoint(), near_->public_key()});
         host_ = std::make_unique<StageReceiver>(stage);
-        ASSERT_TRUE(comes_true([&] { return rig(far).connected && rig(near).connected; }));
+        ASSERT_TRUE(eventually([&] { return rig(far).connected && rig(near).connected; }));
     }
     void TearDown() override {
         host_.reset();
@@ -80,7 +80,7 @@ class LinkFaults : public testing::TestWithParam<NetworkFault> {
         near_->publish(make_frame(pulse_));
         ++pulse_;
         ++beats_;
-        ASSERT_TRUE(comes_true([&] { return rig(near).received == beats_; }))
+        ASSERT_TRUE(eventually([&] { return rig(near).received == beats_; }))
             << "the rig beside has lost a frame";
         while (const auto set = host_->next(0s))
             if (set->slots.at(far).frame) far_seen_ = set->trigger_index;
@@ -100,7 +100,7 @@ class LinkFaults : public testing::TestWithParam<NetworkFault> {
 
 TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     beat(5);
-    ASSERT_TRUE(comes_true([&] { return rig(far).received > 0; }));
+    ASSERT_TRUE(eventually([&] { return rig(far).received > 0; }));
 
     const NetworkFault& fault = GetParam();
     road_->impair(fault.trouble);
@@ -126,7 +126,7 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     RecordProperty("pulses_to_recover", beats);
 
     // Nothing is under way any more: every frame is in one counter.
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         while (host_->next(0s)) {
         }
         const RigStatus status = rig(far);
@@ -142,7 +142,7 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
                 s.rig_counters.published, beats_, s.link.offered, s.link.sent, s.link.send_dropped,
                 s.received, s.lost);
         }();
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         while (host_->next(0s)) {
         }
         const RigStatus status = rig(far);

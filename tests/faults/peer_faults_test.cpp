@@ -22,8 +22,8 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
 #include "rig_firmware/stream/publisher.h"
-#include "tests/faults/comes_true.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -70,7 +70,7 @@ class PeerFaults : public testing::Test {
         place_.sin_port = htons(static_cast<std::uint16_t>(
             std::stoi(rig_->endpoint().substr(rig_->endpoint().rfind(':') + 1))));
         host_ = std::make_unique<StageReceiver>(stage_at(rig_->endpoint()));
-        ASSERT_TRUE(comes_true([&] { return host_->status().rigs[0].connected; }));
+        ASSERT_TRUE(eventually([&] { return host_->status().rigs[0].connected; }));
         beat();
     }
 
@@ -85,7 +85,7 @@ class PeerFaults : public testing::Test {
     void beat() {
         rig_->publish(make_frame(1000 + beats_));
         ++beats_;
-        ASSERT_TRUE(comes_true([&] { return host_->status().rigs[0].received == beats_; }));
+        ASSERT_TRUE(eventually([&] { return host_->status().rigs[0].received == beats_; }));
         while (host_->next(0s)) {
         }
     }
@@ -116,7 +116,7 @@ class PeerFaults : public testing::Test {
                            line.find(words) != line.npos;
                 }));
         };
-        EXPECT_TRUE(comes_true([&] { return lines() > 0; })) << words;
+        EXPECT_TRUE(eventually([&] { return lines() > 0; })) << words;
         EXPECT_LE(lines(), most_lines()) << words;
     }
 
@@ -184,11 +184,11 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     nothing_was_noticed();
     // Who is welcome still comes in.
     const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::look_on);
-    EXPECT_TRUE(comes_true([&] { return second.status().rigs[0].connected; }));
+    EXPECT_TRUE(eventually([&] { return second.status().rigs[0].connected; }));
     is_in_the_log("from 127.0.0.1, had not greeted as hosts do after 5 s");
-    EXPECT_TRUE(comes_true([&] { return rig_->status().refused_connections == 1000; }));
+    EXPECT_TRUE(eventually([&] { return rig_->status().refused_connections == 1000; }));
     EXPECT_TRUE(
-        comes_true([&] { return host_->status().rigs[0].health.refused_connections == 1000; }));
+        eventually([&] { return host_->status().rigs[0].health.refused_connections == 1000; }));
     strangers.clear();
     beat();
 }
@@ -201,7 +201,7 @@ TEST_F(PeerFaults, ConnectionsThatComeAndGoAreServedAround) {
     beat(beats_beside);
     nothing_was_noticed();
     is_in_the_log("left before it had greeted");
-    EXPECT_TRUE(comes_true([&] { return rig_->status().refused_connections == 1000; }));
+    EXPECT_TRUE(eventually([&] { return rig_->status().refused_connections == 1000; }));
 }
 
 TEST_F(PeerFaults, HandshakesWithoutKeyAndForgedOnesOpenNothing) {
@@ -245,7 +245,7 @@ TEST_F(PeerFaults, AFloodOfStrangersKeysIsRefusedAndSaidOnce) {
         strangers.push_back(std::move(socket));
     }
     const std::string refused = stranger_keys.public_key + " is refused";
-    ASSERT_TRUE(comes_true([&] { return log_lines_with(refused) > 0; }));
+    ASSERT_TRUE(eventually([&] { return log_lines_with(refused) > 0; }));
     beat(beats_beside);
     nothing_was_noticed();
     EXPECT_LE(log_lines_with(refused), most_lines());
@@ -266,7 +266,7 @@ TEST_F(PeerFaults, AHostThatFloodsIsAnsweredAFewTimesAndSaidOnce) {
         (void)socket.send(zmq::str_buffer("\xff\x07garbage"), zmq::send_flags::none);
         if (i % 500 == 0) beat();
     }
-    ASSERT_TRUE(comes_true([&] { return rig_->status().malformed == 5000; }));
+    ASSERT_TRUE(eventually([&] { return rig_->status().malformed == 5000; }));
     beat(beats_beside);
     nothing_was_noticed();
     const std::size_t lines = log_lines_with(refused) - lines_before;
@@ -298,7 +298,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
                          MSG_NOSIGNAL);
         }
     };
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         carry();
         return second->status().rigs[0].connected;
     }));
@@ -346,7 +346,7 @@ TEST_F(PeerFaults, ASlowReaderLosesItsOwnFramesOnly) {
         (void)slow.send(zmq::buffer(message), zmq::send_flags::none);
     };
     say();
-    ASSERT_TRUE(comes_true([&] { return rig_->status().hosts.size() == 2; }));
+    ASSERT_TRUE(eventually([&] { return rig_->status().hosts.size() == 2; }));
     for (int i = 0; i < 100 && !HasFatalFailure(); ++i) {
         say();
         beat();

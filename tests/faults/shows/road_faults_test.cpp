@@ -4,8 +4,10 @@
 #include <utility>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "tests/faults/shows/two_rig_show.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -23,14 +25,14 @@ class RoadFaults : public TwoRigShow {
         const std::uint64_t before = met();
         road_->impair(trouble);
         usleep(1'500'000);
-        ASSERT_TRUE(comes([&] { return met() > before + 1; }));
+        ASSERT_TRUE(eventually([&] { return met() > before + 1; }));
     }
 };
 
 TEST_F(RoadFaults, HoldTheTicksAndAreOverOnceTheRoadIsWhole) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     const auto mend_road = [&] { road_->impair({}); };
     const std::pair<const char*, RoadTrouble> troubles[] = {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/shows/two_rig_show.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -17,23 +18,23 @@ class ShowFaults : public TwoRigShow {};
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     road_->impair({.lose_every = 10, .delay = 10ms});
     wait_for_progress();
     road_->impair({.is_down = true});
-    ASSERT_TRUE(comes([&] { return far_is("gone"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("gone"); })) << host_->err();
     road_->impair({});
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     far_->send_signal(SIGSTOP);
-    ASSERT_TRUE(comes([&] { return far_is("gone"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("gone"); })) << host_->err();
     EXPECT_LE(sets_until_far_is_back([&] { far_->send_signal(SIGCONT); }), sets_to_recover)
         << host_->err();
     EXPECT_TRUE(far_is("connected")) << host_->err();
 
     far_->send_signal(SIGKILL);
-    ASSERT_TRUE(comes([&] { return far_is("gone"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("gone"); })) << host_->err();
     // Its port is free once it has ended, which may be later than its connections.
     EXPECT_EQ(far_->wait().status, 128 + SIGKILL);
     const auto start_again = [&] {
@@ -62,7 +63,7 @@ TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     host_->send_signal(SIGSTOP);
     // The rigs let a host go that says nothing.
     for (const ChildProgram* rig : {far_.get(), near_.get()}) wait_for(*rig, "is let go");
@@ -88,13 +89,13 @@ TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
 TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     std::size_t times_right = 0;
     const auto expect_to_be_named_until = [&](const std::string& trouble, int right) {
         wait_for(*host_, trouble);
         far_->send_signal(right);
         ++times_right;
-        ASSERT_TRUE(comes([&] { return count_of("rig far is in step again") == times_right; }))
+        ASSERT_TRUE(eventually([&] { return count_of("rig far is in step again") == times_right; }))
             << host_->err();
     };
     const int ahead = SIGUSR1, back = SIGUSR2;
@@ -124,7 +125,7 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
     wait_for(*far_, "publishing on");
     start_host({"--seconds", "600"});
     wait_for(*host_, " pictures, ");
-    ASSERT_TRUE(comes([&] { return far_is("connected"); })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     const auto named_ms = [&](const std::string& words) {
         wait_for(*host_, words);
         const std::string log = host_->err();

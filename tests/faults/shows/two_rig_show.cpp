@@ -11,6 +11,7 @@
 
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/http_answer.h"
 
@@ -88,7 +89,7 @@ void TwoRigShow::start_host(const std::vector<std::string>& options, const std::
 }
 
 void TwoRigShow::wait_for(const ChildProgram& program, const std::string& words) {
-    ASSERT_TRUE(comes([&] { return program.err().find(words) != std::string::npos; }))
+    ASSERT_TRUE(eventually([&] { return program.err().find(words) != std::string::npos; }))
         << words << "\n"
         << program.err();
 }
@@ -113,12 +114,12 @@ std::size_t TwoRigShow::count_of(const std::string& words) const {
 
 void TwoRigShow::wait_for_progress() {
     const std::size_t now = progress();
-    ASSERT_TRUE(comes([&] { return progress() > now; })) << host_->err();
+    ASSERT_TRUE(eventually([&] { return progress() > now; })) << host_->err();
 }
 
 TwoRigShow::Sets TwoRigShow::next_sets() {
     std::string text;
-    EXPECT_TRUE(comes([&] {
+    EXPECT_TRUE(eventually([&] {
         text = http_answer(metrics_port, "GET", "/metrics");
         text.erase(0, text.find("\r\n\r\n"));
         return !text.empty() && text != last_word_;
@@ -156,7 +157,7 @@ int TwoRigShow::frames_beside_until_both_are_back(const std::function<void()>& e
     StageReceiver beside(stage, StageReceiver::Purpose::look_on,
                          [&](const ArrivedFrame&) { ++frames; });
     beside.ask("near", true, 1);
-    EXPECT_TRUE(comes([&] { return frames > 0; }));
+    EXPECT_TRUE(eventually([&] { return frames > 0; }));
     const int at_first = frames;
     end_trouble();
     Sets before = next_sets();

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "tests/faults/impaired_road.h"
 #include "tests/support/child_program.h"
@@ -40,14 +39,6 @@ class TwoRigShow : public testing::Test {
     void start_host(const std::vector<std::string>& options,
                     const std::string& stage = "stage.toml");
 
-    template <class Condition>
-    static bool comes(Condition condition) {
-        for (int i = 0; i < 12000; ++i) {
-            if (condition()) return true;
-            usleep(10'000);
-        }
-        return false;
-    }
     static void wait_for(const ChildProgram& program, const std::string& words);
     /// The host's last word of the far rig's connection.
     bool far_is(const std::string& state) const;

@@ -3,6 +3,7 @@
 #include "host_app/sound/sound_source.h"
 #include "tests/support/clicks.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -27,15 +28,6 @@ class AlsaSoundTest : public testing::Test {
             out.write(reinterpret_cast<const char*>(&whole), sizeof whole);
         }
     }
-    /// Until it holds, for half a minute at the most.
-    template <class Condition>
-    static bool comes_true(Condition condition) {
-        for (int i = 0; i < 3000; ++i) {
-            if (condition()) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
-    }
     TemporaryFolder folder_;
 };
 
@@ -48,7 +40,7 @@ TEST_F(AlsaSoundTest, GivesWhatTheDeviceHearsWithItsTimes) {
         tapped.push_back(block);
     });
     EXPECT_FALSE(source->goes_with_ticks());
-    ASSERT_TRUE(comes_true([&] { return source->state().heard > 4 * sound_rate_hz; }));
+    ASSERT_TRUE(eventually([&] { return source->state().heard > 4 * sound_rate_hz; }));
     EXPECT_EQ(source->state().phase, SoundPhase::on);
     EXPECT_EQ(source->state().failures, 0u);
     const std::lock_guard lock(mutex);
@@ -68,16 +60,16 @@ TEST_F(AlsaSoundTest, GivesWhatTheDeviceHearsWithItsTimes) {
 
 TEST_F(AlsaSoundTest, ADeviceThatIsMissingIsNamedAndComesBackAlone) {
     const auto source = open_sound("alsa:clicks", {});
-    ASSERT_TRUE(comes_true([&] { return source->state().phase == SoundPhase::failed; }));
+    ASSERT_TRUE(eventually([&] { return source->state().phase == SoundPhase::failed; }));
     EXPECT_NE(source->state().failure.find("clicks"), std::string::npos) << source->state().failure;
     std::vector<float> silence(480 * sound_channels, 1.0F);
     EXPECT_EQ(source->read(0, silence), 0u);
     EXPECT_EQ(silence, std::vector<float>(480 * sound_channels));
     write_clicks();
-    ASSERT_TRUE(comes_true([&] { return source->state().phase == SoundPhase::on; }));
+    ASSERT_TRUE(eventually([&] { return source->state().phase == SoundPhase::on; }));
     EXPECT_EQ(source->state().failure, "");
     EXPECT_EQ(source->state().failures, 1u);
-    ASSERT_TRUE(comes_true([&] { return source->state().heard > 0; }));
+    ASSERT_TRUE(eventually([&] { return source->state().heard > 0; }));
 }
 
 }  // namespace
