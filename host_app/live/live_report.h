@@ -98,7 +98,7 @@ struct StepTime {
     Percentiles ms;
 };
 std::vector<StepTime> step_times(const LiveReport& report);
-/// Such as "4 96 %, 5 4 %": levels of quality and their shares of the time.
+/// Such as "4: 96 %, 5: 4 %": levels of quality and their shares of the time.
 std::string shares_text(const std::vector<double>& shares);
 /// A sentence for every output that has failed and is not on again, with its name.
 std::vector<std::string> failures_of(const LiveReport& report);

@@ -194,7 +194,7 @@ std::string shares_text(const std::vector<double>& shares) {
     for (std::size_t level = 0; level < shares.size(); ++level)
         if (shares[level] > 0.005)
             text +=
-                fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
+                fmt::format("{}{}: {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
     return text.empty() ? "none" : text;
 }
 

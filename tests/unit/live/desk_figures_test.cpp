@@ -26,8 +26,8 @@ TEST(DeskFigures, SayWhatTheSummarySays) {
     EXPECT_EQ(value_of(figures, "between pictures"), "67 ms, 99 % 69, at worst 134");
     EXPECT_EQ(value_of(figures, "hand to picture"), "none") << "no hand was there";
     EXPECT_EQ(value_of(figures, "instants, skipped"), "141, 3");
-    EXPECT_EQ(value_of(figures, "rendering, by level"), "4 96 %, 5 4 %");
-    EXPECT_EQ(value_of(figures, "preparing, by level"), "1 100 %");
+    EXPECT_EQ(value_of(figures, "rendering, by level"), "4: 96 %, 5: 4 %");
+    EXPECT_EQ(value_of(figures, "preparing, by level"), "1: 100 %");
 }
 
 TEST(DeskFigures, AreNoneBeforeTheFirstPicture) { EXPECT_TRUE(desk_figures({}).empty()); }
