@@ -4,6 +4,7 @@
 #ifndef FAR
 #define FAR 0  // 1: also what performer_far.frag found
 #endif
+#include "performer_blocks.glsl"
 
 uniform sampler2D depth_map;  // metres, 0 = unknown
 uniform sampler2D matte;      // the performers' share
@@ -21,7 +22,6 @@ const ivec2 taps[rings * ring_taps] = ivec2[](
     ivec2(1, 2), ivec2(-1, 2), ivec2(-2, 1), ivec2(-2, -1), ivec2(-1, -2), ivec2(1, -2), ivec2(2, -1), ivec2(2, 1),
     ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3), ivec2(4, 0),
     ivec2(2, 6), ivec2(-2, 6), ivec2(-6, 2), ivec2(-6, -2), ivec2(-2, -6), ivec2(2, -6), ivec2(6, -2), ivec2(6, 2));
-const int block_px = 4;            // of performer_far.frag
 const float smooth_weight = 0.24;  // of the first ring in the mean
 const float none = 1e9;
 

@@ -1,13 +1,13 @@
 // Depth for what is missing within a matte, farther from all that was measured than performer_depth.frag looks: for a
 // block of pixels, that of a ring's nearest or farthest at which another rig sees a performer too.
 #include "other_silhouettes.glsl"
+#include "performer_blocks.glsl"
 
 uniform sampler2D depth_map;  // metres, 0 = unknown
 uniform sampler2D matte;      // the performers' share
 
 layout(location = 0) out float far_m;  // metres, 0 = none
 
-const int block_px = 4;  // sides of a block
 const int ring_taps = 8;
 const ivec2 ring[ring_taps] = ivec2[](
     ivec2(2, 4), ivec2(-2, 4), ivec2(-4, 2), ivec2(-4, -2), ivec2(-2, -4), ivec2(2, -4), ivec2(4, -2), ivec2(4, 2));

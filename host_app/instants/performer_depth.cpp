@@ -11,7 +11,7 @@ namespace {
 
 /// Of one instant nothing is told: a matte is empty, whatever stands there.
 constexpr int told_from_instants = 2;
-constexpr int block_px = 4;  // of performer_far.frag
+constexpr int block_px = 4;  // as in performer_blocks.glsl
 
 VirtualView depth_camera(const RigHistory& rig) {
     const cv::Size size = rig.depth().size();
@@ -32,6 +32,7 @@ std::vector<const RigHistory*> PerformerDepth::others_of(const RigHistory& rig,
 
 GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
                             std::span<const RigHistory* const> others, int unit) {
+    const VirtualView camera = depth_camera(rig);
     for (std::size_t i = 0; i < others.size(); ++i) {
         const auto set = [&](const char* name, const auto& value) {
             program.set(fmt::format("{}[{}]", name, i), value);
@@ -42,8 +43,7 @@ GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
         set("other_set", unit);
         other.steady_depth().bind(unit++);
         set("other_from_pixel",
-            Eigen::Matrix4f(
-                pixel_from_target_pixel(other.camera(), depth_camera(rig)).cast<float>()));
+            Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
         set("other_size", Eigen::Vector2f(static_cast<float>(other.colour().width_px()),
                                           static_cast<float>(other.colour().height_px())));
     }
@@ -64,7 +64,8 @@ void PerformerDepth::carve(const RigHistory& rig, std::span<const RigHistory* co
                  rig.fresh_colour().size());
 }
 
-void PerformerDepth::look_far(const RigHistory& rig, std::span<const RigHistory* const> others) {
+const Texture& PerformerDepth::look_far(const RigHistory& rig,
+                                        std::span<const RigHistory* const> others) {
     const cv::Size size = rig.depth().size();
     far_.resize({(size.width + block_px - 1) / block_px, (size.height + block_px - 1) / block_px});
     TilePass& looking = look_far_[others.size()];
@@ -75,20 +76,24 @@ void PerformerDepth::look_far(const RigHistory& rig, std::span<const RigHistory*
     rig.matte().bind(1);
     looking.draw(far_.target(), rig.matte_tiles(), bind(look, rig, others, 2),
                  rig.fresh_colour().size());
+    return far_.texture();
 }
 
-void PerformerDepth::close(TilePass& closing, const Texture& depth_m, const RigHistory& rig,
+void PerformerDepth::close(const Texture& depth_m, const Texture* far_m, const RigHistory& rig,
                            const Framebuffer& closed) {
+    TilePass& closing = far_m ? close_from_afar_ : close_;
     Program& close = closing.use();
     close.set("depth_map", 0);
     close.set("matte", 1);
     close.set("set_depth", 2);
-    close.set("far_depth", 3);
     close.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
     rig.matte().bind(1);
     rig.steady_depth().bind(2);
-    far_.texture().bind(3);
+    if (far_m) {
+        close.set("far_depth", 3);
+        far_m->bind(3);
+    }
     closing.draw(closed, rig.matte_tiles(), 4, rig.fresh_colour().size());
 }
 
@@ -96,8 +101,8 @@ void PerformerDepth::find(const RigHistory& rig, std::span<RigHistory* const> al
                           const Framebuffer& found) {
     const std::vector<const RigHistory*> others = others_of(rig, all);
     carve(rig, others);
-    look_far(rig, others);
-    close(close_from_afar_, carved_.texture(), rig, found);
+    const Texture& far_m = look_far(rig, others);
+    close(carved_.texture(), &far_m, rig, found);
 }
 
 void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
@@ -108,7 +113,7 @@ void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> 
     };
     std::vector<ComparedView> views;
     for (const RigHistory* one : all) views.push_back(performers(*one));
-    close(close_, consensus_.better_performers(performers(rig), views, rig.matte_tiles()), rig,
+    close(consensus_.better_performers(performers(rig), views, rig.matte_tiles()), nullptr, rig,
           found);
 }
 

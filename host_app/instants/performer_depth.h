@@ -40,9 +40,9 @@ class PerformerDepth {
                        std::span<const RigHistory* const> others, int unit);
     void carve(const RigHistory& rig, std::span<const RigHistory* const> others);
     /// For the holes in what is left that are too wide for their edges.
-    void look_far(const RigHistory& rig, std::span<const RigHistory* const> others);
-    /// Fills and smooths.
-    void close(TilePass& closing, const Texture& depth_m, const RigHistory& rig,
+    const Texture& look_far(const RigHistory& rig, std::span<const RigHistory* const> others);
+    /// Fills and smooths. `far_m`: of look_far(), or null.
+    void close(const Texture& depth_m, const Texture* far_m, const RigHistory& rig,
                const Framebuffer& closed);
 
     std::vector<TilePass> carve_, look_far_;  ///< one for every number of other rigs
