@@ -37,7 +37,10 @@ void stake(int row, int x, uint winner, float weight) {
     CLAIM_ON(row + x - d) = min(before, (cost << 16) | uint(d));
 }
 
-// Floats where one would divide whole numbers: that is taken apart into scalar divisions on some GPUs.
+// The whole part of a quotient. Floats, for whole numbers are taken apart into scalar divisions on some GPUs; the half
+// keeps a quotient that is whole from coming out a bit below it on others.
+int divided(int a, int b) { return int((float(a) + 0.5) / float(b)); }
+
 uint resolved(uvec2 winner, int d) {
     int best = int(winner.x >> 20), before = int(winner.y >> 12), after = int(winner.y & 0xfffu);
     int position = d * 32, rise = 0;
@@ -45,17 +48,17 @@ uint resolved(uvec2 winner, int d) {
         // Two straight lines of equal steepness through the three costs: what absolute differences give.
         int steep = max(max(before, after) - best, 1);
 #if FLAT_VALLEY
-        int part = int(float(64 * abs(before - after)) / float(steep));
+        int part = divided(64 * abs(before - after), steep);
         int offset = (part * (96 + part) + 320) / 640;
 #else
-        int offset = int(float(16 * abs(before - after) + (steep >> 1)) / float(steep));
+        int offset = divided(16 * abs(before - after) + (steep >> 1), steep);
 #endif
         position += before > after ? offset : -offset;
         rise = before + after - 2 * best;
     } else if (before != 0xfff || after != 0xfff) {
         rise = min(before, after) - best;  // at an end of the search one side alone tells
     }
-    int confidence = int(min(float(255 * rise) / float(max(best + rise, 1)), 255.0));
+    int confidence = min(divided(255 * rise, max(best + rise, 1)), 255);
     return uint(max(position, 1)) | (uint(confidence) << 16);
 }
 

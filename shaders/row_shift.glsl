@@ -1,5 +1,6 @@
 // How many rows lower than it should the right picture lies, -2 .. 2, by the sums of row_shift_votes.comp.
-layout(std430, binding = 2) readonly buffer Votes { uint votes[]; };
+// Sized: NVIDIA's compiler takes the largest constant index for the end of an array without a size.
+layout(std430, binding = 2) readonly buffer Votes { uint votes[5]; };
 
 // Rows are left as they are unless another shift is better by a sixteenth.
 int row_shift() {

@@ -5,7 +5,7 @@
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer LeftFeatures { uint left_features[]; };
 layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
-layout(std430, binding = 2) buffer Votes { uint votes[]; };
+layout(std430, binding = 2) buffer Votes { uint votes[5]; };
 uniform ivec2 size;
 uniform int stride;
 uniform int disparities;

@@ -31,6 +31,12 @@ bool lists_extension(const char* extensions, const char* wanted) {
 
 constexpr const char* surfaceless_extension = "EGL_KHR_surfaceless_context";
 
+bool is_software_device(EGLDeviceEXT device) {
+    const auto query = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
+        eglGetProcAddress("eglQueryDeviceStringEXT"));
+    return query && lists_extension(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
 /// One that tells of resets where the driver lets it; EGL_NO_CONTEXT if there can be none.
 EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext shared) {
     constexpr std::array<EGLint, 7> robust = {EGL_CONTEXT_MAJOR_VERSION,
@@ -100,7 +106,8 @@ std::string egl_error_name(EGLint code) {
 
 EglContext::EglContext() {
     try_platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");
-    if (!ready()) try_devices();
+    // Beside another vendor's driver it is Mesa that answers there, and draws by the processor.
+    if (!ready() || is_software_) try_devices();
     if (!ready()) try_gbm();
     if (ready()) return;
     std::string tried;
@@ -187,10 +194,21 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
         eglDestroyContext(display, context);
         return report("the context cannot be made current (" + reason + ")");
     }
+    const bool is_software = GlInfo::query().is_software;
+    if (ready()) {
+        if (is_software) {
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+            eglDestroyContext(display, context);
+            return report("the processor draws here too");
+        }
+        eglDestroyContext(display_, context_);
+        for (EglAttempt& attempt : attempts_)
+            if (attempt.outcome == "ok") attempt.outcome = "the processor draws here";
+    }
     display_ = display;
     hold_ = std::move(hold);
     context_ = context;
-    is_software_ = GlInfo::query().is_software;
+    is_software_ = is_software;
     attempts_.push_back({name, "ok"});
     return true;
 }
@@ -202,12 +220,13 @@ void EglContext::try_devices() {
     EGLint count = 0;
     if (!query || !query(static_cast<EGLint>(devices.size()), devices.data(), &count) ||
         count < 1) {
-        attempts_.push_back({"device", "EGL lists no devices"});
+        if (!ready()) attempts_.push_back({"device", "EGL lists no devices"});
         return;
     }
-    for (EGLint i = 0; i < count && !ready(); ++i)
-        try_platform(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)],
-                     fmt::format("device {}", i));
+    for (EGLint i = 0; i < count && (!ready() || is_software_); ++i)
+        if (EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+            !ready() || !is_software_device(device))
+            try_platform(EGL_PLATFORM_DEVICE_EXT, device, fmt::format("device {}", i));
 }
 
 void EglContext::try_gbm() {

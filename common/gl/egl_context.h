@@ -18,7 +18,7 @@ std::string egl_error_name(EGLint code);
 /// One way that was tried to reach a GPU without a display, and how it went.
 struct EglAttempt {
     std::string platform;  ///< "surfaceless", "device 0", "gbm /dev/dri/renderD128"
-    std::string outcome;   ///< "ok", or the reason why not
+    std::string outcome;   ///< "ok" of the one that is used, or why not
 };
 
 /// Whether contexts of this display tell that the GPU was reset (see context_loss.h).
@@ -29,8 +29,8 @@ bool makes_robust_contexts(EGLDisplay display);
 class EglContext {
   public:
     /// Current on the constructing thread. Tried in this order: the surfaceless platform, EGL
-    /// devices, GBM render nodes. Throws Error that lists every attempt and its reason, if none
-    /// works.
+    /// devices, GBM render nodes; one that the processor draws is taken where no EGL device is a
+    /// GPU that works. Throws Error that lists every attempt and its reason, if none works.
     EglContext();
     /// One that shares textures, buffers, programs and fences with the context that is current on
     /// this thread, a window's or another of these; framebuffers and vertex arrays stay each

@@ -81,6 +81,18 @@ void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
     }
 }
 
+/// What a rig of this size takes for a pair, tried on one.
+double match_ms_of(const DemoSize& size, const std::filesystem::path& folder,
+                   const AskProgram& ask) {
+    DemoStage alone(folder, {});
+    add_virtual_rigs(1, size, alone);
+    constexpr int frames = 15;
+    const nlohmann::json run = ask("vantage-rig", {"run", "--config", alone.rig_file("rig1"),
+                                                   "--frames", std::to_string(frames), "--json"});
+    std::filesystem::remove_all(folder);
+    return run.at("/match_ms/p50"_json_pointer).get<double>();
+}
+
 std::vector<std::unique_ptr<ChildProcess>> start_rigs(const DemoStage& stage, bool is_software) {
     // What stands for rig computers yields to the host, which has this one for itself elsewhere.
     // They share the processor that draws: one drawing thread each does the same work with less
@@ -156,8 +168,13 @@ void demo(DemoOptions options) {
     const AskProgram ask = [&](const std::string& name, const std::vector<std::string>& arguments) {
         return ask_program(stage.folder(), name, arguments);
     };
-    DemoSize size = demo_size(
-        ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true));
+    DemoSize size;
+    if (ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true))
+        size = software_demo_size();
+    else if (options.films_the_stage())
+        size = gpu_demo_size(4, [&](const DemoSize& tried) {
+            return match_ms_of(tried, stage.folder() / "trial", ask);
+        });
     std::string move_name = "demo.toml", move = demo_move(move_name);
     if (options.sweep) {
         // Thirteen rigs share what four do.
@@ -186,8 +203,11 @@ void demo(DemoOptions options) {
 
     const auto rigs = start_rigs(stage, size.is_software);
     log_info("{} started at {:.4g} pulses a second; logs are in {}",
-             rigs.size() == 1 ? "a rig" : fmt::format("{} rigs", rigs.size()), size.rate_hz,
-             stage.folder().string());
+             rigs.size() == 1 ? "a rig"
+             : options.films_the_stage()
+                 ? fmt::format("{} rigs of {}x{}", rigs.size(), size.rig[0], size.rig[1])
+                 : fmt::format("{} rigs", rigs.size()),
+             size.rate_hz, stage.folder().string());
     if (options.films_the_stage() && size.is_software)
         log_info("the rigs draw the stage's loop of 24 s before they begin, a few seconds' work");
     if (options.rigs_only) {

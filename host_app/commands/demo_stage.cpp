@@ -33,9 +33,22 @@ int free_port() {
 
 }  // namespace
 
-DemoSize demo_size(bool is_software) {
+DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& match_ms) {
+    const DemoSize full;
+    DemoSize middle;
+    middle.picture = {1280, 720};
+    middle.rig = {640, 480};
+    middle.disparities = 64;
+    DemoSize small = middle;
+    small.rate_hz = 12.5;
+    small.preset = "fast";
+    for (const DemoSize& size : {full, middle})
+        if (rigs * size.rate_hz * match_ms(size) <= 500) return size;
+    return small;
+}
+
+DemoSize software_demo_size() {
     DemoSize size;
-    if (!is_software) return size;
     size.rate_hz = 4.5;
     size.latency_budget_ms = 600;
     size.rate = "15";

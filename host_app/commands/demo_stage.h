@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,12 @@ struct DemoSize {
     bool is_software = false;
 };
 
-/// For a GPU, or for a processor that draws everything.
-DemoSize demo_size(bool is_software);
+/// For a processor that draws everything.
+DemoSize software_demo_size();
+
+/// The largest size for a GPU of which so many rigs' matching leaves half of its time to the host;
+/// the smallest where none does. `match_ms`: what a rig of that size takes for a pair.
+DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& match_ms);
 
 /// Files of a stage whose rigs are processes of this computer: keys that are new at every start,
 /// a configuration a rig, the host's.

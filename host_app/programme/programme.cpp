@@ -337,9 +337,10 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     governor_.saw_render(made.job.level, made.render_ms + made.readback_ms, now);
     render_ms_.add(made.render_ms);
     readback_ms_.add(made.readback_ms);
+    // Whoever moves before the first picture waits for the start.
+    if (shown_ && made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     if (last_new_) interval_ms_.add(ms_between(*last_new_, now));
     last_new_ = now;
-    if (made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     const ReadyInstant& instant = *made.job.instant;
     if (seek_.is_on()) seek_.saw(instant, past_pulse(), now);
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {

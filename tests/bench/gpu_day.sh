@@ -16,7 +16,7 @@ while [ $# -gt 0 ]; do
     *) echo "gpu_day.sh: '$1' is not an option; --help lists them" >&2; exit 2 ;;
   esac
 done
-benches="stereo_bench synthesis_bench live_bench"
+benches="stereo_bench synthesis_bench live_bench live_truth"
 if [ -z "$build" ]; then
   build=build/release
   # shellcheck disable=SC2086
@@ -63,7 +63,7 @@ else
 fi
 say "| imports dma-bufs | $(truth_of EGL_EXT_image_dma_buf_import) |"
 case "$cards" in
-  *A100* | *A30* | *H100* | *H200* | *H800* | *GH200* | *B100* | *B200* | *V100* | *P100* | *MI[123]*)
+  *A100* | *A30* | *H100* | *H200* | *H800* | *B100* | *B200* | *V100* | *P100* | *MI[123]*)
     say ""
     say "A data-centre card: it has no screen and little hardware for drawing triangles; what draws is slower than on a card for"
     say "workstations, what computes is not."
@@ -84,33 +84,52 @@ if [ -z "$renderer" ]; then
   exit 1
 fi
 
-# The tests that draw, a program at a time.
+# The tests that draw: parts of their programs side by side, for compilers of shaders use one core each.
+at_once=$((($(nproc) + 1) / 2))
+parts=$(((at_once + 1) / 2))
 say ""
 say "## Tests"
 say ""
-say "| program | passed | failed | skipped | s |"
-say "| --- | --- | --- | --- | --- |"
 names=$(cat "$build/gl_tests")
 $small && names="gl_test rectification_test virtual_stage_test"
-remarks=
+started=$SECONDS
+export MESA_GLES_VERSION_OVERRIDE=3.1 GTEST_TOTAL_SHARDS=$parts
+test_part() { # program, part: its log and how it ended, in $work
+  GTEST_SHARD_INDEX=$2 timeout 1200 "$build/bin/$1" --gtest_color=no >"$work/$1.$2.log" 2>&1
+  echo $? >"$work/$1.$2.ended"
+}
+export -f test_part
+export build work
+for program in $names; do
+  seq 0 $((parts - 1)) | sed "s/^/$program /"
+done | xargs -P $at_once -L 1 bash -c 'test_part "$@"' _
+unset MESA_GLES_VERSION_OVERRIDE GTEST_TOTAL_SHARDS
+say "$parts parts a program, $at_once at a time: $((SECONDS - started)) s."
+say ""
+say "| program | passed | failed | skipped |"
+say "| --- | --- | --- | --- |"
+remarks= failures=
+sum() { sed -n "s/^\[  $2 *\] \([0-9]*\) test.*/\1/p" "$work/$1".*.log | awk '{n += $1} END {print n + 0}'; }
 for name in $names; do
-  note "$name"
-  started=$SECONDS
-  MESA_GLES_VERSION_OVERRIDE=3.1 timeout 1200 "$build/bin/$name" --gtest_color=no >"$work/$name.log" 2>&1
-  ended=$?
-  passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$work/$name.log")
-  faults=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_]*\.[^ ,]*\).*/\1/p' "$work/$name.log" | sort -u)
-  skipped=$(sed -n 's/^\[  SKIPPED \] \([0-9]*\) test.*/\1/p' "$work/$name.log")
+  faults=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/]*\.[^ ,]*\).*/\1/p' "$work/$name".*.log | sort -u)
   count=$(printf '%s' "$faults" | grep -c . || true)
-  say "| $name | ${passed:-0} | $count | ${skipped:-0} | $((SECONDS - started)) |"
-  [ $ended -eq 0 ] || failed=1
-  [ $ended -ne 124 ] || remarks+="- $name did not end within 20 minutes"$'\n'
-  [ $ended -eq 0 ] || [ "$count" -gt 0 ] || [ $ended -eq 124 ] || remarks+="- $name ended with $ended: $(tail -n 1 "$work/$name.log")"$'\n'
+  say "| $name | $(sum "$name" PASSED) | $count | $(sum "$name" SKIPPED) |"
   for fault in $faults; do remarks+="- $fault failed"$'\n'; done
-  remarks+=$(grep -o 'SKIPPED: .*' "$work/$name.log" | sort | uniq -c | sed "s/^ *\([0-9]*\) SKIPPED: /- $name, \1 of the tests: /")
+  failures+=$(grep -h -A3 ': Failure$' "$work/$name".*.log | head -n 20 | sed 's/^/    /')
+  for part in $(seq 0 $((parts - 1))); do
+    ended=$(cat "$work/$name.$part.ended")
+    [ "$ended" -eq 0 ] || failed=1
+    case $ended in
+      0 | 1) ;;
+      124) remarks+="- $name did not end within 20 minutes"$'\n' ;;
+      *) remarks+="- $name ended with $ended: $(tail -n 1 "$work/$name.$part.log")"$'\n' ;;
+    esac
+  done
+  remarks+=$(grep -ho 'SKIPPED: .*' "$work/$name".*.log | sort | uniq -c | sed "s/^ *\([0-9]*\) SKIPPED: /- $name, \1 of the tests: /")
   [ -z "$remarks" ] || [ "${remarks: -1}" = $'\n' ] || remarks+=$'\n'
 done
 [ -z "$remarks" ] || { say ""; printf '%s' "$remarks" | tee -a "$report"; }
+[ -z "$failures" ] || { say ""; say "$failures"; }
 keep
 
 # Camera buffers without a copy.
@@ -141,9 +160,9 @@ bench() { # title, program, options...: its tables
   say "\`$program${*:+ $*}\`"
   say ""
   if timeout 3000 "$build/bin/$program" "$@" >"$work/bench.md" 2>"$work/bench.log"; then
-    cat "$work/bench.md" | tee -a "$report"
+    tee -a "$report" <"$work/bench.md"
   else
-    cat "$work/bench.md" | tee -a "$report"
+    tee -a "$report" <"$work/bench.md"
     say ""
     say "It ended before its end: $(tail -n 1 "$work/bench.log")"
     failed=1
@@ -159,8 +178,9 @@ else
   bench "Live, 1080p50" live_bench --size 1920x1080 --rig-size 960x720 --rate 50 --rigs 4,8,16
   bench "Live, 2160p50" live_bench --size 3840x2160 --rig-size 960x720 --rate 50 --rigs 4,8,16
   bench "Matching" stereo_bench --gpu-times
-  bench "Stereo" stereo_bench --random-scenes 2
   bench "Synthesis" synthesis_bench
+  bench "Stereo" stereo_bench --random-scenes 2
+  bench "The demo, live" live_truth live --seconds 20
 fi
 note "written: $folder/gpu.md"
 exit $failed

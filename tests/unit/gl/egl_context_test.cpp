@@ -16,15 +16,17 @@
 namespace vantage {
 namespace {
 
-TEST(EglContext, ReportsEveryAttemptUpToTheOneThatWorks) {
+TEST(EglContext, ReportsEveryAttemptAndWhichOneIsUsed) {
     const EglContext context;
     ASSERT_FALSE(context.attempts().empty());
     EXPECT_EQ(context.attempts().front().platform, "surfaceless") << "tried first";
-    for (std::size_t i = 0; i < context.attempts().size(); ++i) {
-        EXPECT_FALSE(context.attempts()[i].platform.empty());
-        EXPECT_EQ(context.attempts()[i].outcome == "ok", i + 1 == context.attempts().size())
-            << context.attempts()[i].platform << ": " << context.attempts()[i].outcome;
+    int used = 0;
+    for (const EglAttempt& attempt : context.attempts()) {
+        EXPECT_FALSE(attempt.platform.empty());
+        EXPECT_FALSE(attempt.outcome.empty()) << attempt.platform;
+        used += attempt.outcome == "ok";
     }
+    EXPECT_EQ(used, 1);
 }
 
 TEST(EglContext, IsCurrentAndOpenGlEs31) {
@@ -41,7 +43,7 @@ TEST(EglContext, LetsTheNextOneStartAfresh) {
     { const EglContext first; }
     EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
     const EglContext second;
-    EXPECT_EQ(second.attempts().back().outcome, "ok");
+    EXPECT_NE(eglGetCurrentContext(), EGL_NO_CONTEXT);
 }
 
 TEST(EglContext, OutlivesAnotherOneOfTheProcess) {

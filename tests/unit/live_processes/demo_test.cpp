@@ -2,12 +2,14 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "common/image/image_file.h"
+#include "host_app/commands/demo_stage.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 
@@ -39,6 +41,25 @@ class Demo : public testing::Test {
 
     TemporaryFolder folder_;
 };
+
+TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
+    std::vector<int> tried;
+    const auto size_where_a_megapixel_takes = [&](double ms) {
+        tried.clear();
+        return gpu_demo_size(4, [&](const DemoSize& size) {
+            tried.push_back(size.rig[0]);
+            return ms * size.rig[0] * size.rig[1] * 1e-6;
+        });
+    };
+    EXPECT_EQ(size_where_a_megapixel_takes(7).rig[0], 960) << "100 pairs a second of 4.8 ms";
+    EXPECT_EQ(tried, std::vector<int>{960});
+    EXPECT_EQ(size_where_a_megapixel_takes(15).rig[0], 640);
+    EXPECT_EQ(size_where_a_megapixel_takes(15).rate_hz, 25);
+    const DemoSize slowest = size_where_a_megapixel_takes(1000);
+    EXPECT_LT(slowest.rate_hz, 25);
+    EXPECT_FALSE(slowest.is_software);
+    EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
+}
 
 TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
     // Of a demo before.

@@ -94,6 +94,21 @@ TEST_F(LevelChooserTest, DoesNotRiseWithoutRoom) {
     EXPECT_EQ(chooser_.level(), 1u) << "the level above is dearer, and this one just fits";
 }
 
+/// A picture's way back from the GPU takes as long at every level.
+TEST_F(LevelChooserTest, FindsOutWhatBetterLevelsTakeWhereTheCheapestHasRoom) {
+    chooser_.begin_with_the_cheapest();
+    run_for(10s, [](std::size_t level) { return 5.8 - 0.1 * static_cast<double>(level); });
+    EXPECT_EQ(chooser_.level(), 0u);
+}
+
+TEST_F(LevelChooserTest, TriesWhatIsNotExpectedToFitOnlyOnce) {
+    chooser_.begin_with_the_cheapest();
+    const std::vector<MonotonicTime> rises =
+        run_for(60s, [](std::size_t level) { return level == 3 ? 5 : 12; });
+    EXPECT_EQ(rises.size(), 1u);
+    EXPECT_EQ(chooser_.level(), 3u);
+}
+
 TEST_F(LevelChooserTest, DoesNotRiseWhileRoomComesAndGoes) {
     for (int i = 0; i < 3; ++i) work(9);
     for (int i = 0; i < 60; ++i) {
