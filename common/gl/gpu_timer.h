@@ -21,7 +21,8 @@ class GpuTimer {
 
     void begin();
     void end();
-    /// Milliseconds of the last span; waits until the GPU has finished it.
+    /// Milliseconds of the last span, or of the one before where the GPU's clock was disturbed;
+    /// waits until the GPU has finished it.
     double wait_ms();
     /// The same without waiting: empty while the GPU is still at it (or before any span).
     std::optional<double> poll_ms();
