@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes what the virtual machine boots: Debian's kernel (unpacked, not installed), its gpio-sim module, a small
+# Makes what the virtual machine boots: Debian's kernel (unpacked, not installed), its gpio-sim module, v4l2loopback, a small
 # initramfs. What is there already for the same kernel and sources is kept.
 #   prepare.sh WORK
 # Exits 77 with one line "SKIPPED: reason" where this computer lacks what it takes; with VANTAGE_HIL_REQUIRED in the
@@ -33,15 +33,19 @@ source=$(find /usr/src -maxdepth 1 -name 'linux-source-*.tar.xz' | sort -V | tai
 
 stamp="$release $(cat "$here"/prepare.sh "$here"/guest/initramfs_init "$here"/gpio_sim/* | cksum)"
 [ "$(cat stamp 2>/dev/null)" != "$stamp" ] || exit 0
-rm -rf stamp kernel source gpio_sim initramfs
+rm -rf stamp kernel source gpio_sim loopback initramfs
 
-image=$(find . -maxdepth 1 -name "linux-image-$release*_amd64.deb" | head -1)
-if [ -z "$image" ]; then
-  apt-get -qq download "linux-image-$release" 2>download.log ||
-    skip "the kernel linux-image-$release cannot be had: $(grep -v '^W:' download.log | tail -1)"
-  image=$(find . -maxdepth 1 -name "linux-image-$release*_amd64.deb" | head -1)
-fi
-dpkg-deb -x "$image" kernel
+unpack() { # package, folder
+  local file
+  file=$(find . -maxdepth 1 -name "$1_*.deb" | head -1)
+  if [ -z "$file" ]; then
+    apt-get -qq download "$1" 2>download.log || skip "the package $1 cannot be had: $(grep -v '^W:' download.log | tail -1)"
+    file=$(find . -maxdepth 1 -name "$1_*.deb" | head -1)
+  fi
+  dpkg-deb -x "$file" "$2"
+}
+unpack "linux-image-$release" kernel
+unpack v4l2loopback-dkms loopback
 
 name=$(basename "$source" .tar.xz)
 mkdir source
@@ -64,15 +68,19 @@ cp source/drivers/gpio/gpiolib.h source/kernel/irq/irq_sim.c gpio_sim/
 [ "$(grep -c '_wired;$' gpio_sim/gpio_sim.c)" -eq 3 ] ||
   skip "gpio-sim of $name is not as expected: its callbacks could not be wired"
 # The kernel's makefiles know no folder whose name has a space.
-module=$(mktemp -d)
-trap 'rm -rf "$module"' EXIT
-cp gpio_sim/* "$module/"
-make -s -C "$headers" M="$module" modules >gpio_sim.log 2>&1 || {
-  cat gpio_sim.log >&2
-  skip "gpio-sim of $name does not build against the headers of $release"
-}
+modules=$(mktemp -d)
+trap 'rm -rf "$modules"' EXIT
 mkdir -p "kernel/lib/modules/$release/updates"
-cp "$module/gpio-sim-wired.ko" "kernel/lib/modules/$release/updates/"
+module() { # name, folder of its source
+  cp -r "$2" "$modules/$1"
+  make -s -C "$headers" M="$modules/$1" modules >"$1.log" 2>&1 || {
+    cat "$1.log" >&2
+    skip "$1 does not build against the headers of $release"
+  }
+  cp "$modules/$1/$1.ko" "kernel/lib/modules/$release/updates/"
+}
+module gpio-sim-wired gpio_sim
+module v4l2loopback loopback/usr/src/v4l2loopback-*
 /sbin/depmod -b kernel "$release"
 
 mkdir -p initramfs/{bin,dev,proc,sys,host,layer,root,modules}

@@ -80,7 +80,8 @@ class V4l2Target final : public OutputTarget {
                     "or the device that format",
                     device_, pixels_.width, pixels_.height, format.width_px, format.height_px);
             converter_.emplace(format.width_px, format.height_px, layout.av);
-            packed_.assign(std::max(pixels_.sizeimage, pixels_.bytesperline * pixels_.height), 0);
+            // Not sizeimage, which may be whole pages: readers take no picture that is longer.
+            packed_.assign(std::size_t{pixels_.bytesperline} * pixels_.height, 0);
             return;
         }
         fail("{} takes none of the formats YUYV, UYVY, RGB24, RGBX", device_);
