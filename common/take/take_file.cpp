@@ -14,6 +14,12 @@ namespace {
 
 constexpr int buffer_bytes = 256 * 1024;
 
+/// The system's reason why what is written is not on the disk; 0: it is, or nobody can tell.
+int brought_to_disk(int fd) {
+    if (::fdatasync(fd) == 0 || errno == EINVAL || errno == ENOSYS) return 0;
+    return errno;
+}
+
 }  // namespace
 
 TakeFile::TakeFile(const std::filesystem::path& path)
@@ -75,12 +81,21 @@ void TakeFile::cut_to_whole() {
     if (::ftruncate(fd_.get(), whole_) == 0) end_ = whole_;
 }
 
-void TakeFile::sync() { ::fdatasync(fd_.get()); }
+void TakeFile::take_up_sync() {
+    const int reason = syncing_.valid() ? syncing_.get() : 0;
+    if (failure_ == 0) failure_ = reason;
+}
+
+void TakeFile::sync() {
+    take_up_sync();
+    if (failure_ == 0) failure_ = brought_to_disk(fd_.get());
+}
 
 bool TakeFile::begin_sync() {
     if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return false;
-    syncing_ = std::async(std::launch::async, [fd = fd_.get()] { ::fdatasync(fd); });
+    take_up_sync();
+    syncing_ = std::async(std::launch::async, [fd = fd_.get()] { return brought_to_disk(fd); });
     return true;
 }
 

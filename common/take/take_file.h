@@ -20,7 +20,8 @@ class TakeFile {
 
     AVIOContext* io() { return io_; }
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(end_); }
-    /// The system's reason for the first write that failed; 0: none did.
+    /// The system's reason for the first write that failed, or for what was written and did not get
+    /// to the disk; 0: there is none.
     int failure() const { return failure_; }
     /// What is written so far is whole...
     void mark_whole() { whole_ = end_; }
@@ -39,13 +40,14 @@ class TakeFile {
     using WrittenByte = std::uint8_t;
 #endif
     static int write(void* self, WrittenByte* bytes, int size);
+    void take_up_sync();
     static std::int64_t seek(void* self, std::int64_t offset, int whence);
 
     UniqueFd fd_;
     AVIOContext* io_ = nullptr;
     std::int64_t at_ = 0, end_ = 0, whole_ = 0;
     int failure_ = 0;
-    std::future<void> syncing_;  ///< ends before fd_ does
+    std::future<int> syncing_;  ///< ends before fd_ does
 };
 
 }  // namespace vantage

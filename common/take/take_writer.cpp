@@ -258,6 +258,7 @@ void TakeWriter::finish() {
     avio_flush(output_->pb);
     if (code < 0 || file_->failure() != 0) fail_writing(code);
     file_->sync();
+    if (file_->failure() != 0) fail_writing(AVERROR(file_->failure()));
 }
 
 void TakeWriter::fail_writing(int code) {
