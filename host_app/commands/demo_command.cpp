@@ -84,6 +84,7 @@ void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
 /// What a rig of this size takes for a pair, tried on one.
 double match_ms_of(const DemoSize& size, const std::filesystem::path& folder,
                    const AskProgram& ask) {
+    log_info("trying how fast this GPU matches pictures of {}x{}", size.rig[0], size.rig[1]);
     DemoStage alone(folder, {});
     add_virtual_rigs(1, size, alone);
     constexpr int frames = 15;
