@@ -7,18 +7,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "common/base/data_sync.h"
 #include "common/base/error.h"
 
 namespace vantage {
 namespace {
 
 constexpr int buffer_bytes = 256 * 1024;
-
-/// The system's reason why what is written is not on the disk; 0: it is, or nobody can tell.
-int brought_to_disk(int fd) {
-    if (::fdatasync(fd) == 0 || errno == EINVAL || errno == ENOSYS) return 0;
-    return errno;
-}
 
 }  // namespace
 
@@ -88,14 +83,14 @@ void TakeFile::take_up_sync() {
 
 void TakeFile::sync() {
     take_up_sync();
-    if (failure_ == 0) failure_ = brought_to_disk(fd_.get());
+    if (failure_ == 0) failure_ = sync_data(fd_.get());
 }
 
 bool TakeFile::begin_sync() {
     if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return false;
     take_up_sync();
-    syncing_ = std::async(std::launch::async, [fd = fd_.get()] { return brought_to_disk(fd); });
+    syncing_ = std::async(std::launch::async, [fd = fd_.get()] { return sync_data(fd); });
     return true;
 }
 

@@ -5,7 +5,8 @@
 #include <mutex>
 
 #include <fcntl.h>
-#include <unistd.h>
+
+#include "common/base/data_sync.h"
 
 namespace vantage {
 
@@ -18,7 +19,8 @@ DiskSync::DiskSync(const std::filesystem::path& path)
           while (!woken.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) now();
       }) {}
 
-// What goes wrong with the disk, whoever writes is told.
-void DiskSync::now() const { (void)::fdatasync(fd_.get()); }
+void DiskSync::now() {
+    if (const int reason = sync_data(fd_.get()); reason != 0) failure_ = reason;
+}
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <thread>
 
@@ -15,10 +16,14 @@ class DiskSync {
     explicit DiskSync(const std::filesystem::path& path);
 
     /// At once, and waits for it.
-    void now() const;
+    void now();
+    /// The system's reason for what did not get there; 0: all did. write() may go on well
+    /// meanwhile, until memory or the file system is full.
+    int failure() const { return failure_; }
 
   private:
     UniqueFd fd_;
+    std::atomic<int> failure_ = 0;
     std::jthread thread_;
 };
 

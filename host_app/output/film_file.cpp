@@ -107,6 +107,7 @@ void FilmFile::write(AVPacket& packet, AVRational time_base, const AVStream& str
     packet.stream_index = stream.index;
     if (const int code = av_interleaved_write_frame(output_.get(), &packet); code < 0)
         fail_writing(code);
+    require_disk();
     bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));
 }
 
@@ -115,6 +116,7 @@ void FilmFile::finish() {
     if (const int code = av_write_trailer(output_.get()); code < 0) fail_writing(code);
     if (const int code = avio_closep(&output_->pb); code < 0) fail_writing(code);
     sync_->now();
+    require_disk();
     std::error_code error;
     std::filesystem::rename(partial_, path_, error);
     if (error) fail("cannot write {}: {}", path_.string(), error.message());
@@ -137,6 +139,10 @@ bool FilmFile::keep_what_is_written() noexcept {
     std::filesystem::rename(partial_, path_, error);
     finished_ = !error;
     return finished_;
+}
+
+void FilmFile::require_disk() const {
+    if (const int reason = sync_->failure(); reason != 0) fail_writing(AVERROR(reason));
 }
 
 void FilmFile::fail_writing(int code) const {

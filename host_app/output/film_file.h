@@ -58,6 +58,7 @@ class FilmFile {
   private:
     AVStream& add_stream(const AVCodecParameters& parameters, AVRational time_base);
     void write(AVPacket& packet, AVRational time_base, const AVStream& stream);
+    void require_disk() const;
     [[noreturn]] void fail_writing(int code) const;
 
     std::filesystem::path path_, partial_;
