@@ -1,10 +1,12 @@
 // make_seeds FOLDER: writes the first inputs of every fuzz target to FOLDER/TARGET/.
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/atomic_file.h"
 #include "common/config/calibration_file.h"
@@ -18,6 +20,7 @@
 #include "common/wire/disparity_codec.h"
 #include "common/wire/link_message.h"
 #include "host_app/instants/set_file.h"
+#include "host_app/ltc/ltc_writer.h"
 #include "tests/fuzz/seed_frames.h"
 
 namespace vantage {
@@ -290,6 +293,16 @@ void write_controls(const Seeds& seeds) {
         "\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);
 }
 
+/// As ltc_fuzz.cpp has its sound.
+void write_time_code(const Seeds& seeds) {
+    LtcWriter writer(25);
+    std::vector<std::int16_t> samples;
+    for (const char* code : {"01:02:03:04", "01:02:03:05", "01:02:03:06"})
+        for (const float sample : writer.frame(SmpteCode::parse(code).value()))
+            samples.push_back(static_cast<std::int16_t>(sample * 32767));
+    seeds.write("ltc", "three_frames", std::as_bytes(std::span(samples)));
+}
+
 void write_wheels(const Seeds& seeds) {
     using namespace std::string_view_literals;
     seeds.write("jog_report", "contour", "\5\0\5\0\0\0\5\7\6\0\x10\1"sv);
@@ -430,6 +443,7 @@ int main(int argc, char** argv) {
         vantage::write_pairing(seeds);
         vantage::write_configurations(seeds);
         vantage::write_controls(seeds);
+        vantage::write_time_code(seeds);
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);

@@ -32,6 +32,7 @@ export VANTAGE_LOG=error
 passed=0 failed=0
 for target in "${targets[@]}"; do
   log=build/fuzz/$target.log
+  mkdir -p "$corpus/$target"
   # Memory: a frame of the largest size takes 64 MB a picture; beyond four of these a decoder believes what it is told.
   if nice "build/fuzz/bin/${target}_fuzz" -max_total_time="$seconds" -timeout=100 -rss_limit_mb=2048 \
     -malloc_limit_mb=256 -max_len=65536 -print_final_stats=1 -artifact_prefix="$found/$target-" \
