@@ -107,7 +107,7 @@ std::string egl_error_name(EGLint code) {
 EglContext::EglContext() {
     try_platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");
     // Beside another vendor's driver it is Mesa that answers there, and draws by the processor.
-    if (!ready() || is_software_) try_devices();
+    if (!has_gpu()) try_devices();
     if (!ready()) try_gbm();
     if (ready()) return;
     std::string tried;
@@ -223,7 +223,7 @@ void EglContext::try_devices() {
         if (!ready()) attempts_.push_back({"device", "EGL lists no devices"});
         return;
     }
-    for (EGLint i = 0; i < count && (!ready() || is_software_); ++i)
+    for (EGLint i = 0; i < count && !has_gpu(); ++i)
         if (EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
             !ready() || !is_software_device(device))
             try_platform(EGL_PLATFORM_DEVICE_EXT, device, fmt::format("device {}", i));

@@ -60,6 +60,7 @@ class EglContext {
     void try_devices();
     void try_gbm();
     bool ready() const { return context_ != EGL_NO_CONTEXT; }
+    bool has_gpu() const { return ready() && !is_software_; }
 
     std::vector<EglAttempt> attempts_;
     EGLDisplay display_ = EGL_NO_DISPLAY;

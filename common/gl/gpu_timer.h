@@ -19,6 +19,9 @@ class GpuTimer {
   public:
     GpuTimer();
 
+    /// False: begin() and end() wait for the GPU.
+    bool is_of_gpu() const { return uses_queries_; }
+
     void begin();
     void end();
     /// Milliseconds of the last span, or of the one before where the GPU's clock was disturbed;

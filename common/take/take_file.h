@@ -40,8 +40,9 @@ class TakeFile {
     using WrittenByte = std::uint8_t;
 #endif
     static int write(void* self, WrittenByte* bytes, int size);
-    void take_up_sync();
     static std::int64_t seek(void* self, std::int64_t offset, int whence);
+    /// Keeps what became of the sync that is under way, if one is.
+    void take_up_sync();
 
     UniqueFd fd_;
     AVIOContext* io_ = nullptr;

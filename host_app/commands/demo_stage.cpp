@@ -43,7 +43,7 @@ DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& m
     small.rate_hz = 12.5;
     small.preset = "fast";
     for (const DemoSize& size : {full, middle})
-        if (rigs * size.rate_hz * match_ms(size) <= 500) return size;
+        if (rigs * size.rate_hz * match_ms(size) <= matching_ms_a_second) return size;
     return small;
 }
 

@@ -22,6 +22,9 @@ struct DemoSize {
     bool is_software = false;
 };
 
+/// Of every second that a GPU has, what the rigs' matching may take: the rest is the host's.
+inline constexpr double matching_ms_a_second = 500;
+
 /// For a processor that draws everything.
 DemoSize software_demo_size();
 

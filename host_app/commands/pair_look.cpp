@@ -48,7 +48,7 @@ int usual_disparities(int width_px) { return std::clamp(32 * ((width_px / 4 + 31
 
 /// Half of the time is the matcher's; a processor that draws everything shares it with the host.
 double rate_that_is_held(double gpu_ms, double own_hz, bool is_software) {
-    const double most_hz = (is_software ? 250 : 500) / gpu_ms;
+    const double most_hz = (is_software ? 0.5 : 1.0) * matching_ms_a_second / gpu_ms;
     // Four digits, as a person would write it.
     const double rate_hz = std::clamp(most_hz, std::min(0.2, own_hz), own_hz);
     const double step = std::pow(10, std::floor(std::log10(rate_hz)) - 3);

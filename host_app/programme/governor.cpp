@@ -18,8 +18,6 @@ constexpr double far_off = 2;
 constexpr double room = 0.75, untried_ratio = 1.6;
 /// Before the level rises: until it first had to fall, at first then, and at most.
 constexpr double least_patience_s = 0.5, first_patience_s = 2, longest_patience_s = 60;
-/// Before one that was never tried is, though it is not expected to fit.
-constexpr double untried_patience_s = 2;
 /// A level that had to be left within so long after it was risen to was a mistake.
 constexpr double mistake_s = 5;
 constexpr double mean_share = 0.2;
@@ -97,13 +95,13 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     const bool fits = std::min(better_ms.value_or(expected_ms), expected_ms) <= room * allowed_ms;
     // Where most of the time is the same at every level the next one takes less than expected: one
     // that was never tried is, once this one has room.
-    const bool is_tried = !fits && !better_ms && *usual_ms <= room * allowed_ms;
-    if (!fits && !is_tried) {
+    const bool is_worth_a_try = !better_ms && *usual_ms <= room * allowed_ms;
+    if (!fits && !is_worth_a_try) {
         fitting_since_.reset();
         return;
     }
     if (!fitting_since_) fitting_since_ = now;
-    if (seconds(*fitting_since_, now) >= (fits ? patience_s_ : untried_patience_s))
+    if (seconds(*fitting_since_, now) >= (fits ? patience_s_ : first_patience_s))
         go_to(level_ - 1, now);
 }
 

@@ -52,7 +52,6 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
     prepare_intakes(config.source.buffers, specimens);
-    if (matcher_ && info_.has_timer_queries && !info_.is_software) match_timer_.emplace();
     if (matcher_ && config.match.steady)
         steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
     if (rectified_already_ && !matcher_) return;
@@ -113,11 +112,13 @@ RigFrame GpuStage::process(StereoFrame frame) {
         result.disparity = std::move(frame.exact_disparity);
     }
     if (result.packed_colour.empty()) packer_.pack(result);
-    // Where the GPU times itself, packing goes on beside it and takes no part of its time.
+    // Where the GPU times itself, packing goes on beside it and takes no part of its time;
+    // elsewhere a timer would have packing wait.
     result.times.match_ms =
-        match_timer_ ? static_cast<float>(match_timer_->wait_ms())
-                     : std::max(0.0F, milliseconds_since(start) - result.times.rectify_ms -
-                                          result.times.pack_ms);
+        matcher_ && match_timer_.is_of_gpu()
+            ? static_cast<float>(match_timer_.wait_ms())
+            : std::max(0.0F,
+                       milliseconds_since(start) - result.times.rectify_ms - result.times.pack_ms);
 
     result.synchronized = frame.synchronized;
     result.trigger_index = frame.trigger_index;
@@ -143,10 +144,11 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     rectify_timer_.end();
     const bool has_colour = rectified_already_ && !frame.lent_left;
     if (!has_colour) colour_readback_.begin(left);
-    if (match_timer_) match_timer_->begin();
+    const bool is_timed = matcher_ && match_timer_.is_of_gpu();
+    if (is_timed) match_timer_.begin();
     const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
     if (disparity && steady_) disparity = &steady_->run(*disparity, left);
-    if (match_timer_) match_timer_->end();
+    if (is_timed) match_timer_.end();
     // Everything is under way; what comes first is packed while the GPU matches.
     if (disparity) disparity_readback_.begin(*disparity);
     result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take());

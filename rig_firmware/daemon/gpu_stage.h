@@ -55,8 +55,7 @@ class GpuStage {
     CameraIntake left_intake_, right_intake_;
     std::string intake_report_;  ///< empty: the source lends no pictures
     RectifyPass rectify_left_, rectify_right_;
-    GpuTimer rectify_timer_;
-    std::optional<GpuTimer> match_timer_;  ///< where the GPU times itself
+    GpuTimer rectify_timer_, match_timer_;
     Readback colour_readback_, disparity_readback_;
     ColourPacker packer_;
     std::optional<TemporalPass> steady_;

@@ -93,6 +93,7 @@ say ""
 names=$(cat "$build/gl_tests")
 $small && names="gl_test rectification_test virtual_stage_test"
 started=$SECONDS
+note "tests of $(echo $names)"
 export MESA_GLES_VERSION_OVERRIDE=3.1 GTEST_TOTAL_SHARDS=$parts
 test_part() { # program, part: its log and how it ended, in $work
   GTEST_SHARD_INDEX=$2 timeout 1200 "$build/bin/$1" --gtest_color=no >"$work/$1.$2.log" 2>&1
@@ -108,7 +109,7 @@ say "$parts parts a program, $at_once at a time: $((SECONDS - started)) s."
 say ""
 say "| program | passed | failed | skipped |"
 say "| --- | --- | --- | --- |"
-remarks= failures=
+remarks='' failures=''
 sum() { sed -n "s/^\[  $2 *\] \([0-9]*\) test.*/\1/p" "$work/$1".*.log | awk '{n += $1} END {print n + 0}'; }
 for name in $names; do
   faults=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/]*\.[^ ,]*\).*/\1/p' "$work/$name".*.log | sort -u)
@@ -159,10 +160,10 @@ bench() { # title, program, options...: its tables
   say ""
   say "\`$program${*:+ $*}\`"
   say ""
-  if timeout 3000 "$build/bin/$program" "$@" >"$work/bench.md" 2>"$work/bench.log"; then
-    tee -a "$report" <"$work/bench.md"
-  else
-    tee -a "$report" <"$work/bench.md"
+  local ended=0
+  timeout 3000 "$build/bin/$program" "$@" >"$work/bench.md" 2>"$work/bench.log" || ended=$?
+  tee -a "$report" <"$work/bench.md"
+  if [ $ended -ne 0 ]; then
     say ""
     say "It ended before its end: $(tail -n 1 "$work/bench.log")"
     failed=1
