@@ -66,7 +66,7 @@ struct TakeRecorder::Take {
     bool is_lateness_told = false;
     double disk_mb_s = 0;
     std::vector<std::string> told;  ///< of each rig: why one was refused last
-    bool is_dead = false;
+    std::string failure;            ///< empty: none
 };
 
 std::size_t TakeRecorder::Item::bytes() const {
@@ -155,6 +155,8 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
     require_new_take(path, "recorded");
     {
         const std::lock_guard lock(mutex_);
+        if (is_taking_ && is_ending_)
+            fail("{} cannot be begun yet: {} is still being written", path.string(), state_.path);
         if (is_taking_) return;
         is_taking_ = true;
         is_ending_ = false;
@@ -235,13 +237,18 @@ void TakeRecorder::run() {
             if (take->writer) take->writer->hand_over();
             if (is_over) close(*take);
         } catch (const std::exception& error) {
-            fail_take(*take, error.what());
+            take->failure = error.what();
+            log_error("{}", take->failure);
         }
         note(*take);
-        if (!is_over && !take->is_dead) continue;
+        if (!is_over && take->failure.empty()) continue;
+        const std::string failure = take->failure;
         take.reset();
         {
+            // All at once: who sees the phase may begin the next one.
             const std::lock_guard lock(mutex_);
+            state_.phase = failure.empty() ? TakePhase::none : TakePhase::failed;
+            state_.failure = failure;
             is_taking_ = is_ending_ = false;
             queue_.clear();
             queued_bytes_ = 0;
@@ -442,17 +449,6 @@ void TakeRecorder::close(Take& take) {
         write_sound(take);
         take.writer->finish();
     }
-    take.is_dead = true;
-    const std::lock_guard lock(mutex_);
-    state_.phase = TakePhase::none;
-}
-
-void TakeRecorder::fail_take(Take& take, const std::string& sentence) {
-    log_error("{}", sentence);
-    take.is_dead = true;
-    const std::lock_guard lock(mutex_);
-    state_.phase = TakePhase::failed;
-    state_.failure = sentence;
 }
 
 void TakeRecorder::note(const Take& take) {

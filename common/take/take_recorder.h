@@ -82,7 +82,8 @@ class TakeRecorder {
     void offer(const SoundBlock& sound);
 
     /// Begins a take, `pre_roll` ago; one that runs goes on. Throws Error if there is such a file,
-    /// or no folder for it. Whether the disk is fast enough shows in the state.
+    /// or no folder for it, or while one that was ended is still being written. Whether the disk is
+    /// fast enough shows in the state.
     void begin(const std::filesystem::path& path);
     /// Ends the one that runs: what came until now is written, on the recorder's thread.
     void end();
@@ -124,7 +125,6 @@ class TakeRecorder {
     void refuse(Take& take, const ArrivedFrame& frame, const std::string& why);
     void close(Take& take);
     void note(const Take& take);
-    void fail_take(Take& take, const std::string& sentence);
 
     const Settings settings_;
     mutable std::mutex mutex_;  ///< of what follows; never held over a write or a codec

@@ -229,6 +229,28 @@ TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
     EXPECT_EQ(recorder.state().takes, 2u);
 }
 
+TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
+    std::promise<void> is_disk_back;
+    TakeRecorder::Settings wanted = settings();
+    wanted.disk_mb_s = [disk = is_disk_back.get_future().share()](const auto&) {
+        disk.wait();
+        return 1000.0;
+    };
+    TakeRecorder recorder(wanted);
+    recorder.begin(take_);
+    offer_both(recorder, 1000, 1001);
+    recorder.end();
+    const std::string sentence =
+        thrown_sentence([&] { recorder.begin(folder_.path() / "next.mkv"); });
+    EXPECT_NE(sentence.find(take_.string() + " is still being written"), std::string::npos)
+        << sentence;
+    is_disk_back.set_value();
+    recorder.finish();
+    EXPECT_EQ(frames_of(0), 2u);
+    recorder.begin(folder_.path() / "next.mkv");
+    EXPECT_TRUE(recorder.is_running());
+}
+
 TEST_F(TakeRecorderTest, SaysWhenNothingCame) {
     TakeRecorder recorder(settings());
     recorder.begin(take_);
