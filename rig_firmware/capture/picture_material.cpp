@@ -60,8 +60,10 @@ class PairSeries final : public StereoMaterial {
         if (!first_pulse_) first_pulse_ = loop_ ? 0 : pulse_index;
         const std::uint64_t position = pulse_index - *first_pulse_;
         if (!loop_ && position >= files_.size()) return std::nullopt;
+        shown_to_ = position + 1;
         return read(position % files_.size());
     }
+    std::uint64_t unshown() const override { return loop_ ? 0 : files_.size() - shown_to_; }
 
     std::string describe() const override {
         const auto& [left, right] = files_.front();
@@ -83,6 +85,7 @@ class PairSeries final : public StereoMaterial {
     bool loop_;
     cv::Size size_;
     std::optional<std::uint64_t> first_pulse_;
+    std::uint64_t shown_to_ = 0;  ///< position after the last one shown
 };
 
 PairFiles numbered_pairs(const RigConfig::Source& source) {

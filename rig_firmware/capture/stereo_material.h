@@ -30,6 +30,8 @@ class StereoMaterial {
     /// for in rising order. Throws Error naming the file that is missing, damaged or of another
     /// size.
     virtual std::optional<StereoPair> pair_of(std::uint64_t pulse_index) = 0;
+    /// Of material that has ended: pairs behind the last one shown, whose pulses were missed.
+    virtual std::uint64_t unshown() const { return 0; }
     /// One line for the start-up report.
     virtual std::string describe() const = 0;
 };

@@ -27,6 +27,7 @@ class FilesSource final : public StereoSource {
         std::optional<StereoPair> pair = material_->pair_of(pulse->index);
         if (!pair) {
             ended_ = true;
+            missed_ += material_->unshown();
             return std::nullopt;
         }
         skew_.draw_bar(pair->left, pair->right, pulse->time);
@@ -56,7 +57,7 @@ class FilesSource final : public StereoSource {
     VirtualSkew skew_;
     double rate_hz_;
     bool ended_ = false;
-    std::uint64_t missed_ = 0;  ///< up to the last frame: after the end there is nothing to miss
+    std::uint64_t missed_ = 0;  ///< of the material's pictures
 };
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "common/base/pulse_grid.h"
@@ -124,25 +126,42 @@ TEST(VirtualSource, RefusesCamerasThatItCannotFilmWith) {
     EXPECT_NE(thrown_sentence([&] { make_source(config); }).find("'doffs_px'"), std::string::npos);
 }
 
-TEST(FilesSource, EndsCleanlyWhereTheMaterialDoes) {
-    const TemporaryFolder folder;
-    RigConfig config;
-    config.source.kind = "files";
-    config.source.rate_hz = 100;
-    config.source.loop = false;
-    config.source.left = (folder.path() / "l%d.png").string();
-    config.source.right = (folder.path() / "r%d.png").string();
-    for (int i = 0; i < 3; ++i) {
-        write_colour_image(folder.path() / fmt::format("l{}.png", i), ColourImage(5, 7));
-        write_colour_image(folder.path() / fmt::format("r{}.png", i), ColourImage(5, 7));
+/// Three pictures at 100 Hz, once.
+class FilesSourceTest : public testing::Test {
+  protected:
+    FilesSourceTest() {
+        config_.source.kind = "files";
+        config_.source.rate_hz = 100;
+        config_.source.loop = false;
+        config_.source.left = (folder_.path() / "l%d.png").string();
+        config_.source.right = (folder_.path() / "r%d.png").string();
+        for (int i = 0; i < 3; ++i) {
+            write_colour_image(folder_.path() / fmt::format("l{}.png", i), ColourImage(5, 7));
+            write_colour_image(folder_.path() / fmt::format("r{}.png", i), ColourImage(5, 7));
+        }
     }
-    const auto source = make_source(config);
+
+    TemporaryFolder folder_;
+    RigConfig config_;
+};
+
+TEST_F(FilesSourceTest, EndsCleanlyWhereTheMaterialDoes) {
+    const auto source = make_source(config_);
     EXPECT_EQ(source->size(), cv::Size(7, 5));
     std::uint64_t frames = 0;
     while (next_frame(*source)) ++frames;
     EXPECT_TRUE(source->ended());
     EXPECT_EQ(frames + source->missed(), 3u);
     EXPECT_FALSE(source->next(1ms));
+}
+
+TEST_F(FilesSourceTest, CountsPicturesWhosePulsesHadPassedWhenTheMaterialEnded) {
+    const auto source = make_source(config_);
+    ASSERT_TRUE(next_frame(*source));
+    std::this_thread::sleep_for(100ms);
+    EXPECT_FALSE(next_frame(*source));
+    EXPECT_TRUE(source->ended());
+    EXPECT_EQ(source->missed(), 2u);
 }
 
 TEST(Source, IsOneOfThoseThereAre) {
