@@ -1,7 +1,7 @@
-// The depth of a rig's set at this instant: its model's, but where the set has changed since that was made.
+// The depth of a rig's set: its model's, but where the set has changed since that was made.
 uniform sampler2D model;      // metres, 0 = unknown, negative = guessed
 uniform sampler2D set_state;  // from set_learn.frag
-uniform float since;          // instants since the model was made
+uniform float since;          // instants that were learnt of since the model was made
 
 float set_depth_m(ivec2 at) {
     vec2 state = texelFetch(set_state, at, 0).rg;

@@ -1,9 +1,11 @@
 // What a rig's picture shows at each pixel against its set, which stands still and lies behind everything that moves
-// over it.
+// over it. The set's depth of the instants before counts as the rig's matcher sees it, errors and all, and as the model
+// has it: on a plain floor the former may be as near as a performer.
 #include "colour_change.glsl"
 #include "depth_votes.glsl"
 #include "set_kinds.glsl"
 #include "set_known.glsl"
+#include "set_now.glsl"
 #include "two_stages.glsl"
 
 #ifndef SAME_SIZE
@@ -13,7 +15,6 @@
 uniform sampler2D depth_map;  // this instant's, metres, 0 = unknown
 uniform sampler2D picture;    // this instant's
 uniform sampler2D set_colour; // mean of the instants that showed the set; alpha: how many
-uniform sampler2D set_state;  // of the instants before
 
 layout(location = 0) out vec4 seen;  // red: one of the kinds of set_kinds.glsl; green: how far the colour is from the set's, in a
                                       // window; blue: just here
@@ -71,10 +72,12 @@ void main() {
         bool goes_on = state.b > 0.0 && is_one_surface(z, state.b);
         bool restless = is_restless(mean);
         bool is_believed = restless || state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
-        kind = is_same && is_shade()                               ? lit_set
-               : is_known && !restless && !is_same && z < state.r ? before_set
-               : z > 0.0 && !is_same                               ? (is_believed ? new_set : uncovered)
-                                                                   : untold;
+        float model_m = set_depth_m(at);
+        bool is_before = (!is_same && z < state.r) || (z < model_m && !is_one_surface(z, model_m));
+        kind = is_same && is_shade()                   ? lit_set
+               : is_known && !restless && is_before ? before_set
+               : z > 0.0 && !is_same                   ? (is_believed ? new_set : uncovered)
+                                                       : untold;
     }
     seen = vec4(kind, change, own, 0.0);
 #endif

@@ -74,9 +74,9 @@ class RigHistory {
     struct Model {
         std::shared_ptr<const RigSurface> surface;
         int rank = 0;
-        double rest_s = 0;       ///< before there is a use in making it anew
-        double made_s = 0;       ///< on the preparer's clock
-        std::uint64_t made = 0;  ///< number of the instant
+        double rest_s = 0;  ///< before there is a use in making it anew
+        double made_s = 0;  ///< on the preparer's clock
+        int made = 0;       ///< learnt_instants() by then
     };
     const std::optional<Model>& model() const { return model_; }
     void set_model(const Model& model) {

@@ -65,13 +65,12 @@ void SetLearner::learn(RigHistory& rig) {
     rig.depth().bind(0);
     rig.fresh_colour().bind(1);
     set_colour.bind(2);
-    state_before.bind(3);
     TwoStagePass& seeing = rig.depth().size() == picture ? see_alike_ : see_;
     seeing.draw(set.seen_target(), [&](Program& see) {
         see.set("depth_map", 0);
         see.set("picture", 1);
         see.set("set_colour", 2);
-        see.set("set_state", 3);
+        bind_now(see, rig, state_before, 3);
         set_votes(see);
     });
 
@@ -127,6 +126,18 @@ void SetLearner::learn(RigHistory& rig) {
     colour_.draw(colour);
     rig.finish_set();
     rig.finish_colour();
+}
+
+void SetLearner::bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit) {
+    const std::optional<RigHistory::Model>& model = rig.model();
+    program.set("model", unit);
+    program.set("set_state", unit + 1);
+    // What has not changed for as long as is counted has not changed since an older model either.
+    program.set("since", model ? std::min(static_cast<float>(rig.learnt_instants() - model->made),
+                                          most_votes(rig) - 1)
+                               : 0.0f);
+    (model ? model->surface->depth() : state).bind(unit);
+    state.bind(unit + 1);
 }
 
 float SetLearner::most_votes(const RigHistory& rig) {

@@ -40,6 +40,10 @@ class SetLearner {
     /// Reads it back. Precondition as learnt().
     Look look_at(const RigHistory& rig);
 
+    /// Gives a program of set_now.glsl what it reads of a rig, on `unit` and the next; `state` is
+    /// that of its set.
+    static void bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit);
+
     /// Instants that a pixel's depth counts at most.
     static float most_votes(const RigHistory& rig);
     /// Instants that a pixel has to have been still for before it is known to show the set.

@@ -41,7 +41,6 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
 
 void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
-    ++instant_;
     uploaded_ = rigs_.upload(views, dt_s);
     for (RigHistory* rig : uploaded_) begin_with_learnt(*rig);
     learnt_.clear();
@@ -179,7 +178,7 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
                            .rank = level.rank,
                            .rest_s = first_model_rest_s,
                            .made_s = now_s_,
-                           .made = instant_};
+                           .made = rig.learnt_instants()};
     if (before && before->rank == 0)
         made.rest_s = std::min(2 * before->rest_s, longest_model_rest_s);
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
@@ -195,16 +194,6 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
 void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
     bettering_.reset();
     for (const RigConsensus::Step& step : model_in_steps(rig, level)) step();
-}
-
-void StagedPreparer::bind_set(Program& program, const RigHistory& rig) const {
-    program.set("model", 0);
-    program.set("set_state", 1);
-    // What has not changed for as long as is counted has not changed since an older model either.
-    program.set("since", std::min(static_cast<float>(instant_ - rig.model()->made),
-                                  SetLearner::most_votes(rig) - 1));
-    rig.model()->surface->depth().bind(0);
-    rig.set_state().state().bind(1);
 }
 
 std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
@@ -244,7 +233,7 @@ bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level)
 void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                                 const PrepareLevel& level) {
     Program& show = show_.use();
-    bind_set(show, rig);
+    SetLearner::bind_now(show, rig, rig.set_state().state(), 0);
     show.set("depth_map", 2);
     show.set("seen", 3);
     show.set("performers", 4);

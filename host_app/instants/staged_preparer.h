@@ -67,9 +67,6 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     /// The depth of the rig's set as the other rigs better it, with the thin things that are looked
     /// for now and then.
     const Texture& bettered_set(RigHistory& rig);
-    /// Gives a program of set_now.glsl the rig's set, on units 0 and 1. Precondition: it has a
-    /// model.
-    void bind_set(Program& program, const RigHistory& rig) const;
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
@@ -99,7 +96,6 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< instants' time since the first one
-    std::uint64_t instant_ = 0;
     double improved_s_ = 0;
     std::shared_ptr<const LearntSet> begins_with_;
     std::map<std::string, std::string> misfits_;  ///< by rig that begins_with_ was tried for

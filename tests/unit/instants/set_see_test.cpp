@@ -25,6 +25,15 @@ class SetSeeTest : public testing::Test {
         rig_.upload(view, 0.2);
         learner_.learn(rig_);
     }
+    /// The model of the set knows better than its matcher how far the wall is.
+    void set_model(float depth_m) {
+        DepthView view = rig_.camera();
+        view.colour = ColourImage(side_px, side_px, grey);
+        view.depth_m = DepthImage(side_px, side_px, depth_m);
+        const auto surface = std::make_shared<RigSurface>();
+        surface->upload(view, corrector_, uploader_);
+        rig_.set_model({.surface = surface, .made = rig_.learnt_instants()});
+    }
     cv::Vec4b seen_at(int x, int y) const {
         return ColourImage(rig_.set_state().seen().download())(y, x);
     }
@@ -39,6 +48,8 @@ class SetSeeTest : public testing::Test {
     EglContext context_;
     ShaderLibrary shaders_;
     SetLearner learner_{shaders_};
+    std::unique_ptr<ColourCorrector> corrector_;
+    std::unique_ptr<DepthUploader> uploader_;
     RigHistory rig_;
 };
 
@@ -55,6 +66,24 @@ TEST_F(SetSeeTest, TakesAFactorOfTheColourForLightAndShadow) {
 }
 
 TEST_F(SetSeeTest, KnowsAPerformerByColourAndNearness) { EXPECT_EQ(kind_of(red, 2), before_set); }
+
+TEST_F(SetSeeTest, KnowsAPerformerAsFarAsTheMatcherTakesTheSetToBe) {
+    for (const float performer_m : {4.0f, 5.0f}) {
+        for (int i = 0; i < 10; ++i) see(grey, 4);
+        set_model(8);
+        see(red, performer_m);
+        EXPECT_EQ(seen_at(16, 16)[0], before_set) << performer_m << " m";
+        see(grey * 0.6, 4);
+        EXPECT_EQ(seen_at(16, 16)[0], lit_set) << "its shadow";
+    }
+}
+
+TEST_F(SetSeeTest, HoldsAGuessOfTheModelsAgainstNobody) {
+    for (int i = 0; i < 10; ++i) see(grey, 4);
+    set_model(-8);
+    see(red, 4);
+    EXPECT_EQ(seen_at(16, 16)[0], untold);
+}
 
 TEST_F(SetSeeTest, CannotTellAnotherColourAtTheSetsDepthOrWithoutDepth) {
     EXPECT_EQ(kind_of(red, 4), untold);
