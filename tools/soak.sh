@@ -114,17 +114,23 @@ if [ "$(figure .missed_ticks)" -le $((17 * hung + 2)) ]; then
 else
   failed=$((failed + 1)) && echo "FAIL $(figure .missed_ticks) ticks were missed, and the host hung $hung times only"
 fi
-# Of the second half: the least-squares slope of memory in MiB an hour, the most memory, threads and file descriptors.
+# The median of memory in each third. Of the second half: the least-squares slope of memory in MiB an hour, the most memory,
+# threads and file descriptors.
 process_rows() {
-  awk -v half=$((seconds / 2)) '
-    { key = $2 " " $3; if ($1 < half) { if ($5 > threads[key]) threads[key] = $5; if ($6 > files[key]) files[key] = $6; next }
+  sort -n -k4,4 "$out/samples" | awk -v half=$((seconds / 2)) -v third=$((seconds / 3)) '
+    { key = $2 " " $3; part = key " " int($1 / third); resident[part, ++count[part]] = $4
+      if ($1 < half) { if ($5 > threads[key]) threads[key] = $5; if ($6 > files[key]) files[key] = $6; next }
       n[key]++; x[key] += $1; y[key] += $4; xx[key] += $1 * $1; xy[key] += $1 * $4
       if ($4 > most[key]) most[key] = $4
       if ($5 > late_threads[key]) late_threads[key] = $5; if ($6 > late_files[key]) late_files[key] = $6 }
     END { for (key in n) { if (n[key] < 10 || !(key in threads)) continue
       slope = (n[key] * xy[key] - x[key] * y[key]) / (n[key] * xx[key] - x[key] * x[key])
-      printf "| %s | %.1f | %.1f | %d, %d | %d, %d |\n", key, slope * 3600 / 1024, most[key] / 1024, threads[key], late_threads[key], files[key], late_files[key] } }' \
-    "$out/samples" | sort
+      middles = ""
+      for (k = 0; k < 3; ++k) {
+        part = key " " k
+        if (count[part]) middles = middles sprintf("%.0f ", resident[part, int((count[part] + 1) / 2)] / 1024)
+      }
+      printf "| %s | %s| %.1f | %.1f | %d, %d | %d, %d |\n", key, middles, slope * 3600 / 1024, most[key] / 1024, threads[key], late_threads[key], files[key], late_files[key] } }' | sort
 }
 table=$(
   echo "| | |"
@@ -141,8 +147,8 @@ table=$(
   echo "| frames sent, lost, received | $(figure '"\([.rigs[].link.sent] | add), \([.rigs[].link.lost] | add), \([.rigs[].host.received] | add)"') |"
   echo "| what was held to account | $passed of $((passed + failed)) hold |"
   echo
-  echo "| process | memory, MiB an hour in the second half | most, MiB | threads: most in either half | file descriptors, likewise |"
-  echo "| --- | --- | --- | --- | --- |"
+  echo "| process | memory: median of each third, MiB | MiB an hour in the second half | most, MiB | threads: most in either half | file descriptors, likewise |"
+  echo "| --- | --- | --- | --- | --- | --- |"
   process_rows
 )
 echo "$table"
