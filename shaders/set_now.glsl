@@ -3,7 +3,7 @@ uniform sampler2D model;      // metres, 0 = unknown, negative = guessed
 uniform sampler2D set_state;  // from set_learn.frag
 uniform float since;          // instants that were learnt of since the model was made
 
-float set_depth_m(ivec2 at) {
-    vec2 state = texelFetch(set_state, at, 0).rg;
+// Of a pixel with this state.
+float set_depth_m(ivec2 at, vec4 state) {
     return state.r > 0.0 && state.g <= since ? state.r : texelFetch(model, at, 0).r;
 }

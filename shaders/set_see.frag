@@ -72,12 +72,12 @@ void main() {
         bool goes_on = state.b > 0.0 && is_one_surface(z, state.b);
         bool restless = is_restless(mean);
         bool is_believed = restless || state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
-        float model_m = set_depth_m(at);
+        float model_m = set_depth_m(at, state);
         bool is_before = (!is_same && z < state.r) || (z < model_m && !is_one_surface(z, model_m));
-        kind = is_same && is_shade()                   ? lit_set
+        kind = is_same && is_shade()                ? lit_set
                : is_known && !restless && is_before ? before_set
-               : z > 0.0 && !is_same                   ? (is_believed ? new_set : uncovered)
-                                                       : untold;
+               : z > 0.0 && !is_same                ? (is_believed ? new_set : uncovered)
+                                                    : untold;
     }
     seen = vec4(kind, change, own, 0.0);
 #endif

@@ -21,7 +21,8 @@ void main() {
         depth_m = z;
         return;
     }
-    depth_m = set_depth_m(at);
+    vec4 state = texelFetch(set_state, at, 0);
+    depth_m = set_depth_m(at, state);
     bool is_hidden = textureLod(colour, uv, 0.0).a < 1.0;
-    if (is_hidden && !is_set_known(texelFetch(set_state, at, 0), textureLod(colour_mean, uv, 0.0))) depth_m = 0.0;
+    if (is_hidden && !is_set_known(state, textureLod(colour_mean, uv, 0.0))) depth_m = 0.0;
 }

@@ -155,7 +155,7 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
     require_new_take(path, "recorded");
     {
         const std::lock_guard lock(mutex_);
-        if (is_taking_ && is_ending_)
+        if (is_ending_)
             fail("{} cannot be begun yet: {} is still being written", path.string(), state_.path);
         if (is_taking_) return;
         is_taking_ = true;
@@ -242,7 +242,7 @@ void TakeRecorder::run() {
         }
         note(*take);
         if (!is_over && take->failure.empty()) continue;
-        const std::string failure = take->failure;
+        const std::string failure = std::move(take->failure);
         take.reset();
         {
             // All at once: who sees the phase may begin the next one.

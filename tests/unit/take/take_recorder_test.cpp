@@ -37,6 +37,15 @@ class TakeRecorderTest : public testing::Test {
         frame.arrival = at;
         return frame;
     }
+    /// The disk answers once it is released.
+    static TakeRecorder::Settings with_a_disk_held_by(std::promise<void>& release) {
+        TakeRecorder::Settings wanted = settings();
+        wanted.disk_mb_s = [gate = release.get_future().share()](const auto&) {
+            gate.wait();
+            return 1000.0;
+        };
+        return wanted;
+    }
     static void offer_both(TakeRecorder& recorder, std::uint64_t first, std::uint64_t last) {
         for (std::uint64_t pulse = first; pulse <= last; ++pulse)
             for (const std::size_t rig : {0, 1}) recorder.offer(arrived(rig, pulse));
@@ -150,12 +159,7 @@ TEST_F(TakeRecorderTest, WhatItSaysIsRecordedIsInTheFileWithoutAnEnd) {
 
 TEST_F(TakeRecorderTest, ARecorderThatWasHeldUpHandsOverAllThatWaitedAndSaysHowLong) {
     std::promise<void> release;
-    TakeRecorder::Settings wanted = settings();
-    wanted.disk_mb_s = [gate = release.get_future().share()](const auto&) {
-        gate.wait();
-        return 1000.0;
-    };
-    TakeRecorder recorder(wanted);
+    TakeRecorder recorder(with_a_disk_held_by(release));
     recorder.begin(take_);
     const MonotonicTime begun = MonotonicClock::now();
     offer_both(recorder, 1000, 1099);
@@ -230,13 +234,8 @@ TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
 }
 
 TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
-    std::promise<void> is_disk_back;
-    TakeRecorder::Settings wanted = settings();
-    wanted.disk_mb_s = [disk = is_disk_back.get_future().share()](const auto&) {
-        disk.wait();
-        return 1000.0;
-    };
-    TakeRecorder recorder(wanted);
+    std::promise<void> release;
+    TakeRecorder recorder(with_a_disk_held_by(release));
     recorder.begin(take_);
     offer_both(recorder, 1000, 1001);
     recorder.end();
@@ -244,7 +243,7 @@ TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
         thrown_sentence([&] { recorder.begin(folder_.path() / "next.mkv"); });
     EXPECT_NE(sentence.find(take_.string() + " is still being written"), std::string::npos)
         << sentence;
-    is_disk_back.set_value();
+    release.set_value();
     recorder.finish();
     EXPECT_EQ(frames_of(0), 2u);
     recorder.begin(folder_.path() / "next.mkv");
