@@ -11,13 +11,12 @@
 #include <utility>
 #include <zmq.hpp>
 
-#include <pthread.h>
-
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "common/base/kernel_clock.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
@@ -145,7 +144,7 @@ struct StageReceiver::Impl {
     }
 
     void run() {
-        ::pthread_setname_np(::pthread_self(), "receive");
+        name_this_thread("receive");
         try {
             while (!stopping) turn();
         } catch (const std::exception& error) {
@@ -257,7 +256,7 @@ struct StageReceiver::Impl {
     }
 
     void decode_all(std::size_t number) {
-        ::pthread_setname_np(::pthread_self(), "decode");
+        name_this_thread("decode");
         Rig& rig = *rigs[number];
         FrameDecoder decoder;
         std::chrono::milliseconds patience = first_probe_after;

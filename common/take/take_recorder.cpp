@@ -4,11 +4,10 @@
 #include <future>
 #include <utility>
 
-#include <pthread.h>
-
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "common/base/timecode.h"
 
@@ -209,7 +208,7 @@ TakeRecorder::PreRoll TakeRecorder::pre_roll() const {
 }
 
 void TakeRecorder::run() {
-    ::pthread_setname_np(::pthread_self(), "take");
+    name_this_thread("take");
     std::optional<Take> take;
     for (;;) {
         std::vector<Item> items;

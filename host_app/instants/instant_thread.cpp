@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/driver_turn.h"
@@ -142,6 +143,7 @@ ReceiverStatus InstantThread::close() {
 }
 
 void InstantThread::run() {
+    name_this_thread("instants");
     std::uint64_t lost = 0;  ///< generation of contexts; 0: none
     for (;;) {
         try {

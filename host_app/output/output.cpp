@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 
 namespace vantage {
@@ -126,6 +127,7 @@ bool Output::is_wanted() const {
 }
 
 void Output::run() {
+    name_this_thread("output");
     std::chrono::nanoseconds rest = first_rest;
     for (;;) {
         {

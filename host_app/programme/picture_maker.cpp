@@ -1,6 +1,7 @@
 #include "host_app/programme/picture_maker.h"
 
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/driver_turn.h"
@@ -85,6 +86,7 @@ int PictureMaker::faults() const {
 }
 
 void PictureMaker::run() {
+    name_this_thread(manner_ == Manner::at_once ? "picture" : "picture, slices");
     std::uint64_t lost = 0;  ///< generation of contexts; 0: none
     for (;;) {
         ContextGroup::Member member;

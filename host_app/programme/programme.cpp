@@ -8,6 +8,7 @@
 
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "host_app/programme/tick_clock.h"
 
@@ -70,6 +71,7 @@ Programme::~Programme() {
 void Programme::start(std::function<bool(std::uint64_t, double)> is_over) {
     is_over_ = std::move(is_over);
     thread_ = std::thread([this] {
+        name_this_thread("programme");
         try {
             run();
         } catch (...) {

@@ -1,5 +1,7 @@
 #include "host_app/sets/newest_set.h"
 
+#include "common/base/this_thread.h"
+
 namespace vantage {
 namespace {
 
@@ -64,6 +66,7 @@ NewestSet::Superseded NewestSet::superseded() const {
 }
 
 void NewestSet::run() {
+    name_this_thread("sets");
     try {
         for (;;) {
             std::optional<FrameSet> set = feed_.next(patience);

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 
 namespace vantage {
 namespace {
@@ -74,6 +75,7 @@ bool SoundAhead::fetch_some(std::int64_t wanted) {
 }
 
 void SoundAhead::run() {
+    name_this_thread("sound");
     try {
         for (;;) {
             std::int64_t wanted = 0;

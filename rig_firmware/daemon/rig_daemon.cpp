@@ -9,11 +9,10 @@
 #include <thread>
 #include <utility>
 
-#include <pthread.h>
-
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "common/base/version.h"
 #include "common/config/calibration_file.h"
@@ -119,7 +118,7 @@ struct RigDaemon::Impl {
     /// road and is kept for rethrow_failure().
     template <class Work>
     void guarded(Heartbeat& heart, Work work) {
-        ::pthread_setname_np(::pthread_self(), heart.worker().c_str());
+        name_this_thread(heart.worker().c_str());
         try {
             work();
         } catch (...) {

@@ -6,12 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include <pthread.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 #include "common/config/endpoint.h"
 #include "common/serve/frame_server.h"
 #include "common/wire/random_id.h"
@@ -52,8 +49,8 @@ struct Publisher::Impl {
 
     /// What hosts fetch comes behind all else that this computer does.
     void look_up_kept() {
-        ::pthread_setname_np(::pthread_self(), "fetch");
-        ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), fetch_nice);
+        name_this_thread("fetch");
+        make_this_thread_nice(fetch_nice);
         while (!stopping) {
             std::optional<HostLinks::FetchJob> job;
             server.wait_for(heartbeat_period, [&](HostLinks& links) {
@@ -75,8 +72,8 @@ struct Publisher::Impl {
     }
 
     void make_reports() {
-        ::pthread_setname_np(::pthread_self(), "report");
-        ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), fetch_nice);
+        name_this_thread("report");
+        make_this_thread_nice(fetch_nice);
         while (!stopping) {
             bool is_wanted = false;
             server.wait_for(heartbeat_period, [&](HostLinks& links) {

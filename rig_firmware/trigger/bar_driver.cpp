@@ -7,8 +7,8 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <pthread.h>
 
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/realtime.h"
@@ -16,7 +16,7 @@
 namespace vantage {
 struct BarDriver::Impl {
     void run(std::promise<std::vector<std::string>> realtime, int priority) {
-        ::pthread_setname_np(::pthread_self(), "bar");
+        name_this_thread("bar");
         realtime.set_value(become_realtime(priority, "steps"));
         try {
             count();

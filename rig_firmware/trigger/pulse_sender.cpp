@@ -9,10 +9,9 @@
 #include <thread>
 #include <tuple>
 
-#include <pthread.h>
-
 #include "common/base/error.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/pulse_line.h"
@@ -51,7 +50,7 @@ struct PulseSender::Impl {
     }
 
     void run(std::promise<std::vector<std::string>> realtime) {
-        ::pthread_setname_np(::pthread_self(), "pulses");
+        name_this_thread("pulses");
         realtime.set_value(become_realtime(priority));
         try {
             send_all();

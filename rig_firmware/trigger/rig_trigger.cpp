@@ -6,11 +6,10 @@
 #include <thread>
 #include <utility>
 
-#include <pthread.h>
-
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/this_thread.h"
 #include "common/base/time.h"
 #include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/clock/frame_indexer.h"
@@ -140,7 +139,7 @@ class FollowingTrigger final : public IndexingTrigger {
 
   private:
     void watch(const std::stop_token& stop) {
-        ::pthread_setname_np(::pthread_self(), "edges");
+        name_this_thread("edges");
         constexpr std::chrono::milliseconds slice(100);
         constexpr std::chrono::seconds silence(3);
         MonotonicTime last = MonotonicClock::now();

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/this_thread.h"
 
 namespace vantage {
 namespace {
@@ -148,6 +149,7 @@ std::vector<DeckDevice> JogDeck::devices() const {
 }
 
 void JogDeck::run() {
+    name_this_thread("jog");
     // Its readers push to this deck, so they end before it does.
     std::map<std::string, Seen> seen;
     bool is_told = false;

@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
+#include "common/base/this_thread.h"
 
 namespace vantage {
 namespace {
@@ -33,6 +34,7 @@ void ControlDesk::close() {
 }
 
 void ControlDesk::run(Port& port) {
+    name_this_thread("control");
     LogLimiter refusals(refusals_are_told_every);
     std::uint64_t told = 0;
     try {

@@ -1,0 +1,15 @@
+#include "common/base/this_thread.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace vantage {
+
+void name_this_thread(const char* name) { ::pthread_setname_np(::pthread_self(), name); }
+
+void make_this_thread_nice(int niceness) {
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);
+}
+
+}  // namespace vantage
