@@ -101,6 +101,22 @@ TEST_F(PerformerDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
     EXPECT_GT(cv::mean(found(wrong, {0.4})(strip))[0], 2.9);
 }
 
+/// All of the square is measured at 2.16 m: from aside, by 1 m * 78 px * (1 / 2 m - 1 / 2.16 m) = 3
+/// px, its left edge would show beside its silhouette, and nothing near it tells better.
+TEST_F(PerformerDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
+    DepthView wrong = film(0, true);
+    constexpr float wrong_m = 2.16f;
+    wrong.depth_m.setTo(wrong_m, square());
+    const cv::Rect box = cv::boundingRect(square());
+    const cv::Rect edge(box.x, box.y + 4, 1, box.height - 8), middle(box.x + 8, edge.y, 5, 5);
+    EXPECT_NEAR(cv::mean(found(wrong, {})(edge))[0], wrong_m, 1e-3);
+    const DepthImage carved = found(wrong, {-1.0, -0.9});
+    EXPECT_NEAR(cv::mean(carved(middle))[0], wrong_m, 1e-3);
+    EXPECT_LT(cv::mean(carved(edge))[0], 2.13) << carved(edge);
+    // A single other rig may have no silhouette there for another reason.
+    EXPECT_NEAR(cv::mean(found(wrong, {-1.0})(edge))[0], wrong_m, 1e-3);
+}
+
 /// Of one instant a rig tells no performers apart, which does not mean that there are none.
 TEST_F(PerformerDepthTest, IsWhereverARigIsThatHasJustCome) {
     (void)found(film(0, true), {0.4});

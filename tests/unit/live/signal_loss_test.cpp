@@ -64,6 +64,16 @@ class SignalLoss : public testing::Test {
     std::uint64_t pulse_ = 1;
 };
 
+class NoPictureYet : public SignalLoss {
+    void SetUp() override { feed_.push(feed_.set(1, {"north", "south"})); }
+};
+
+TEST_F(NoPictureYet, IsWhatTheLogSaysWhileTheRendererIsMade) {
+    ASSERT_TRUE(show_->wait_for_rigs(30s, stop_));
+    EXPECT_EQ(ProgressLog(plan_).line(*show_),
+              "no picture yet: the renderer compiles its shaders, 2 of 2 rigs give pictures");
+}
+
 TEST_F(SignalLoss, IsInTheLogInPlaceOfAnOldLatency) {
     ProgressLog log(plan_);
     ASSERT_TRUE(comes_true([&] { return show_->state().latency_ms > 0; }));
