@@ -182,7 +182,7 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
         return log.rfind("rig north is connected") > log.rfind("rig north is gone");
     };
     for (int i = 0; i < 20000 && !back(); ++i) usleep(10'000);
-    ASSERT_TRUE(back()) << host.err();
+    ASSERT_TRUE(back()) << host.err() << "\nthe rig: " << north->err();
     sleep(2);
     host.send_signal(SIGINT);
     const ProgramResult result = host.wait();
