@@ -10,8 +10,4 @@ void name_this_thread(const char* name);
 /// niceness where there is too little of it, from 0, as others, to 19. Cannot be taken back.
 void make_this_thread_nice(int niceness);
 
-/// Niceness of what may fall behind without a tick or a hand noticing it: what encodes, records,
-/// reads ahead.
-inline constexpr int background_niceness = 5;
-
 }  // namespace vantage

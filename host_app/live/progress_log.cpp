@@ -26,11 +26,13 @@ std::string ProgressLog::line(const LiveShow& show) {
     const ReceiverStatus status = show.status();
     for (const RigStatus& rig : status.rigs) giving += gives_pictures(rig, status.rigs);
     const ProgrammeBooks books = show.books();
-    if (books.pictures == 0)
+    const InstantThread::Books instants = show.instant_books();
+    if (books.pictures == 0) {
+        instants_ = instants.prepared;
         return fmt::format(
             "no picture yet: the renderer compiles its shaders, {} of {} rigs give pictures",
             giving, status.rigs.size());
-    const InstantThread::Books instants = show.instant_books();
+    }
     const ProgrammeState state = show.state();
     // What is of no now has no signal, and was exposed long ago.
     const SignalState signal = show.signal();
