@@ -18,9 +18,10 @@ struct AvDictionary {
     AVDictionary* entries = nullptr;
 };
 
-[[noreturn]] void fail_for(const char* what, int code) {
+[[noreturn]] void fail_for(const char* what, int code, const std::string& hint = {}) {
     const std::string remark = take_av_remark();
-    fail("{}: {}", what, remark.empty() ? av_reason(code) : remark);
+    fail("{}: {}{}{}", what, remark.empty() ? av_reason(code) : remark, hint.empty() ? "" : "; ",
+         hint);
 }
 
 int is_over(void* patience) { return static_cast<const OutputPatience*>(patience)->is_over(); }
@@ -50,7 +51,7 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
     if (const int code = avio_open2(&output_->pb, settings.url.c_str(), AVIO_FLAG_WRITE,
                                     &output_->interrupt_callback, &options.entries);
         code < 0)
-        fail_for("it cannot be opened", code);
+        fail_for("it cannot be opened", code, settings.silence);
     encoder_.emplace(settings.encoder, settings.encoding);
     stream_ = &add_stream(encoder_->context());
     stream_->avg_frame_rate = encoder_->context().framerate;

@@ -18,6 +18,8 @@ class StreamTarget final : public OutputTarget {
     struct Settings {
         std::string url;                                           ///< FFmpeg's, without secrets
         std::vector<std::pair<std::string, std::string>> options;  ///< FFmpeg's of its protocol
+        /// What a peer that does not answer may mean; empty: there is no more to say.
+        std::string silence = {};
         std::string encoder;
         EncoderSettings encoding;
         bool has_sound = false;

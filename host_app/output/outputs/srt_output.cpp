@@ -20,6 +20,10 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                                     .encoder = format.encoder,
                                     .encoding = stream_encoding(url, format),
                                     .has_sound = format.has_sound};
+    // libsrt tells FFmpeg no more of a refusal than of nobody.
+    if (!is_listening)
+        settings.silence =
+            "nobody listens there, or the listener has another passphrase or streamid";
     if (!passphrase.empty()) settings.options.emplace_back("passphrase", passphrase);
     if (const auto id = url.option("streamid")) settings.options.emplace_back("streamid", *id);
     return {.name = url.shown,

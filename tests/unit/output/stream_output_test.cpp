@@ -130,6 +130,21 @@ TEST_F(StreamOutputTest, SrtCallsUntilSomebodyListens) {
     end();
 }
 
+TEST_F(StreamOutputTest, SrtSaysWhatMayBeWrongWhereAListenerRefusesIt) {
+    ChildProgram listener(
+        ffmpeg.string(),
+        {"-v", "error", "-i", address("srt", "?mode=listener&passphrase=open-sesame-1"), "-f",
+         "null", "-"},
+        folder_.path());
+    begin(address("srt", "?passphrase=another-phrase"));
+    ASSERT_TRUE(wait_for([&] { return output_->state().phase == OutputPhase::failed; }));
+    EXPECT_NE(output_->state().failure.find("another passphrase"), std::string::npos)
+        << output_->state().failure;
+    end();
+    EXPECT_EQ(output_->state().pictures, 0u);
+    listener.send_signal(SIGKILL);
+}
+
 TEST_F(StreamOutputTest, SrtGoesThroughTheReferenceProgram) {
     if (!std::filesystem::exists(transmit)) GTEST_SKIP() << "SKIPPED: srt-tools is not installed";
     begin(address("srt", "?mode=listener&latency=2000"));
