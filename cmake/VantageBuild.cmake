@@ -174,20 +174,22 @@ ${calls}    return entries;
   target_sources(${ARG_TARGET} PRIVATE ${generated})
 endfunction()
 
-# All unit tests; what tools/sanitize.sh builds, those of code that shares data between threads; and what tools/arm64.sh
-# does.
+# All unit tests; what tools/sanitize.sh builds, those of code that reads bytes from outside and those of code that shares
+# data between threads; and what tools/arm64.sh does.
 add_custom_target(vantage_unit_tests)
+add_custom_target(vantage_bytes_tests)
 add_custom_target(vantage_thread_tests)
 add_custom_target(vantage_arm64_tests)
 add_custom_target(vantage_gl_tests)
 file(WRITE ${CMAKE_BINARY_DIR}/gl_tests "")
 
 # vantage_unit_test(wire_test LABELS threads DEPENDS vantage_wire)
-# Every test carries the label `unit`; `threads` marks those that the sanitizers run too, `arm64` those that an emulated
-# arm64 does, of what a rig's package has in it, `e2e` those that run one at a time, `faults` those that ./test leaves to
-# ./test --all, `gl` those that draw: tests/bench/gpu_day.sh runs them on a GPU, by the names in build/PRESET/gl_tests. A
-# program is one process and one test of CTest, since the start of a process, its GPU driver and its shaders take longer
-# than most tests; one of SHARDS n is n of them. Tests that start programs themselves (e2e, faults) are a process each.
+# Every test carries the label `unit`; `bytes` marks those that AddressSanitizer runs too, `threads` those that
+# ThreadSanitizer does, `arm64` those that an emulated arm64 does, of what a rig's package has in it, `e2e` those that run
+# one at a time, `faults` those that ./test leaves to ./test --all, `gl` those that draw: tests/bench/gpu_day.sh runs them
+# on a GPU, by the names in build/PRESET/gl_tests. A program is one process and one test of CTest, since the start of a
+# process, its GPU driver and its shaders take longer than most tests; one of SHARDS n is n of them. Tests that start
+# programs themselves (e2e, faults) are a process each.
 # Files after APART are compiled alone.
 function(vantage_unit_test name)
   cmake_parse_arguments(ARG "" "SHARDS" "LABELS;DEPENDS;APART" ${ARGN})
@@ -201,6 +203,9 @@ function(vantage_unit_test name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE
     "#pragma GCC diagnostic ignored \"-Wshadow\"")
   add_dependencies(vantage_unit_tests ${name})
+  if("bytes" IN_LIST ARG_LABELS)
+    add_dependencies(vantage_bytes_tests ${name})
+  endif()
   if("threads" IN_LIST ARG_LABELS)
     add_dependencies(vantage_thread_tests ${name})
   endif()

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # The signed repository, as apt of a bare Debian sees it: installed from, upgraded, gone back, purged, and refused where
 # somebody changed it.
-#   repository.sh WORK BUILD_FOLDER
+#   repository.sh WORK PACKAGES     after make.sh
 # Exits 77 with one line "SKIPPED: reason" where this computer lacks what it takes; with VANTAGE_HIL_REQUIRED in the
 # environment that is a failure.
 set -euo pipefail
 tools=$(cd "$(dirname "$0")/../../tools" && pwd)
-work=$1 build=$2
+work=$1 made=$(realpath "$2")
 skip() {
   [ -z "${VANTAGE_HIL_REQUIRED:-}" ] || { echo "repository: $1" >&2; exit 1; }
   echo "SKIPPED: $1"
   exit 77
 }
-for tool in aptly gpg mmdebstrap dpkg-shlibdeps; do
+for tool in aptly gpg mmdebstrap; do
   command -v $tool >/dev/null || skip "$tool is missing (./test installs it)"
 done
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
@@ -55,13 +55,7 @@ refuses() { # words command...
   ! "$@" 2>"$work/refusal" && grep -q "$words" "$work/refusal"
 }
 
-(
-  cd "$build"
-  cpack -B "$work/first" >"$work/cpack.log" 2>&1
-  version=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
-  cpack -B "$work/next" -D "CPACK_PACKAGE_VERSION=$version+1" >>"$work/cpack.log" 2>&1
-) || { tail -20 "$work/cpack.log" >&2; exit 1; }
-first=$(dpkg-deb -f "$work"/first/vantage-rig_*.deb Version)
+first=$(dpkg-deb -f "$made"/first/vantage-rig_*.deb Version)
 mkdir -m 700 "$GNUPGHOME"
 gpg --batch --quiet --passphrase '' --quick-generate-key 'Vantage <vantage@localhost>' ed25519 sign never
 
@@ -79,13 +73,13 @@ inside() { "${as_root[@]}" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRON
 apt_get() { inside apt-get -q -y --no-install-recommends "$@"; }
 
 repository() { "$tools/apt_repository.sh" "$work/repository" --key 'Vantage <vantage@localhost>' "$@"; }
-check "the repository is made by one command" repository "$work"/first/*.deb
-check "again with the same packages it stays as it is" repository "$work"/first/*.deb
+check "the repository is made by one command" repository "$made"/first/*.deb
+check "again with the same packages it stays as it is" repository "$made"/first/*.deb
 mkdir -p "$work/other/DEBIAN"
 printf 'Package: other\nVersion: 1.0\nArchitecture: all\nMaintainer: x <x@localhost>\nDescription: x\n' >"$work/other/DEBIAN/control"
 dpkg-deb --build "$work/other" "$work/other.deb" >/dev/null
 check "a package of no known release is refused" refuses "names no release of Debian" repository "$work/other.deb"
-check "and a key that nobody has" refuses "has no secret key" "$tools/apt_repository.sh" "$work/repository" --key nobody "$work"/first/*.deb
+check "and a key that nobody has" refuses "has no secret key" "$tools/apt_repository.sh" "$work/repository" --key nobody "$made"/first/*.deb
 "${as_root[@]}" mount --bind "$work/repository/public" "$root/repository"
 "${as_root[@]}" cp "$work/repository/public/vantage.gpg" "$root/etc/apt/keyrings/"
 printf 'Types: deb\nURIs: file:///repository\nSuites: %s\nComponents: main\nSigned-By: /etc/apt/keyrings/vantage.gpg\n' "$codename" |
@@ -121,7 +115,7 @@ version_is() { # all three packages'
     test "$(inside dpkg-query -W -f '${Version}' $package)" = "$1" || return 1
   done
 }
-check "newer packages are added" repository "$work"/next/*.deb
+check "newer packages are added" repository "$made"/next/*.deb
 check "apt sees them" apt_get update
 check "and upgrades to them" apt_get upgrade
 check "all in their version" version_is "$first+1"
