@@ -47,7 +47,7 @@ class JogWheel : public testing::Test {
     /// Waits until `ready` holds; false after minutes, which emulation may take.
     template <class Condition>
     static bool comes(const Condition& ready) {
-        for (int i = 0; i < 4800; ++i) {
+        for (int i = 0; i < 12000; ++i) {
             if (ready()) return true;
             std::this_thread::sleep_for(50ms);
         }
