@@ -1,28 +1,40 @@
 #include "tests/support/free_ports.h"
 
+#include <vector>
+
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/unique_fd.h"
 
 namespace vantage {
+namespace {
+
+/// A socket that holds a port of loopback without listening there.
+UniqueFd holding(int& port) {
+    UniqueFd held(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* plain = reinterpret_cast<sockaddr*>(&address);
+    const int shared = 1;
+    // Only after the port is chosen: chosen it is of those that no other test holds.
+    if (!held || bind(held.get(), plain, size) != 0 || getsockname(held.get(), plain, &size) != 0 ||
+        setsockopt(held.get(), SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared) != 0)
+        fail("no free port on loopback");
+    port = ntohs(address.sin_port);
+    return held;
+}
+
+}  // namespace
 
 std::pair<int, int> two_free_ports() {
-    const auto bind_any = [](int socket) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof address;
-        if (bind(socket, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
-            getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0)
-            fail("no free port on loopback");
-        return static_cast<int>(ntohs(address.sin_port));
-    };
-    const int first = socket(AF_INET, SOCK_STREAM, 0), second = socket(AF_INET, SOCK_STREAM, 0);
-    const std::pair ports(bind_any(first), bind_any(second));
-    close(first);
-    close(second);
+    static std::vector<UniqueFd> held;
+    std::pair<int, int> ports;
+    held.push_back(holding(ports.first));
+    held.push_back(holding(ports.second));
     return ports;
 }
 
