@@ -1,5 +1,6 @@
 // What a show does one of whose rigs comes through a relay, when that dies.
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/shows/two_rig_show.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -31,6 +33,7 @@ class RelayFaults : public TwoRigShow {
                                      "--json"},
             folder_.path());
         wait_for(*relay_, "rig far is connected");
+        ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file("rigs.toml")); }));
     }
     /// The stage that has the relay in the far rig's place.
     void write_relayed_stage() const {
@@ -47,6 +50,8 @@ TEST_F(RelayFaults, ARelayThatDiesCostsTheTicksAndTheOtherRigNothing) {
     write_relayed_stage();
     start_host({"--seconds", "600"}, "relayed.toml");
     wait_for(*host_, " pictures, ");
+    // With pictures of one rig it begins.
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err() << relay_->err();
     wait_for_progress();
 
     relay_->send_signal(SIGKILL);

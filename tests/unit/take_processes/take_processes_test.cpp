@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -160,10 +161,23 @@ TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {
     EXPECT_EQ(joined["twice"], one.frames(0).size() + one.frames(1).size() + two.frames(0).size() +
                                    two.frames(1).size())
         << "what the hosts have the rigs have too";
-    EXPECT_TRUE(check_take(all).is_whole()) << "between the hosts' takes was nobody but the rigs";
+    EXPECT_TRUE(check_take(all).damage.empty());
+    // Between the hosts' takes was nobody but the rigs, which on a busy computer miss a pulse.
+    const auto pulses_of = [](const std::vector<TakeReader::Frame>& frames) {
+        std::vector<std::uint64_t> pulses;
+        for (const TakeReader::Frame& frame : frames) pulses.push_back(frame.pulse);
+        return pulses;
+    };
+    const auto rig_of = [](const TakeReader& kept) -> std::size_t {
+        return kept.facts().rigs[0].name == "left" ? 0 : 1;
+    };
+    for (const std::size_t i : {4, 5}) {
+        const TakeReader kept(join[i]);
+        EXPECT_EQ(pulses_of(all.frames(rig_of(kept))), pulses_of(kept.frames(0)));
+    }
     // And the same bytes.
     const TakeReader kept(join[4]);
-    const std::size_t rig = kept.facts().rigs[0].name == "left" ? 0 : 1;
+    const std::size_t rig = rig_of(kept);
     std::size_t compared = 0;
     for (const TakeReader::Frame& frame : kept.frames(0))
         for (const TakeReader::Frame& hosts : two.frames(rig))
