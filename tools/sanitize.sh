@@ -2,7 +2,8 @@
 # Builds with sanitizers and runs the tests.
 #   tools/sanitize.sh asan|tsan
 #   tools/sanitize.sh asan|tsan build     builds them, and runs nothing
-# asan runs the tests of everything that reads bytes from outside, tsan those of everything that shares data between threads.
+# asan runs the tests of everything that reads bytes from outside, tsan those of everything that shares data between
+# threads.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:?which preset: asan or tsan}
