@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -82,12 +83,13 @@ void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
 }
 
 /// What a rig of this size takes for a pair, tried on one.
-double match_ms_of(const DemoSize& size, const std::filesystem::path& folder,
-                   const AskProgram& ask) {
-    log_info("trying how fast this GPU matches pictures of {}x{}", size.rig[0], size.rig[1]);
+double match_ms_of(DemoSize size, const std::filesystem::path& folder, const AskProgram& ask) {
+    log_info("trying how fast this computer matches pictures of {}x{}", size.rig[0], size.rig[1]);
+    // A second of them; a processor draws them too, but no loop first.
+    const int frames = std::exchange(size.is_software, false) ? 8 : 15;
+    size.rate_hz = 25;
     DemoStage alone(folder, {});
     add_virtual_rigs(1, size, alone);
-    constexpr int frames = 15;
     const nlohmann::json run = ask("vantage-rig", {"run", "--config", alone.rig_file("rig1"),
                                                    "--frames", std::to_string(frames), "--json"});
     std::filesystem::remove_all(folder);
@@ -169,13 +171,17 @@ void demo(DemoOptions options) {
     const AskProgram ask = [&](const std::string& name, const std::vector<std::string>& arguments) {
         return ask_program(stage.folder(), name, arguments);
     };
+    const auto match_ms = [&](const DemoSize& tried) {
+        return match_ms_of(tried, stage.folder() / "trial", ask);
+    };
     DemoSize size;
-    if (ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true))
+    if (ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true)) {
         size = software_demo_size();
-    else if (options.films_the_stage())
-        size = gpu_demo_size(4, [&](const DemoSize& tried) {
-            return match_ms_of(tried, stage.folder() / "trial", ask);
-        });
+        if (options.films_the_stage() && !options.sweep)
+            size.rate_hz = software_rate_hz(4, match_ms(size));
+    } else if (options.films_the_stage()) {
+        size = gpu_demo_size(4, match_ms);
+    }
     std::string move_name = "demo.toml", move = demo_move(move_name);
     if (options.sweep) {
         // Thirteen rigs share what four do.

@@ -1,6 +1,8 @@
 #include "host_app/commands/demo_stage.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
@@ -45,6 +47,16 @@ DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& m
     for (const DemoSize& size : {full, middle})
         if (rigs * size.rate_hz * match_ms(size) <= matching_ms_a_second) return size;
     return small;
+}
+
+double software_rate_hz(int rigs, double match_ms) {
+    // Measured on two cores: at this the host has left out none.
+    constexpr double rigs_ms_a_second = 220;
+    // The stage's loop is a whole number of such periods.
+    constexpr double step_hz = 0.5, fewest_hz = 2;
+    const double held_hz = rigs_ms_a_second / (rigs * match_ms);
+    return std::clamp(std::floor(held_hz / step_hz) * step_hz, fewest_hz,
+                      software_demo_size().rate_hz);
 }
 
 DemoSize software_demo_size() {

@@ -25,8 +25,13 @@ struct DemoSize {
 /// Of every second that a GPU has, what the rigs' matching may take: the rest is the host's.
 inline constexpr double matching_ms_a_second = 500;
 
-/// For a processor that draws everything.
+/// For a processor that draws everything, at the most pulses a second that the demo asks of one.
 DemoSize software_demo_size();
+
+/// The pulses a second at which that processor has time for the host beside so many rigs. Beyond
+/// them the host leaves instants out, and those that it shows are later. `match_ms`: what a pair
+/// takes.
+double software_rate_hz(int rigs, double match_ms);
 
 /// The largest size for a GPU of which so many rigs' matching leaves half of its time to the host;
 /// the smallest where none does. `match_ms`: what a rig of that size takes for a pair.

@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time.h"
+#include "common/base/time_share.h"
 #include "common/gl/context_loss.h"
 #include "common/gl/driver_turn.h"
 #include "common/gl/fence.h"
@@ -33,7 +34,7 @@ constexpr std::chrono::milliseconds betterings{100};
 /// A set is bettered when no instant waits; but a computer that is never done with them does it
 /// too, for this share of the time. What was left of it counts for so long.
 constexpr double least_improving = 0.1;
-constexpr double longest_left_ms = 200;
+constexpr std::chrono::milliseconds longest_carried{200};
 /// Instants further apart have nothing to say to each other.
 constexpr double longest_gap_s = 1;
 
@@ -369,20 +370,12 @@ void InstantThread::prepare_instants() {
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
     std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
-    MonotonicTime bettered{}, earned = MonotonicClock::now();
-    double improving_ms = 0;  ///< that are left for it
+    MonotonicTime bettered{};
+    TimeShare improving(least_improving, longest_carried, MonotonicClock::now());
     const auto improve = [&](const InstantWish& wish) {
         const MonotonicTime start = MonotonicClock::now();
         (void)unless_time_jumps(wish, [&] { preparer->improve_a_step(wish.target); });
-        improving_ms -= ms_since(start);
-    };
-    const auto has_time_to_improve = [&] {
-        const double passed_ms = ms_since(earned);
-        earned = MonotonicClock::now();
-        improving_ms =
-            std::min(std::max(improving_ms, -longest_left_ms) + least_improving * passed_ms,
-                     longest_left_ms);
-        return improving_ms > 0;
+        improving.spend(MonotonicClock::now() - start);
     };
     for (;;) {
         InstantWish wish;
@@ -469,7 +462,7 @@ void InstantThread::prepare_instants() {
             prepared = wish;
             unprepared_.reset();
             note_prepared(is_counted, preparer->set_memory());
-            if (is_live && has_time_to_improve()) improve(wish);
+            if (is_live && improving.has_some(MonotonicClock::now())) improve(wish);
         } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
                    start - bettered > betterings) {
             if (unless_time_jumps(wish, [&] { publish(last_, wish, preparer, start); }))

@@ -25,6 +25,9 @@ constexpr std::chrono::milliseconds rest{250};
 /// longest of them.
 constexpr std::size_t fewest_judged = 20, judged_pictures = 200;
 constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
+/// Of the time for pictures, at most, while instants have to be prepared beside them.
+constexpr double most_for_pictures = 0.75;
+constexpr std::chrono::milliseconds longest_carried{200};
 
 double ms_between(MonotonicTime start, MonotonicTime end) { return to_ms(end - start); }
 
@@ -50,7 +53,8 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       replay_(settings_.replay),
       preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.right_of_way()),
-      source_map_(settings_.source_map) {
+      source_map_(settings_.source_map),
+      picture_time_(most_for_pictures, longest_carried, MonotonicClock::now()) {
     // The first instant is prepared for where the camera begins.
     view_ = pilot_.step(0, transport().pulse()).view;
     camera_ = view_.camera();
@@ -140,7 +144,8 @@ void Programme::run() {
         bool is_begun = false;
         for (;;) {
             const MonotonicTime now = MonotonicClock::now();
-            if (!is_begun && renderer_->maker->is_idle() && (take_up_sought() || was_due)) {
+            if (!is_begun && renderer_->maker->is_idle() &&
+                (take_up_sought() || (was_due && has_picture_time(now)))) {
                 begin_picture();
                 is_begun = true;
             }
@@ -231,6 +236,11 @@ bool Programme::is_picture_due() const {
         if (is_same_picture(better, shown_->job)) return false;
     }
     return !shown_ || !is_same_picture(job, shown_->job);
+}
+
+bool Programme::has_picture_time(MonotonicTime now) {
+    const bool has_some = picture_time_.has_some(now);
+    return has_some || !transport().is_moving();
 }
 
 std::optional<std::uint64_t> Programme::past_pulse() const {
@@ -334,6 +344,7 @@ void Programme::follow_synthesiser() {
 }
 
 void Programme::note(const MadePicture& made, MonotonicTime now) {
+    picture_time_.spend(from_s(made.make_ms / 1000));
     make_ms_.push_back(made.make_ms);
     if (make_ms_.size() > judged_pictures) make_ms_.pop_front();
     governor_.saw_render(made.job.level, made.render_ms + made.readback_ms, now);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/base/percentiles.h"
+#include "common/base/time_share.h"
 #include "host_app/flight/camera_forecast.h"
 #include "host_app/flight/pilot.h"
 #include "host_app/instants/instant_thread.h"
@@ -122,6 +123,9 @@ class Programme {
     bool look(double time_s, MonotonicTime now);
     /// Whether a picture of now would differ from the one that is shown.
     bool is_picture_due() const;
+    /// False where pictures that take longer than their ticks have had their share of the time: the
+    /// rest is for the instants beside them.
+    bool has_picture_time(MonotonicTime now);
     /// While a jump is waited for: what has become ready since the look is shown at the next tick,
     /// not a tick later. True if something has.
     bool take_up_sought();
@@ -179,6 +183,7 @@ class Programme {
     bool source_map_ = false;
     int moments_a_pulse_ = 1;     ///< as InstantWish
     std::deque<double> make_ms_;  ///< of the last pictures
+    TimeShare picture_time_;      ///< beside instants
 
     mutable std::mutex mutex_;
     ProgrammeState state_;

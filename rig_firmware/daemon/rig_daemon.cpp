@@ -228,7 +228,14 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
 }
 
 void RigDaemon::Impl::capture_one(StereoSource& source) {
-    if (source.works_on_demand() && !captured.wait_for_room(wait_slice)) return;
+    if (source.works_on_demand()) {
+        // Like sensors, it is exposed by pulses only.
+        if (trigger && trigger->pulses() == 0) {
+            std::this_thread::sleep_for(wait_slice);
+            return;
+        }
+        if (!captured.wait_for_room(wait_slice)) return;
+    }
     std::optional<StereoFrame> frame = source.next(wait_slice);
     // Counted before it is handed on: what is published has been captured at any moment.
     count([&](RigCounters& c) {

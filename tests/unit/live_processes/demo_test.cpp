@@ -61,6 +61,13 @@ TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
     EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
 }
 
+TEST(DemoSize, OfAProcessorThatDrawsEverythingHasFewerPulsesWhereItIsSlow) {
+    EXPECT_EQ(software_rate_hz(4, 5), software_demo_size().rate_hz);
+    EXPECT_EQ(software_rate_hz(4, 15), 3.5) << "3.7 of them take 220 ms";
+    EXPECT_EQ(software_rate_hz(4, 20), 2.5);
+    EXPECT_EQ(software_rate_hz(4, 500), 2) << "the fewest";
+}
+
 TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
     // Of a demo before.
     std::filesystem::create_directory(file("out"));

@@ -114,10 +114,13 @@ TEST_F(RigTroubles, AreNotThatRigsAreArmedAndWaitForAHost) {
     const std::string armed = "[trigger]\nrole = \"lead\"\npretended = true\n";
     const auto north = start_rig("north", ports_.first, 5, armed);
     const auto south = start_rig("south", ports_.second, 5, armed);
+    wait_for(*north, "publishing on");
+    wait_for(*south, "publishing on");
     const ProgramResult result = status(60, true);
     EXPECT_EQ(result.status, 0) << result.err;
     const nlohmann::json told = nlohmann::json::parse(result.out);
     EXPECT_EQ(told["signal"], "no_signal");
+    ASSERT_TRUE(told["rigs"][1].contains("silence")) << told;
     EXPECT_THAT(told["rigs"][1]["silence"].get<std::string>(), HasSubstr("vantage live"));
 }
 

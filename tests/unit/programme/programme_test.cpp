@@ -174,7 +174,10 @@ class SlowPreparer final : public InstantPreparer {
     /// As one that waits for its GPU.
     void sleep() const {
         const DriverTurn::Pause pause;
-        std::this_thread::sleep_for(std::chrono::milliseconds(*sleep_ms_));
+        constexpr int step_ms = 5;
+        // So that the test may end it.
+        for (int slept_ms = 0; slept_ms < *sleep_ms_; slept_ms += step_ms)
+            std::this_thread::sleep_for(std::chrono::milliseconds(step_ms));
     }
 
     std::unique_ptr<InstantPreparer> preparer_;
@@ -306,21 +309,40 @@ TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    *sleep_ms_ = 2000;
+    *sleep_ms_ = 3'600'000;
     const std::size_t ticks_before = seen_->count();
     const int steps_before = pilot_.steps();
     const std::uint64_t pictures_before = programme_->books().pictures;
-    // Whoever waited for an instant would get through three of 75 ticks.
-    for (std::uint64_t pulse = 2; pulse < 77; ++pulse) {
-        push(pulse);
-        std::this_thread::sleep_for(40ms);
-    }
-    EXPECT_GE(seen_->count() - ticks_before, 50u);
-    EXPECT_GE(pilot_.steps() - steps_before, 30);
-    EXPECT_GE(programme_->books().pictures - pictures_before, 20u);
-    EXPECT_LE(instants_->books().prepared, 4u) << "it did sleep";
+    const std::uint64_t prepared_before = instants_->books().prepared;
+    std::uint64_t pulse = 1;
+    EXPECT_TRUE(eventually([&] {
+        push(++pulse);
+        return seen_->count() >= ticks_before + 50 && pilot_.steps() >= steps_before + 30 &&
+               programme_->books().pictures >= pictures_before + 20;
+    }));
+    EXPECT_LE(instants_->books().prepared, prepared_before + 1) << "it does sleep";
+    *sleep_ms_ = 0;
     programme_->stop();
     expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThanTicks) {
+    settings_.format = {.width_px = 640, .height_px = 480};
+    settings_.rate_hz = 200;
+    settings_.quality.level = 0;
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.002);
+    const std::uint64_t before = programme_->books().pictures;
+    const auto begin = MonotonicClock::now();
+    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= before + 60; }));
+    const double passed_ms = ms_since(begin);
+    const ProgrammeBooks books = programme_->books();
+    EXPECT_GT(books.render_ms.p50, 1000 / settings_.rate_hz) << "longer than a tick";
+    const double rendered_ms = static_cast<double>(books.pictures - before) * books.render_ms.p50;
+    EXPECT_LT(rendered_ms, 0.75 * passed_ms + 200) << "of " << passed_ms << " ms";
 }
 
 TEST_F(ProgrammeTest, MakesNoPictureOfAPreviewThatNobodyAskedFor) {

@@ -14,6 +14,7 @@
 #include "common/image/image_file.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -214,12 +215,20 @@ TEST_F(RunCommandTest, SaysWhatWasTriedWhereThereIsNoOpenGl) {
 TEST_F(RunCommandTest, SendsPulsesAtOnceOrWaitsForTheHostsWord) {
     const std::string lead =
         small_stage + "[trigger]\nrole = \"lead\"\npretended = true\nlate_limit_us = 1000000\n";
-    const ProgramResult waiting = run(lead, {"--frames", "3", "--json"});
+    ChildProgram rig(VANTAGE_RIG, {"run", "--config", write_config(lead), "--json"},
+                     folder_.path());
+    ASSERT_TRUE(eventually([&] { return rig.err().find("publishing on") != std::string::npos; }));
+    // At 10 Hz: time for as many pictures as a rig without a trigger would have filmed.
+    std::this_thread::sleep_for(1s);
+    rig.send_signal(SIGTERM);
+    const ProgramResult waiting = rig.wait();
     ASSERT_EQ(waiting.status, 0) << waiting.err;
-    const auto armed = nlohmann::json::parse(waiting.out)["sync"];
+    const auto summary = nlohmann::json::parse(waiting.out);
+    const auto& armed = summary["sync"];
     EXPECT_TRUE(armed["ready"]) << armed;
     EXPECT_EQ(armed["first_pulse"], 0) << armed;
     EXPECT_EQ(armed["pulses"], 0) << armed;
+    EXPECT_EQ(summary["captured"], 0) << "no pulse, no picture";
     EXPECT_NE(waiting.err.find("armed: pulses begin when the host announces"), std::string::npos)
         << waiting.err;
     const ProgramResult sending = run(lead + "start = \"at_once\"\n", {"--frames", "9", "--json"});
