@@ -20,7 +20,7 @@ class TimeShare {
         const auto more = std::chrono::duration_cast<std::chrono::nanoseconds>(
             share_ * std::chrono::duration<double, std::nano>(now - earned_));
         earned_ = now;
-        left_ = std::min(std::max(left_, -longest_carried_) + more, longest_carried_);
+        left_ = std::clamp(left_ + more, -longest_carried_, longest_carried_);
         return left_.count() > 0;
     }
     /// The work took so long.

@@ -327,7 +327,7 @@ TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
 }
 
 TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThanTicks) {
-    settings_.format = {.width_px = 640, .height_px = 480};
+    settings_.format = {.width_px = 480, .height_px = 270};
     settings_.rate_hz = 200;
     settings_.quality.level = 0;
     make();
