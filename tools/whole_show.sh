@@ -36,7 +36,7 @@ start_rigs "$out" "$out"
 osc=49100 panel=49101 mixer=49102 tracker=49103 metrics=49104 srt=49105 udp=49106 camera=49107
 mkfifo "$out/pipe"
 ffmpeg -v error -i "$out/pipe" -f null - 2>"$out/pipe.log" &
-build/release/bin/vantage live --stage "$out/demo/stage.toml" --past-mb 64 --rate 25 --seconds "$seconds" \
+build/release/bin/vantage live --stage "$out/demo/stage.toml" --past-mb 24 --rate 25 --seconds "$seconds" \
   --path hw_config/moves/demo.toml --audio "file:$out/music.wav?loop=yes" --takes "$out" --json --overwrite \
   --output "$out/film.mkv?segment=60s" --output "srt://127.0.0.1:$srt?mode=listener" --output "udp://127.0.0.1:$udp" \
   --output 'pipe:5?format=y4m' --output "ltc:$out/code.wav" --output "freed://127.0.0.1:$camera" \
