@@ -50,7 +50,7 @@ DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& m
 }
 
 double software_rate_hz(int rigs, double match_ms) {
-    // Measured on two cores: at this the host has left out none.
+    // Measured on two slow cores: at this the host leaves hardly any instant out.
     constexpr double rigs_ms_a_second = 220;
     // The stage's loop is a whole number of such periods.
     constexpr double step_hz = 0.5, fewest_hz = 2;
