@@ -9,7 +9,8 @@ namespace vantage {
 /// its process, without a lock against the threads that draw there, and dies of it now and then (to
 /// be read in Mesa 22.3, llvmpipe_flush_resource; 25.0 has a lock). Threads take turns at giving it
 /// work; while one waits (Fence, SlicedDrawing) it is another's turn. Contexts of one display take
-/// turns, also those that share nothing.
+/// turns, also those that share nothing. For the same driver's sake a mutex of this program is
+/// destroyed only once nobody holds it (pthread_mutex_destroy, in the source).
 class DriverTurn {
   public:
     /// Waits until nobody else has the turn. `driver` must outlive it; null: the driver keeps its

@@ -19,6 +19,32 @@
 namespace vantage {
 namespace {
 
+TEST(DestroyedMutex, IsWaitedForWhileAnotherThreadHoldsIt) {
+    pthread_mutex_t mutex;
+    ASSERT_EQ(pthread_mutex_init(&mutex, nullptr), 0);
+    std::atomic<bool> is_held = false, is_let_go = false;
+    std::thread other([&] {
+        pthread_mutex_lock(&mutex);
+        is_held = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        is_let_go = true;
+        pthread_mutex_unlock(&mutex);
+    });
+    while (!is_held) std::this_thread::yield();
+    EXPECT_EQ(pthread_mutex_destroy(&mutex), 0);
+    EXPECT_TRUE(is_let_go);
+    other.join();
+}
+
+TEST(DestroyedMutex, HoldsNobodyUpWhoHoldsItOneself) {
+    pthread_mutex_t mutex;
+    ASSERT_EQ(pthread_mutex_init(&mutex, nullptr), 0);
+    pthread_mutex_lock(&mutex);
+    EXPECT_EQ(pthread_mutex_destroy(&mutex), EBUSY) << "as the C library says";
+    pthread_mutex_unlock(&mutex);
+    EXPECT_EQ(pthread_mutex_destroy(&mutex), 0);
+}
+
 TEST(DriverTurn, IsOneThreadsAtATime) {
     std::mutex driver;
     std::atomic<bool> is_over = false;
