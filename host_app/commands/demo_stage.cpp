@@ -63,7 +63,7 @@ DemoSize software_demo_size() {
     DemoSize size;
     size.rate_hz = 4.5;
     size.latency_budget_ms = 600;
-    size.rate = "15";
+    size.rate = "25";
     size.preset = "fast";
     size.picture = {480, 270};
     size.rig = {320, 240};

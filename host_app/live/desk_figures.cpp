@@ -8,8 +8,9 @@ std::vector<DeskFigure> desk_figures(const LiveReport& report) {
     const ProgrammeBooks& programme = report.programme;
     if (programme.ticks == 0) return {};
     std::vector<DeskFigure> figures{
-        {"ticks, repeated, missed",
-         fmt::format("{}, {}, {}", programme.ticks, programme.repeated, programme.missed)}};
+        {"ticks, reprojected, repeated, missed",
+         fmt::format("{}, {}, {}, {}", programme.ticks, programme.reprojected, programme.repeated,
+                     programme.missed)}};
     // How long nearly all took and how long the worst.
     const auto add_ms = [&](const char* name, const Percentiles& ms) {
         if (ms.count > 0)

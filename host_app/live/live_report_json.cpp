@@ -123,13 +123,19 @@ nlohmann::ordered_json output_json(const OutputState& output) {
 
 nlohmann::ordered_json to_json(const LiveReport& report) {
     const ProgrammeBooks& programme = report.programme;
-    nlohmann::ordered_json json{
-        {"pictures", programme.ticks},        {"new_pictures", programme.pictures},
-        {"width_px", report.format.width_px}, {"height_px", report.format.height_px},
-        {"rate_hz", report.rate_hz},          {"pictures_a_second", pictures_a_second(programme)},
-        {"duration_s", programme.duration_s}, {"repeated_ticks", programme.repeated},
-        {"missed_ticks", programme.missed},   {"synthesiser", report.synthesiser},
-        {"renderer", report.renderer},        {"signal", key_of(report.signal)}};
+    nlohmann::ordered_json json{{"pictures", programme.ticks},
+                                {"new_pictures", programme.pictures},
+                                {"width_px", report.format.width_px},
+                                {"height_px", report.format.height_px},
+                                {"rate_hz", report.rate_hz},
+                                {"pictures_a_second", pictures_a_second(programme)},
+                                {"duration_s", programme.duration_s},
+                                {"reprojected_ticks", programme.reprojected},
+                                {"repeated_ticks", programme.repeated},
+                                {"missed_ticks", programme.missed},
+                                {"synthesiser", report.synthesiser},
+                                {"renderer", report.renderer},
+                                {"signal", key_of(report.signal)}};
     json["time"] = time_json(report);
     json["tick_late_ms"] = to_json(programme.late_ms);
     json["interval_ms"] = to_json(programme.interval_ms);

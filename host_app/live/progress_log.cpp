@@ -42,13 +42,16 @@ std::string ProgressLog::line(const LiveShow& show) {
     else if (!show.settings().take && state.latency_ms > 0)
         now_words = fmt::format(", {:.0f} ms from exposure to picture", state.latency_ms);
     std::string line = fmt::format(
-        "{}{} pictures, {:.1f} a second, {} ticks repeated, {:.1f} instants a second, {} of {} "
+        "{}{} pictures, {:.1f} a second, {} ticks reprojected, {} repeated, {:.1f} instants a "
+        "second, {} of {} "
         "rigs{}, levels {}/{}, camera at azimuth {:.1f} degrees",
         books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
-        static_cast<double>(books.pictures - pictures_) / elapsed_s, books.repeated - repeated_,
+        static_cast<double>(books.pictures - pictures_) / elapsed_s,
+        books.reprojected - reprojected_, books.repeated - repeated_,
         static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
         now_words, state.render_level(), state.prepare_level(), state.view.azimuth_rad * deg);
     pictures_ = books.pictures;
+    reprojected_ = books.reprojected;
     repeated_ = books.repeated;
     instants_ = instants.prepared;
     return line;

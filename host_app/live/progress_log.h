@@ -21,7 +21,7 @@ class ProgressLog {
   private:
     std::optional<std::uint64_t> frames_;
     MonotonicTime last_ = MonotonicClock::now();
-    std::uint64_t pictures_ = 0, repeated_ = 0, instants_ = 0;  ///< by then
+    std::uint64_t pictures_ = 0, reprojected_ = 0, repeated_ = 0, instants_ = 0;  ///< by then
 };
 
 }  // namespace vantage

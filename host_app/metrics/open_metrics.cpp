@@ -22,7 +22,11 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.ticks));
     text.counter("new_pictures", "Ticks with a new picture.");
     text.sample(number(programme.pictures));
-    text.counter("repeated_ticks", "Ticks for which a new picture was due and not ready.");
+    text.counter("reprojected_ticks",
+                 "Ticks whose new picture was not ready: the last one, reprojected.");
+    text.sample(number(programme.reprojected));
+    text.counter("repeated_ticks",
+                 "Ticks whose new picture was not ready: the last one as it was.");
     text.sample(number(programme.repeated));
     text.counter("missed_ticks", "Ticks that passed before the programme came to them.");
     text.sample(number(programme.missed));

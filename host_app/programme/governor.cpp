@@ -27,6 +27,9 @@ constexpr double rendering_share = 0.65, preparing_share = 0.9;
 /// Where the cheapest instants do not fit beside it rendering has to do with less, instant by
 /// instant, down to the least; where they have room it gets that back.
 constexpr double least_rendering_share = 0.3, lesser = 0.93, more = 1.03;
+/// A picture that is reprojected meanwhile may take half of the time between two pulses, but no
+/// more than this.
+constexpr double longest_picture_ms = 100;
 /// Of the 200 ms that a jump in time may last.
 constexpr double sought_ms = 80;
 
@@ -159,6 +162,7 @@ int Governor::moments_a_pulse(double speed) const {
 Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
+      carried_picture_ms_(std::max(tick_ms_, std::min(longest_picture_ms, 0.5 * instant_ms_))),
       rendering_share_(rendering_share),
       render_(render_levels().size(), rendering_share),
       prepare_(prepare_levels().size(), preparing_share) {

@@ -70,8 +70,11 @@ class Governor {
     /// For the first picture of where time jumped to, which is waited for.
     const PrepareLevel& prepare_sought() const;
 
-    void saw_render(const RenderLevel& level, double ms, MonotonicTime now) {
-        render_.saw(static_cast<std::size_t>(level.rank), ms, tick_ms_, now);
+    /// `is_carried_on`: reprojections of the picture go between it and the next one, so that it may
+    /// take longer than a tick where pulses are rarer than ticks.
+    void saw_render(const RenderLevel& level, double ms, bool is_carried_on, MonotonicTime now) {
+        render_.saw(static_cast<std::size_t>(level.rank), ms,
+                    is_carried_on ? carried_picture_ms_ : tick_ms_, now);
     }
     void saw_prepare(int rank, double ms, MonotonicTime now);
     /// An instant of the past was fetched and prepared in so long.
@@ -84,7 +87,8 @@ class Governor {
 
   private:
     double tick_ms_, instant_ms_;
-    double rendering_share_;  ///< less where even the cheapest instants come late beside it
+    double carried_picture_ms_;  ///< that one may take which is reprojected meanwhile
+    double rendering_share_;     ///< less where even the cheapest instants come late beside it
     LevelChooser render_, prepare_;
     std::deque<double> past_ms_;  ///< of the last instants of the past
 };

@@ -137,10 +137,6 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
         const std::lock_guard lock(mutex_);
         job_.reset();
         if (!picture) continue;
-        // The hand that moved one which nobody took waits for this one.
-        if (finished_ && finished_->job.hand &&
-            (!work->job.hand || *finished_->job.hand < *work->job.hand))
-            picture->job.hand = finished_->job.hand;
         picture->make_ms = ms_since(started_);
         finished_ = std::move(picture);
     }
@@ -168,7 +164,7 @@ std::shared_ptr<MadePicture> PictureMaker::made(ViewPainter& painter, const Pict
     auto made = std::make_shared<MadePicture>();
     const MonotonicTime start = MonotonicClock::now();
     made->picture = painter.paint(*job.instant->instant, job.camera, job.level,
-                                  job.source_map ? &made->sources : nullptr);
+                                  job.source_map ? &made->sources : nullptr, &made->inverse_depth);
     made->readback_ms = painter.last_readback_ms();
     made->render_ms = ms_since(start) - made->readback_ms;
     made->job = job;

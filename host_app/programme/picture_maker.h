@@ -22,8 +22,8 @@ struct PictureJob {
     std::shared_ptr<const ReadyInstant> instant;
     CameraState camera;
     RenderLevel level;
-    bool source_map = false;              ///< also which rigs its pixels come from
-    std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in it
+    bool source_map = false;  ///< also which rigs its pixels come from
+    std::uint64_t look = 0;   ///< of the programme, that the camera is of
 };
 
 /// Whether a picture of one would be that of the other.
@@ -34,6 +34,7 @@ struct MadePicture {
     PictureJob job;
     ColourImage picture;               ///< rgba8 of the programme's size
     std::optional<SourceMap> sources;  ///< where it was wanted
+    cv::Mat1f inverse_depth;           ///< as of CoarseDepth; empty: not known
     double render_ms = 0, readback_ms = 0;
     double make_ms = 0;  ///< from start() on: those, and what it waited for
 };

@@ -25,6 +25,8 @@ constexpr std::chrono::milliseconds rest{250};
 /// longest of them.
 constexpr std::size_t fewest_judged = 20, judged_pictures = 200;
 constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
+/// Of a picture's width, that it is reprojected by while instants need the time.
+constexpr double near_enough = 0.02;
 /// Of the time for pictures, at most, while instants have to be prepared beside them.
 constexpr double most_for_pictures = 0.75;
 constexpr std::chrono::milliseconds longest_carried{200};
@@ -53,6 +55,7 @@ Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       replay_(settings_.replay),
       preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.right_of_way()),
+      reprojector_({settings_.format.width_px, settings_.format.height_px}),
       source_map_(settings_.source_map),
       picture_time_(most_for_pictures, longest_carried, MonotonicClock::now()) {
     // The first instant is prepared for where the camera begins.
@@ -102,13 +105,19 @@ void Programme::stop() {
 }
 
 std::chrono::nanoseconds Programme::lead() const {
-    const std::chrono::duration<double> period(1 / settings_.rate_hz);
-    if (make_ms_.size() < fewest_judged)
-        return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
-    const double longest_ms = *std::max_element(make_ms_.begin(), make_ms_.end());
-    const std::chrono::duration<double, std::milli> lead(lead_ratio * longest_ms + lead_margin_ms);
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-        std::min<std::chrono::duration<double>>(lead, period));
+    const double period_ms = 1000 / settings_.rate_hz;
+    if (make_ms_.size() < fewest_judged) return from_s(period_ms / 1000);
+    std::vector<double> sorted(make_ms_.begin(), make_ms_.end());
+    std::sort(sorted.begin(), sorted.end());
+    // Where hardly any is ready at its tick, ticks show reprojections, and looks may be late.
+    const bool is_reprojected = shown_ && !shown_->inverse_depth.empty();
+    if (is_reprojected && sorted[sorted.size() / 2] > period_ms) return reprojection_lead();
+    return from_s(std::min(lead_ratio * sorted.back() + lead_margin_ms, period_ms) / 1000);
+}
+
+std::chrono::nanoseconds Programme::reprojection_lead() const {
+    const double lead_ms = lead_ratio * reprojector_.longest_ms() + lead_margin_ms;
+    return from_s(std::min(lead_ms / 1000, 1 / settings_.rate_hz));
 }
 
 void Programme::rehearse() {
@@ -141,18 +150,21 @@ void Programme::run() {
         const double due_s = std::chrono::duration<double>(clock.time_of(tick + 1)).count();
         sleep_until(due - lead());
         const bool was_due = look(due_s, MonotonicClock::now());
-        bool is_begun = false;
+        const MonotonicTime carry = due - reprojection_lead();
+        bool is_begun = false, is_carried = false;
         for (;;) {
             const MonotonicTime now = MonotonicClock::now();
             if (!is_begun && renderer_->maker->is_idle() &&
-                (take_up_sought() || (was_due && has_picture_time(now)))) {
+                (take_up_sought() || (was_due && is_worth_rendering() && has_picture_time(now)))) {
                 begin_picture();
                 is_begun = true;
             }
             better_what_is_held(now);
             if (now >= due) break;
+            if (now >= carry && !std::exchange(is_carried, true)) begin_reprojection();
             const bool is_done = is_begun || !(was_due || seek_.is_on());
-            sleep_until(is_done ? due : std::min(due, now + look_period));
+            const MonotonicTime next = is_carried ? due : carry;
+            sleep_until(is_done ? next : std::min(next, now + look_period));
         }
         follow_synthesiser();
         const std::uint64_t next = clock.next_tick(MonotonicClock::now());
@@ -170,7 +182,7 @@ void Programme::run() {
 
 bool Programme::look(double time_s, MonotonicTime now) {
     PilotStep step = pilot_.step(time_s, transport().pulse());
-    if (step.hand && !hand_) hand_ = step.hand;
+    ++look_;
     instant_ = instants_.newest();
     const std::optional<PastSets::Span> span = instants_.past_span();
     // Time begins with the first picture.
@@ -188,6 +200,10 @@ bool Programme::look(double time_s, MonotonicTime now) {
         moments_a_pulse_ = governor_.moments_a_pulse(transport().state().speed);
     else if (seek_.has_jumped(transport().jumps()))
         moments_a_pulse_ = 1;
+    // Whoever moves before the first picture waits for the start, and a jump's time is counted by
+    // its own name.
+    if (step.hand && shown_ && !seek_.has_jumped(transport().jumps()))
+        hands_.saw(*step.hand, look_, !step.toggle_source_map && !step.next_synthesiser);
     seek_.follow(transport().jumps(), past_pulse(),
                  shown_ ? std::optional(shown_->job.instant->set->trigger_index) : std::nullopt,
                  now);
@@ -200,7 +216,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
     if (!is_same_view(camera, camera_) || step.time.is_any() || transport().is_moving())
         changed_ = now;
     view_ = step.view;
-    camera_ = camera;
+    camera_before_ = std::exchange(camera_, camera);
     preview_view_ = step.preview;
     forecast_.see(camera_, time_s);
     wish_for_instant(now);
@@ -221,9 +237,8 @@ bool Programme::look(double time_s, MonotonicTime now) {
         books_.prepare_shares = governor_.prepare_shares(now);
     }
     const bool is_due = is_picture_due();
-    // An input that changes no picture waits for none, and a jump's time is counted by its own
-    // name.
-    if (!is_due) hand_.reset();
+    // An input that changes no picture waits for none.
+    if (!is_due) hands_.drop();
     return is_due;
 }
 
@@ -236,6 +251,17 @@ bool Programme::is_picture_due() const {
         if (is_same_picture(better, shown_->job)) return false;
     }
     return !shown_ || !is_same_picture(job, shown_->job);
+}
+
+bool Programme::is_worth_rendering() const {
+    if (!transport().is_moving() || !begun_ || !shown_ || shown_->inverse_depth.empty())
+        return true;
+    PictureJob again = *begun_;
+    again.camera = camera_;
+    const bool stands = is_same_view(camera_, camera_before_);
+    return stands ||
+           !is_same_picture(again, {instant_, camera_, governor_.render(), source_map_}) ||
+           Reprojection::way(begun_->camera, camera_) > near_enough;
 }
 
 bool Programme::has_picture_time(MonotonicTime now) {
@@ -281,8 +307,38 @@ void Programme::wish_for_instant(MonotonicTime now) {
 }
 
 void Programme::begin_picture() {
-    renderer_->maker->start({instant_, camera_, governor_.render(), source_map_, hand_});
-    hand_.reset();
+    begun_ = {instant_, camera_, governor_.render(), source_map_, look_};
+    renderer_->maker->start(*begun_);
+}
+
+void Programme::take_finished() {
+    if (std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished())
+        rendered_ = std::move(fresh);
+    if (std::optional<Reprojector::Carried> carried = reprojector_.take_finished())
+        carried_ = std::move(carried);
+}
+
+void Programme::begin_reprojection() {
+    take_finished();
+    std::shared_ptr<const MadePicture> newest = rendered_ ? rendered_ : shown_;
+    if (!newest || is_same_view(newest->job.camera, camera_) || !reprojector_.is_idle()) return;
+    // A cut to the preview is there already.
+    if (const std::shared_ptr<const MadePicture> preview = preview_.picture();
+        preview && Reprojection::way(newest->job.camera, camera_) > Reprojection::furthest &&
+        Reprojection::way(preview->job.camera, camera_) <= Reprojection::furthest)
+        newest = preview;
+    reprojector_.start(std::move(newest), camera_, look_);
+}
+
+std::optional<Reprojector::Carried> Programme::newest_carried() {
+    std::optional<Reprojector::Carried> carried = std::exchange(carried_, std::nullopt);
+    const std::uint64_t known =
+        std::max(rendered_ ? rendered_->job.look : 0, handed_ ? handed_->job.look : 0);
+    if (!carried || carried->picture->job.look <= known) return std::nullopt;
+    // One that was rendered after the reprojection of the one before was begun waits for the next
+    // tick, but if it is of the camera as it is.
+    if (is_same_view((rendered_ ? rendered_ : shown_)->job.camera, camera_)) return std::nullopt;
+    return carried;
 }
 
 void Programme::better_what_is_held(MonotonicTime now) {
@@ -347,11 +403,10 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     picture_time_.spend(from_s(made.make_ms / 1000));
     make_ms_.push_back(made.make_ms);
     if (make_ms_.size() > judged_pictures) make_ms_.pop_front();
-    governor_.saw_render(made.job.level, made.render_ms + made.readback_ms, now);
+    governor_.saw_render(made.job.level, made.render_ms + made.readback_ms,
+                         !made.inverse_depth.empty(), now);
     render_ms_.add(made.render_ms);
     readback_ms_.add(made.readback_ms);
-    // Whoever moves before the first picture waits for the start.
-    if (shown_ && made.job.hand) hand_ms_.add(ms_between(*made.job.hand, now));
     if (last_new_) interval_ms_.add(ms_between(*last_new_, now));
     last_new_ = now;
     const ReadyInstant& instant = *made.job.instant;
@@ -364,6 +419,16 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     }
 }
 
+void Programme::take_still(MonotonicTime now) {
+    if (!renderer_->still) return;
+    std::shared_ptr<const MadePicture> still = renderer_->still->take_finished();
+    if (!still || transport().is_moving() || !is_same_view(still->job.camera, camera_) ||
+        still->job.instant != instant_)
+        return;
+    note_rest(*still, now);
+    shown_ = std::move(still);
+}
+
 void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
     const bool is_best = made.job.level.rank == 0 && made.job.instant->instant->level == 0;
     if (!is_best || transport().is_moving() || rest_noted_ == changed_) return;
@@ -373,8 +438,9 @@ void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
 
 void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due) {
     const MonotonicTime now = MonotonicClock::now();
-    std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished();
-    const bool is_new = fresh != nullptr;
+    take_finished();
+    const std::optional<Reprojector::Carried> carried = newest_carried();
+    const bool is_new = rendered_ && (!carried || carried->rendered == rendered_);
     {
         const std::lock_guard lock(mutex_);
         if (is_new) {
@@ -385,29 +451,32 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
             ++books_.pictures;
             books_.faults = 0;
             for (const auto& [name, one] : renderers_) books_.faults += one.maker->faults();
-            note(*fresh, now);
-            if (settings_.sound) note_sound_delay(*fresh->job.instant);
+            note(*rendered_, now);
+            if (settings_.sound) note_sound_delay(*rendered_->job.instant);
+            shown_ = handed_ = std::exchange(rendered_, nullptr);
+            note_rest(*shown_, now);
         } else if (!was_due) {
             last_new_.reset();
         }
-        if (!is_new && renderer_->still) {
-            fresh = renderer_->still->take_finished();
-            if (fresh && (transport().is_moving() || !is_same_view(fresh->job.camera, camera_) ||
-                          fresh->job.instant != instant_))
-                fresh.reset();
+        if (carried) {
+            handed_ = carried->picture;
+        } else if (!is_new) {
+            take_still(now);
+            if (shown_ && is_same_view(shown_->job.camera, camera_)) handed_ = shown_;
         }
-        if (fresh) {
-            note_rest(*fresh, now);
-            shown_ = state_.picture = std::move(fresh);
-        }
-        if (!shown_) return;
+        if (!handed_) return;
+        if (carried || is_new)
+            hands_.showed(handed_->job.look,
+                          carried ? carried->rendered->job.look : shown_->job.look, now);
+        if (!is_new && was_due) ++(carried ? books_.reprojected : books_.repeated);
+        state_.picture = handed_;
         books_.ticks += passed_ticks;
         books_.missed += passed_ticks - 1;
         late_ms_.add(ms_between(due, now));
-        books_.repeated += passed_ticks - 1 + (was_due && !is_new ? 1 : 0);
+        books_.repeated += passed_ticks - 1;
         books_.duration_s = ms_between(*first_picture_, now) / 1000;
     }
-    give_to_sinks(*shown_, passed_ticks, due);
+    give_to_sinks(*handed_, passed_ticks, due);
 }
 
 void Programme::note_sound_delay(const ReadyInstant& instant) {
@@ -463,7 +532,7 @@ ProgrammeBooks Programme::books() const {
     books.late_ms = late_ms_.summary();
     books.interval_ms = interval_ms_.summary();
     books.latency_ms = latency_ms_.summary();
-    books.hand_ms = hand_ms_.summary();
+    books.hand_ms = hands_.all_ms();
     books.seek_ms = seek_.all_ms();
     books.seek_steps_ms = seek_.steps_ms();
     books.rest_ms = rest_ms_.summary();

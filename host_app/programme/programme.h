@@ -18,9 +18,12 @@
 #include "host_app/flight/pilot.h"
 #include "host_app/instants/instant_thread.h"
 #include "host_app/programme/governor.h"
+#include "host_app/programme/hand_watch.h"
 #include "host_app/programme/picture_maker.h"
 #include "host_app/programme/picture_sinks.h"
 #include "host_app/programme/preview.h"
+#include "host_app/programme/reprojection.h"
+#include "host_app/programme/reprojector.h"
 #include "host_app/programme/seek_watch.h"
 #include "host_app/replay/replay.h"
 #include "host_app/sound/picture_sound.h"
@@ -29,15 +32,17 @@ namespace vantage {
 
 /// What the programme counted and measured.
 struct ProgrammeBooks {
-    std::uint64_t ticks = 0;     ///< since the first picture
-    std::uint64_t pictures = 0;  ///< ticks with a new one
-    std::uint64_t repeated = 0;  ///< ticks for which a new one was due and not ready
-    std::uint64_t missed = 0;    ///< of those, ticks that had passed before the programme came to
-                                 ///< them; sinks were given them late
-    Percentiles late_ms;         ///< from a tick to the hand-over of its picture
-    double duration_s = 0;       ///< since the first picture
-    Percentiles interval_ms;     ///< between two new pictures
-    Percentiles latency_ms;      ///< from exposure to the hand-over of the first picture of it
+    std::uint64_t ticks = 0;        ///< since the first picture
+    std::uint64_t pictures = 0;     ///< ticks with a new one
+    std::uint64_t reprojected = 0;  ///< ticks for which a new one was due and not ready, and which
+                                    ///< got the last one as the camera would see it now
+    std::uint64_t repeated = 0;     ///< such ticks that got the last one as it was
+    std::uint64_t missed = 0;       ///< of those, ticks that had passed before the programme came
+                                    ///< to them; sinks were given them late
+    Percentiles late_ms;            ///< from a tick to the hand-over of its picture
+    double duration_s = 0;          ///< since the first picture
+    Percentiles interval_ms;        ///< between two new pictures
+    Percentiles latency_ms;         ///< from exposure to the hand-over of the first picture of it
     Percentiles hand_ms;  ///< from an input to the hand-over of the first picture with it, where it
                           ///< changes the picture; a jump in time counts in seek_ms alone
     Percentiles seek_ms;  ///< from a jump in time to the hand-over of its instant's picture
@@ -76,7 +81,8 @@ struct ProgrammeState {
 
 /// The programme's clock: at every tick the newest picture goes to the sinks, and the next one is
 /// begun, of the newest camera and the newest ready instant. It waits for nothing but its ticks: a
-/// tick without a new picture repeats the last one and is counted.
+/// tick without a new picture gets the last one, reprojected to where the camera is meanwhile or as
+/// it was, and is counted.
 class Programme {
   public:
     struct Settings {
@@ -123,6 +129,9 @@ class Programme {
     bool look(double time_s, MonotonicTime now);
     /// Whether a picture of now would differ from the one that is shown.
     bool is_picture_due() const;
+    /// False where a picture that is due would differ from the last one by a short way of the
+    /// camera alone, which a reprojection shows as well: the time is for instants.
+    bool is_worth_rendering() const;
     /// False where pictures that take longer than their ticks have had their share of the time: the
     /// rest is for the instants beside them.
     bool has_picture_time(MonotonicTime now);
@@ -133,15 +142,23 @@ class Programme {
     /// Until the middle of the time for which an instant that is wished for now will be shown.
     double shown_in_s() const;
     void begin_picture();
+    /// What the maker and the reprojector finished waits to be handed over.
+    void take_finished();
+    /// Carries the newest picture on to the camera, if that has left it.
+    void begin_reprojection();
     /// Of the past, that time stands at; nothing: there is none.
     std::optional<std::uint64_t> past_pulse() const;
     void better_what_is_held(MonotonicTime now);
+    /// The better picture of it, if that is ready.
+    void take_still(MonotonicTime now);
     /// Compiles where it is asked for the first time.
     Renderer& renderer_of(const SynthesiserEntry& synthesiser);
     void begin_next_synthesiser();
     void follow_preview();
     void follow_synthesiser();
     /// `due`: the first of the ticks that have passed.
+    /// The reprojection to hand over; nothing if what was rendered is as new, or is shown.
+    std::optional<Reprojector::Carried> newest_carried();
     void hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due);
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due);
     /// Of the tick that was due then, so many ticks after the one for which time was looked at.
@@ -152,6 +169,8 @@ class Programme {
     const Transport& transport() const { return replay_.transport(); }
     /// How long before a tick its picture is to be begun.
     std::chrono::nanoseconds lead() const;
+    /// The same of its reprojection.
+    std::chrono::nanoseconds reprojection_lead() const;
 
     Settings settings_;
     InstantThread& instants_;
@@ -169,14 +188,19 @@ class Programme {
     Preview preview_;
     std::optional<OrbitView> preview_view_;
     OrbitView view_;
-    CameraState camera_;
+    CameraState camera_, camera_before_;  ///< of the last look and the one before
     CameraForecast forecast_;
-    std::optional<MonotonicTime> hand_;  ///< of an input that no picture has yet
+    std::uint64_t look_ = 0;  ///< so many
+    HandWatch hands_;
     SeekWatch seek_;
     std::shared_ptr<const ReadyInstant> instant_;
-    std::optional<PictureJob> begun_still_;
-    std::shared_ptr<const MadePicture> shown_;
-    MonotonicTime changed_{};     ///< camera or time, last
+    std::optional<PictureJob> begun_, begun_still_;
+    std::shared_ptr<const MadePicture> rendered_;  ///< not handed over yet; null: none
+    std::shared_ptr<const MadePicture> shown_;     ///< the last one that was rendered
+    std::shared_ptr<const MadePicture> handed_;    ///< the same, or a reprojection of it
+    Reprojector reprojector_;
+    std::optional<Reprojector::Carried> carried_;  ///< not handed over yet
+    MonotonicTime changed_{};                      ///< camera or time, last
     MonotonicTime rest_noted_{};  ///< of the rest since then the best picture was shown
     std::optional<MonotonicTime> first_picture_, last_new_;
     std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0, sound_of_ = 0;
@@ -188,8 +212,8 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder late_ms_, interval_ms_, latency_ms_, hand_ms_, rest_ms_, render_ms_,
-        readback_ms_, preview_ms_;
+    PercentileRecorder late_ms_, interval_ms_, latency_ms_, rest_ms_, render_ms_, readback_ms_,
+        preview_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

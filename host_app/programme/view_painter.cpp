@@ -19,7 +19,8 @@ ViewPainter::ViewPainter(const SynthesiserEntry& synthesiser, const PictureForma
     : format_(format),
       renderer_(synthesiser.make_renderer(shaders)),
       overlay_(shaders),
-      mosaic_(shaders) {}
+      mosaic_(shaders),
+      coarse_depth_(shaders) {}
 
 const Texture& ViewPainter::render(const Instant& instant, const CameraState& camera, cv::Size size,
                                    const RenderLevel& level, bool is_map) {
@@ -42,7 +43,8 @@ const Texture& ViewPainter::render(const Instant& instant, const CameraState& ca
 }
 
 ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera,
-                               const RenderLevel& level, std::optional<SourceMap>* sources) {
+                               const RenderLevel& level, std::optional<SourceMap>* sources,
+                               cv::Mat1f* inverse_depth) {
     const cv::Size full(format_.width_px, format_.height_px);
     const cv::Size size =
         format_.stereoscopy
@@ -53,9 +55,13 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     // The way back is under way before this thread waits for the picture.
     const Fence rendered = Fence::insert();
     readback_.begin(texture);
+    if (const Texture* depth_m = renderer_->depth_m();
+        depth_m && inverse_depth && !format_.stereoscopy)
+        coarse_depth_.begin(*depth_m);
     rendered.wait("a picture was waited for");
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take();
+    if (coarse_depth_.is_begun()) *inverse_depth = coarse_depth_.take();
     require_context("a picture was read back");
     mark_unseen(picture);
     if (size != full) {

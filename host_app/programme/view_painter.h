@@ -8,6 +8,7 @@
 #include "common/gl/readback.h"
 #include "common/image/image.h"
 #include "host_app/flight/camera_state.h"
+#include "host_app/programme/coarse_depth.h"
 #include "host_app/synthesis/novelty_overlay.h"
 #include "host_app/synthesis/stereoscopy.h"
 #include "host_app/synthesis/synthesiser.h"
@@ -39,9 +40,11 @@ class ViewPainter {
                 const ShaderLibrary& shaders);
 
     /// Of the format's size, whatever size is rendered at this level. Waits for the GPU. With
-    /// `sources` also the source map, if the synthesiser can tell.
+    /// `sources` also the source map, and with `inverse_depth` what CoarseDepth has of the picture
+    /// (of one eye only), if the synthesiser can tell; else that stays as it is.
     ColourImage paint(const Instant& instant, const CameraState& camera, const RenderLevel& level,
-                      std::optional<SourceMap>* sources = nullptr);
+                      std::optional<SourceMap>* sources = nullptr,
+                      cv::Mat1f* inverse_depth = nullptr);
     double last_readback_ms() const { return readback_ms_; }
 
   private:
@@ -55,6 +58,7 @@ class ViewPainter {
     const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
     std::string lacking_;                ///< for the last picture
     Readback readback_;
+    CoarseDepth coarse_depth_;
     double readback_ms_ = 0;
 };
 

@@ -35,6 +35,8 @@ class LayerBlender {
 
     void note_origins(bool noted) { notes_origins_ = noted; }
     const PixelOrigins* origins() const { return origins_ ? &*origins_ : nullptr; }
+    /// Of the last picture's layers, as ViewRenderer says. Precondition: blend() was called.
+    const Texture& depth_m() const { return blended_.depth_m(); }
 
   private:
     RigLayers layers_;

@@ -59,6 +59,10 @@ class ViewRenderer {
     /// Of the last picture; null if they were not noted. Valid until the next call.
     virtual const PixelOrigins* origins() const { return nullptr; }
 
+    /// Of the last picture: r32f, of its size, along the camera's axis; 0 where nothing is, and the
+    /// magnitude alone counts. Null: this one cannot tell. Valid until the next call.
+    virtual const Texture* depth_m() const { return nullptr; }
+
     /// What an instant lacks for a picture of this view: a sentence with the mend. Empty: nothing.
     /// What is rendered all the same is black and not covered.
     virtual std::string lacks(const Instant& /*instant*/, const VirtualView& /*view*/) const {

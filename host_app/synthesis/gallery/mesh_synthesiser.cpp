@@ -31,6 +31,7 @@ class MeshRenderer final : public ViewRenderer {
         return true;
     }
     const PixelOrigins* origins() const override { return blender_.origins(); }
+    const Texture* depth_m() const override { return &blender_.depth_m(); }
 
   private:
     LayerPass blend_;

@@ -50,6 +50,7 @@ class FusedRenderer final : public ViewRenderer {
             },
             {}, kinds);
         origins_.reset();
+        depth_m_ = nullptr;
         if (blender_.origins()) origins_ = *blender_.origins();
         if (layers.used().empty()) return set;
         const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
@@ -57,7 +58,8 @@ class FusedRenderer final : public ViewRenderer {
             performers_.show(set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr,
                              performers, view, level.is_plain);
         if (origins_) origins_->shares = picture.shares();
-        return impulses_.filter(picture.colour(), picture.depth_m());
+        depth_m_ = &picture.depth_m();
+        return impulses_.filter(picture.colour(), *depth_m_);
     }
 
     bool note_origins(bool noted) override {
@@ -65,6 +67,7 @@ class FusedRenderer final : public ViewRenderer {
         return true;
     }
     const PixelOrigins* origins() const override { return origins_ ? &*origins_ : nullptr; }
+    const Texture* depth_m() const override { return depth_m_; }
 
   private:
     void find_depth() {
@@ -80,6 +83,7 @@ class FusedRenderer final : public ViewRenderer {
     ImpulseFilter impulses_;
     PerformerLayers performers_;
     std::optional<PixelOrigins> origins_;
+    const Texture* depth_m_ = nullptr;
     std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers
     DrawnTexture fused_depth_{TextureFormat::r32f, Filter::nearest, false, DrawnWith::depth_test};
 };

@@ -32,6 +32,8 @@ class PointsRenderer final : public ViewRenderer {
         return picture_->colour;
     }
 
+    const Texture* depth_m() const override { return picture_ ? &picture_->z : nullptr; }
+
   private:
     struct Picture {
         Texture colour, z, depth;

@@ -36,7 +36,7 @@ class ExampleDesk {
             state.latencies_ms.push_back(80.0f + static_cast<float>(i % 13));
         state.synthesiser = "mesh";
         state.steps = {{"capture", 2.1, true}, {"match", 18.4, true}, {"decode", 3.2, false}};
-        state.figures = {{"ticks, repeated, missed", "5520, 3, 0"},
+        state.figures = {{"ticks, reprojected, repeated, missed", "5520, 40, 3, 0"},
                          {"between pictures", "33 ms, 99 % 34, at worst 67"},
                          {"exposure to picture", "82 ms, 99 % 95, at worst 130"},
                          {"hand to picture", "41 ms, 99 % 62, at worst 66"},

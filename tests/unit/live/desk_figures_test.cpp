@@ -14,6 +14,7 @@ std::string value_of(const std::vector<DeskFigure>& figures, const std::string& 
 TEST(DeskFigures, SayWhatTheSummarySays) {
     LiveReport report;
     report.programme.ticks = 450;
+    report.programme.reprojected = 31;
     report.programme.repeated = 7;
     report.programme.missed = 2;
     report.programme.interval_ms = {400, 67, 67.2, 68.6, 134};
@@ -22,7 +23,7 @@ TEST(DeskFigures, SayWhatTheSummarySays) {
     report.instants_prepared = 141;
     report.sets_superseded = 3;
     const std::vector<DeskFigure> figures = desk_figures(report);
-    EXPECT_EQ(value_of(figures, "ticks, repeated, missed"), "450, 7, 2");
+    EXPECT_EQ(value_of(figures, "ticks, reprojected, repeated, missed"), "450, 31, 7, 2");
     EXPECT_EQ(value_of(figures, "between pictures"), "67 ms, 99 % 69, at worst 134");
     EXPECT_EQ(value_of(figures, "hand to picture"), "none") << "no hand was there";
     EXPECT_EQ(value_of(figures, "instants, skipped"), "141, 3");

@@ -166,7 +166,7 @@ TEST(Governor, LetsEveryClockFallByItself) {
     Governor governor(50, 25, {});
     MonotonicTime now{1h};
     const auto tick = [&](double render_ms, double prepare_ms) {
-        governor.saw_render(governor.render(), render_ms, now);
+        governor.saw_render(governor.render(), render_ms, false, now);
         governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
         now += 40ms;
     };
@@ -189,7 +189,7 @@ TEST(Governor, LetsRenderingDoWithLessWhereTheCheapestInstantsComeLate) {
     const auto run_for = [&](int pulses, double render_ms, double prepare_ms) {
         for (int i = 0; i < pulses; ++i) {
             for (int tick = 0; tick < 5; ++tick, now += 40ms)
-                governor.saw_render(governor.render(), render_ms, now);
+                governor.saw_render(governor.render(), render_ms, false, now);
             governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
         }
     };
@@ -200,6 +200,20 @@ TEST(Governor, LetsRenderingDoWithLessWhereTheCheapestInstantsComeLate) {
     EXPECT_GT(governor.render().rank, beside_instants) << "12 of 40 ms are too much now";
     run_for(200, 5, 100);
     EXPECT_EQ(governor.render().rank, 0) << "they fit again";
+}
+
+TEST(Governor, LetsAPictureThatIsReprojectedTakeLongerThanATickWherePulsesAreRare) {
+    const auto rank_after = [](double pulse_rate_hz, bool is_carried_on) {
+        Governor governor(25, pulse_rate_hz, {});
+        MonotonicTime now{1h};
+        for (int tick = 0; tick < 500; ++tick, now += 40ms)
+            governor.saw_render(governor.render(), 30, is_carried_on, now);
+        return governor.render().rank;
+    };
+    const int cheapest = static_cast<int>(render_levels().size()) - 1;
+    EXPECT_EQ(rank_after(4, true), 0) << "of 100 ms it may take 65";
+    EXPECT_EQ(rank_after(4, false), cheapest) << "of 40 ms it may take 26";
+    EXPECT_EQ(rank_after(25, true), cheapest) << "every pulse wants a picture";
 }
 
 /// An instant may take as long as the pulses are apart, a jump may not.
@@ -228,7 +242,7 @@ TEST(Governor, KeepsTheLevelThatIsWishedFor) {
     Governor governor(50, 25, {2});
     MonotonicTime now{1h};
     for (int i = 0; i < 300; ++i, now += 20ms) {
-        governor.saw_render(governor.render(), 100, now);
+        governor.saw_render(governor.render(), 100, false, now);
         governor.saw_prepare(governor.prepare().rank, 1, now);
     }
     EXPECT_EQ(governor.render().rank, 2);

@@ -92,6 +92,7 @@ class ScriptedPilot final : public Pilot {
 struct Seen {
     std::mutex mutex;
     std::vector<std::uint64_t> ticks;
+    std::vector<CameraState> cameras;
     int empty_pictures = 0;
     cv::Vec4b last_middle;
     std::uint64_t last_pulse = 0;
@@ -110,6 +111,7 @@ class NotingSink final : public PictureSink {
     void take(const ProgrammePicture& picture) override {
         const std::lock_guard lock(seen_->mutex);
         seen_->ticks.push_back(picture.tick);
+        seen_->cameras.push_back(picture.camera);
         seen_->empty_pictures += picture.picture.empty() || picture.overlaid.empty();
         seen_->last_middle = picture.picture(picture.picture.rows / 2, picture.picture.cols / 2);
         seen_->last_pulse = picture.set->trigger_index;
@@ -187,6 +189,8 @@ class SlowPreparer final : public InstantPreparer {
 class ProgrammeTest : public testing::Test {
   protected:
     static constexpr double rate_hz = 25;
+    /// A tick's turn that is worth a new picture.
+    static constexpr double rendered_turn_rad = 0.03;
 
     ProgrammeTest() { instants_settings_.pulse_rate_hz = rate_hz; }
 
@@ -334,7 +338,7 @@ TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThan
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.002);
+    pilot_.turn(rendered_turn_rad);
     const std::uint64_t before = programme_->books().pictures;
     const auto begin = MonotonicClock::now();
     ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= before + 60; }));
@@ -385,7 +389,7 @@ TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.002);
+    pilot_.turn(rendered_turn_rad);
     pilot_.turn_preview(0.003);
     pilot_.next([](PilotStep& step) { step.preview = step.view; });
     ASSERT_TRUE(eventually([&] { return programme_->books().preview_pictures >= 10; }));
@@ -429,9 +433,87 @@ TEST_F(ProgrammeTest, CountsWhatItRepeats) {
     programme_->stop();
     const ProgrammeBooks books = programme_->books();
     EXPECT_EQ(books.ticks, seen_->count()) << "sinks get every tick, also one that is repeated";
-    EXPECT_LE(books.pictures + books.repeated, books.ticks);
-    EXPECT_GE(books.pictures + books.repeated, 35u) << "every tick had another camera";
+    const std::uint64_t due = books.pictures + books.reprojected + books.repeated;
+    EXPECT_LE(due, books.ticks);
+    EXPECT_GE(due, 35u) << "every tick had another camera";
     expect_every_tick_once();
+}
+
+TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.0005);  // so slowly that pictures are worth rendering now and then only
+    const ProgrammeBooks before = programme_->books();
+    ASSERT_TRUE(
+        eventually([&] { return programme_->books().reprojected >= before.reprojected + 20; }));
+    const ProgrammeBooks after = programme_->books();
+    EXPECT_LT(after.pictures - before.pictures, after.reprojected - before.reprojected);
+    {
+        const std::lock_guard lock(seen_->mutex);
+        int moved = 0;
+        for (std::size_t i = 1; i < seen_->cameras.size(); ++i)
+            moved += !is_same_view(seen_->cameras[i - 1], seen_->cameras[i]);
+        EXPECT_GE(moved, 20) << "the camera of every tick";
+        EXPECT_NEAR(seen_->last_middle[0], 200, 3);
+    }
+}
+
+TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    pilot_.turn(0.0005);
+    ASSERT_TRUE(eventually([&] { return programme_->books().reprojected >= 5; }));
+    pilot_.turn(0);
+    const std::uint64_t pictures = programme_->books().pictures;
+    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > pictures; }));
+    ASSERT_TRUE(wait_for_ticks(3));
+    const std::uint64_t reprojected = programme_->books().reprojected;
+    ASSERT_TRUE(wait_for_ticks(3));
+    EXPECT_EQ(programme_->books().reprojected, reprojected);
+}
+
+TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
+    settings_.format = {.width_px = 480, .height_px = 270};
+    settings_.rate_hz = 200;  // so that no picture is rendered within a tick
+    settings_.quality.level = 0;
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    // To and fro, until the reprojection is there first.
+    double azimuth_rad = 0.5;
+    for (int cut = 0; cut < 100 && programme_->books().reprojected == 0; ++cut) {
+        pilot_.next([&](PilotStep& step) {
+            step.preview = step.view;
+            step.preview->azimuth_rad = azimuth_rad;
+        });
+        ASSERT_TRUE(eventually([&] {
+            const auto picture = programme_->state().preview.picture;
+            return picture && std::abs(Reprojection::way(picture->job.camera,
+                                                         programme_->state().view.camera())) > 0.4;
+        }));
+        pilot_.next([&](PilotStep& step) { step.view.azimuth_rad = azimuth_rad; });
+        ASSERT_TRUE(wait_for_ticks(40));
+        azimuth_rad = azimuth_rad > 0 ? -0.1 : 0.5;
+    }
+    EXPECT_GT(programme_->books().reprojected, 0u);
+    const std::lock_guard lock(seen_->mutex);
+    EXPECT_EQ(seen_->empty_pictures, 0);
+}
+
+TEST_F(ProgrammeTest, CutsToWhereNoPictureCanBeCarried) {
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    const std::uint64_t pictures = programme_->books().pictures;
+    pilot_.next([](PilotStep& step) { step.view.azimuth_rad += 0.5; });
+    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > pictures; }));
+    EXPECT_EQ(programme_->books().reprojected, 0u);
 }
 
 TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
@@ -457,7 +539,7 @@ TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
     programme_->stop();
     EXPECT_EQ(contexts_.losses(), 2);
     const ProgrammeBooks books = programme_->books();
-    EXPECT_GT(books.repeated, 0u) << "what was due meanwhile";
+    EXPECT_GT(books.repeated + books.reprojected, 0u) << "what was due meanwhile";
     EXPECT_EQ(books.ticks, seen_->count());
     EXPECT_NEAR(seen_->last_middle[0], red, 2);
     expect_every_tick_once();

@@ -1,0 +1,134 @@
+#include "host_app/programme/reprojection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <opencv2/imgproc.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr int steps = 4;
+/// Squared, in px: a step after which no other is worth it, and the last one to what was found.
+constexpr float close = 0.01f, found = 1;
+/// Around a cell, within which what stands before others is looked for.
+constexpr int before_cells = 9;
+
+/// Of a grid, clamped at its borders.
+float bilinear(const cv::Mat1f& grid, float x, float y) {
+    x = std::clamp(x, 0.0f, static_cast<float>(grid.cols - 1));
+    y = std::clamp(y, 0.0f, static_cast<float>(grid.rows - 1));
+    const int left = static_cast<int>(x), top = static_cast<int>(y);
+    const int right = std::min(left + 1, grid.cols - 1);
+    const float across = x - static_cast<float>(left), down = y - static_cast<float>(top);
+    const float* above = grid[top];
+    const float* below = grid[std::min(top + 1, grid.rows - 1)];
+    return (1 - down) * ((1 - across) * above[left] + across * above[right]) +
+           down * ((1 - across) * below[left] + across * below[right]);
+}
+
+/// Looks up where in a first camera's picture a second camera's pixels are.
+class SourceSearch {
+  public:
+    SourceSearch(const CameraState& from, const CameraState& to, const cv::Mat1f& inverse_depth,
+                 cv::Size size)
+        : px_per_cell_(static_cast<float>(size.width) / static_cast<float>(inverse_depth.cols),
+                       static_cast<float>(size.height) / static_cast<float>(inverse_depth.rows)) {
+        // A performer's outline goes with the performer, and what is stretched is the set beside
+        // it.
+        cv::dilate(inverse_depth, nearest_, cv::Mat());
+        cv::dilate(nearest_, before_, cv::Mat::ones(before_cells, before_cells, CV_8U));
+        const Pose to_from = to.world_from_camera.inverse() * from.world_from_camera;
+        const Eigen::Matrix3d K = to.K(size.width, size.height);
+        turn_ = (K * to_from.linear() * from.K(size.width, size.height).inverse()).cast<float>();
+        shift_ = (K * to_from.translation()).cast<float>();
+    }
+
+    /// In px, to the source of a cell's middle; nothing: it was behind the first camera.
+    std::optional<Eigen::Vector2f> offset(int column, int row) const {
+        const Eigen::Vector2f target = in_px(Eigen::Vector2i(column, row).cast<float>());
+        // Where what stands before a wall moves over it both are found: it is looked for first.
+        std::optional<Eigen::Vector2f> source;
+        if (const auto miss = missed(target, target, before_(row, column)))
+            source = found_from(target, target + *miss, true);
+        if (!source) source = found_from(target, target, false);
+        if (!source) return std::nullopt;
+        return *source - target;
+    }
+
+  private:
+    Eigen::Vector2f in_px(const Eigen::Vector2f& cell) const {
+        return ((cell.array() + 0.5f) * px_per_cell_.array() - 0.5f).matrix();
+    }
+    /// By how far the second camera sees a pixel of the first one's picture, with this inverse
+    /// depth, aside from the target; nothing: it does not see it.
+    std::optional<Eigen::Vector2f> missed(const Eigen::Vector2f& target,
+                                          const Eigen::Vector2f& source, float w) const {
+        const Eigen::Vector3f seen = turn_ * source.homogeneous() + w * shift_;
+        if (!(seen.z() > 0)) return std::nullopt;
+        return target - seen.hnormalized();
+    }
+    /// Steps from there; nothing: they lead nowhere, or, if they `must_end`, end at no source.
+    std::optional<Eigen::Vector2f> found_from(const Eigen::Vector2f& target, Eigen::Vector2f source,
+                                              bool must_end) const {
+        float left = found;
+        for (int step = 0; step < steps && left > close; ++step) {
+            const Eigen::Array2f cell = (source.array() + 0.5f) / px_per_cell_.array() - 0.5f;
+            const auto miss = missed(target, source, bilinear(nearest_, cell.x(), cell.y()));
+            if (!miss) return std::nullopt;
+            source += *miss;
+            left = miss->squaredNorm();
+        }
+        if (must_end && left >= found) return std::nullopt;
+        return source;
+    }
+
+    cv::Mat1f nearest_, before_;  ///< inverse depth, in a cell and its neighbours, and further off
+    Eigen::Vector2f px_per_cell_;
+    /// The second camera sees a pixel s of the first picture, with inverse depth w, at
+    /// turn * (s, 1) + w * shift.
+    Eigen::Matrix3f turn_;
+    Eigen::Vector3f shift_;
+};
+
+}  // namespace
+
+std::optional<Reprojection> Reprojection::between(const CameraState& from, const CameraState& to,
+                                                  const cv::Mat1f& inverse_depth, cv::Size size) {
+    if (inverse_depth.empty()) return std::nullopt;
+    const SourceSearch search(from, to, inverse_depth, size);
+    const auto furthest_px = static_cast<float>(furthest * size.width);
+    cv::Mat2f offsets(inverse_depth.size());
+    for (int row = 0; row < offsets.rows; ++row)
+        for (int column = 0; column < offsets.cols; ++column) {
+            const std::optional<Eigen::Vector2f> offset = search.offset(column, row);
+            if (!offset || !(offset->norm() <= furthest_px)) return std::nullopt;
+            offsets(row, column) = {offset->x(), offset->y()};
+        }
+    cv::Mat2f positions;
+    cv::resize(offsets, positions, size, 0, 0, cv::INTER_LINEAR);
+    for (int y = 0; y < positions.rows; ++y)
+        for (int x = 0; x < positions.cols; ++x)
+            positions(y, x) += cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
+    return Reprojection(std::move(positions));
+}
+
+double Reprojection::way(const CameraState& from, const CameraState& to) {
+    const Pose between = from.world_from_camera.inverse() * to.world_from_camera;
+    const double turn_rad = std::abs(Eigen::AngleAxisd(between.linear()).angle());
+    const double aside_rad = between.translation().norm() / from.focus_m;
+    const double zoom_rad = 0.5 * std::abs(to.field_of_view_rad - from.field_of_view_rad);
+    return (std::max(turn_rad, aside_rad) + zoom_rad) / from.field_of_view_rad;
+}
+
+ColourImage Reprojection::apply(const ColourImage& picture) const {
+    ColourImage carried, resampled = picture;
+    if (picture.size() != positions_.size())
+        cv::resize(picture, resampled, positions_.size(), 0, 0, cv::INTER_CUBIC);
+    cv::remap(resampled, carried, positions_, cv::noArray(), cv::INTER_LINEAR,
+              cv::BORDER_REPLICATE);
+    return carried;
+}
+
+}  // namespace vantage

@@ -1,0 +1,83 @@
+#include "host_app/programme/reprojector.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/this_thread.h"
+#include "common/base/time.h"
+#include "host_app/programme/reprojection.h"
+
+namespace vantage {
+namespace {
+
+/// By how much a picture that took long counts less with every one after it.
+constexpr double forgetting = 0.98;
+
+}  // namespace
+
+Reprojector::Reprojector(cv::Size size) : size_(size), thread_([this] { run(); }) {}
+
+Reprojector::~Reprojector() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+}
+
+bool Reprojector::is_idle() const {
+    const std::lock_guard lock(mutex_);
+    return !work_;
+}
+
+void Reprojector::start(std::shared_ptr<const MadePicture> rendered, const CameraState& camera,
+                        std::uint64_t look) {
+    {
+        const std::lock_guard lock(mutex_);
+        work_ = Work{std::move(rendered), camera, look};
+    }
+    woken_.notify_all();
+}
+
+std::optional<Reprojector::Carried> Reprojector::take_finished() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(finished_, std::nullopt);
+}
+
+double Reprojector::longest_ms() const {
+    const std::lock_guard lock(mutex_);
+    return longest_ms_;
+}
+
+std::optional<Reprojector::Carried> Reprojector::carried_on(const Work& work) const {
+    const MadePicture& rendered = *work.rendered;
+    const std::optional<Reprojection> way =
+        Reprojection::between(rendered.job.camera, work.camera, rendered.inverse_depth, size_);
+    if (!way) return std::nullopt;
+    auto carried = std::make_shared<MadePicture>(rendered);
+    carried->job.camera = work.camera;
+    carried->job.look = work.look;
+    carried->picture = way->apply(rendered.picture);
+    if (carried->sources) carried->sources->picture = way->apply(rendered.sources->picture);
+    return Carried{std::move(carried), work.rendered};
+}
+
+void Reprojector::run() {
+    name_this_thread("reprojection");
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        woken_.wait(lock, [&] { return is_stopping_ || work_; });
+        if (is_stopping_) return;
+        const Work work = *work_;
+        lock.unlock();
+        const MonotonicTime start = MonotonicClock::now();
+        std::optional<Carried> carried = carried_on(work);
+        lock.lock();
+        longest_ms_ = std::max(ms_since(start), forgetting * longest_ms_);
+        finished_ = std::move(carried);
+        work_.reset();
+    }
+}
+
+}  // namespace vantage
