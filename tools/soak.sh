@@ -137,7 +137,7 @@ table=$(
   echo "| --- | --- |"
   echo "| played | $(figure '.duration_s | round') s, load $(cut -d' ' -f1 /proc/loadavg) at the end |"
   [ -z "$seed" ] || echo "| befallen, seed $seed | $(for name in "${!times[@]}"; do printf '%s %s, ' "$name" "${times[$name]}"; done | sed 's/, $//') |"
-  echo "| ticks, repeated, missed while the host hung or else | $(figure '"\(.pictures), \(.repeated_ticks), \(.missed_ticks)"') |"
+  echo "| ticks, reprojected, repeated, missed while the host hung or else | $(figure '"\(.pictures), \(.reprojected_ticks), \(.repeated_ticks), \(.missed_ticks)"') |"
   echo "| hand-over after the tick: p50, p99, most | $(figure '"\(.tick_late_ms.p50 * 10 | round / 10), \(.tick_late_ms.p99 * 10 | round / 10), \(.tick_late_ms.max | round) ms"') |"
   echo "| exposure to picture: p50, p95, p99 | $(figure '"\(.latency_ms.p50 | round), \(.latency_ms.p95 | round), \(.latency_ms.p99 | round) ms"') |"
   echo "| between two new pictures: p50, p99, most | $(figure '"\(.interval_ms.p50 | round), \(.interval_ms.p99 | round), \(.interval_ms.max | round) ms"') |"

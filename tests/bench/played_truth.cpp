@@ -185,9 +185,9 @@ std::string played_table(const PlayedTruth& wanted) {
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
         wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.debris(),
         tick.psnr_db(), tick.ssim(), 100 * tick.debris(), wavering.against_a_camera(), books.ticks,
-        books.reprojected, books.repeated, books.missed, books.late_ms.p50, books.late_ms.p99, books.late_ms.max,
-        books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
-        books.interval_ms.p99,
+        books.reprojected, books.repeated, books.missed, books.late_ms.p50, books.late_ms.p99,
+        books.late_ms.max, books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99,
+        books.interval_ms.p50, books.interval_ms.p99,
         static_cast<double>(played.report.instants_prepared) / books.duration_s,
         shares_text(books.render_shares), shares_text(books.prepare_shares));
 }

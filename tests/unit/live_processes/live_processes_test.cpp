@@ -80,9 +80,9 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     const nlohmann::json summary = nlohmann::json::parse(host->out());
     EXPECT_GE(summary["pictures"], 10);
     EXPECT_GE(summary["new_pictures"], 1);
-    EXPECT_GE(summary["pictures"],
-              summary["new_pictures"].get<int>() + summary["reprojected_ticks"].get<int>() +
-                  summary["repeated_ticks"].get<int>());
+    EXPECT_GE(summary["pictures"], summary["new_pictures"].get<int>() +
+                                       summary["reprojected_ticks"].get<int>() +
+                                       summary["repeated_ticks"].get<int>());
     EXPECT_EQ(summary["film"]["pictures"].get<int>() + summary["film"]["dropped"].get<int>(),
               summary["pictures"])
         << "the film has every tick";
