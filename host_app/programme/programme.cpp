@@ -25,8 +25,9 @@ constexpr std::chrono::milliseconds rest{250};
 /// longest of them.
 constexpr std::size_t fewest_judged = 20, judged_pictures = 200;
 constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
-/// Of a picture's width, that it is reprojected by while instants need the time.
-constexpr double near_enough = 0.02;
+/// Pictures that take more than this share of a tick leave instants too little time: they are not
+/// made of what a reprojection by no more than this share of a picture's width shows as well.
+constexpr double short_picture = 0.5, near_enough = 0.02;
 /// Of the time for pictures, at most, while instants have to be prepared beside them.
 constexpr double most_for_pictures = 0.75;
 constexpr std::chrono::milliseconds longest_carried{200};
@@ -104,15 +105,23 @@ void Programme::stop() {
     sinks_.finish();
 }
 
+bool Programme::can_reproject() const { return shown_ && !shown_->inverse_depth.empty(); }
+
+double Programme::usual_make_ms() const {
+    if (make_ms_.size() < fewest_judged) return 0;
+    std::vector<double> ms(make_ms_.begin(), make_ms_.end());
+    const auto middle = ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2);
+    std::nth_element(ms.begin(), middle, ms.end());
+    return *middle;
+}
+
 std::chrono::nanoseconds Programme::lead() const {
     const double period_ms = 1000 / settings_.rate_hz;
     if (make_ms_.size() < fewest_judged) return from_s(period_ms / 1000);
-    std::vector<double> sorted(make_ms_.begin(), make_ms_.end());
-    std::sort(sorted.begin(), sorted.end());
     // Where hardly any is ready at its tick, ticks show reprojections, and looks may be late.
-    const bool is_reprojected = shown_ && !shown_->inverse_depth.empty();
-    if (is_reprojected && sorted[sorted.size() / 2] > period_ms) return reprojection_lead();
-    return from_s(std::min(lead_ratio * sorted.back() + lead_margin_ms, period_ms) / 1000);
+    if (can_reproject() && usual_make_ms() > period_ms) return reprojection_lead();
+    const double longest_ms = *std::max_element(make_ms_.begin(), make_ms_.end());
+    return from_s(std::min(lead_ratio * longest_ms + lead_margin_ms, period_ms) / 1000);
 }
 
 std::chrono::nanoseconds Programme::reprojection_lead() const {
@@ -254,7 +263,8 @@ bool Programme::is_picture_due() const {
 }
 
 bool Programme::is_worth_rendering() const {
-    if (!transport().is_moving() || !begun_ || !shown_ || shown_->inverse_depth.empty())
+    if (!transport().is_moving() || !begun_ || !can_reproject() ||
+        usual_make_ms() < short_picture * 1000 / settings_.rate_hz)
         return true;
     PictureJob again = *begun_;
     again.camera = camera_;

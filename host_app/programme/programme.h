@@ -129,8 +129,12 @@ class Programme {
     bool look(double time_s, MonotonicTime now);
     /// Whether a picture of now would differ from the one that is shown.
     bool is_picture_due() const;
-    /// False where a picture that is due would differ from the last one by a short way of the
-    /// camera alone, which a reprojection shows as well: the time is for instants.
+    /// The picture that is shown has the depth for it.
+    bool can_reproject() const;
+    /// Of the last pictures; 0 before there are some.
+    double usual_make_ms() const;
+    /// False where pictures take long and one that is due would differ from the last one by a short
+    /// way of the camera alone, which a reprojection shows as well: the time is for instants.
     bool is_worth_rendering() const;
     /// False where pictures that take longer than their ticks have had their share of the time: the
     /// rest is for the instants beside them.

@@ -221,6 +221,12 @@ class ProgrammeTest : public testing::Test {
     void start() {
         programme_->start([](std::uint64_t, double) { return false; });
     }
+    /// That take longer than a tick.
+    void ask_for_long_pictures() {
+        settings_.format = {.width_px = 480, .height_px = 270};
+        settings_.rate_hz = 200;
+        settings_.quality.level = 0;
+    }
     void push(std::uint64_t pulse, unsigned char red = 200) {
         feed_.push(feed_.set(pulse, {"north", "south"}, {red, 100, 50, 255}));
     }
@@ -331,9 +337,7 @@ TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
 }
 
 TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThanTicks) {
-    settings_.format = {.width_px = 480, .height_px = 270};
-    settings_.rate_hz = 200;
-    settings_.quality.level = 0;
+    ask_for_long_pictures();
     make();
     start();
     push(1);
@@ -440,6 +444,7 @@ TEST_F(ProgrammeTest, CountsWhatItRepeats) {
 }
 
 TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
+    ask_for_long_pictures();
     make();
     push(1);
     start();
@@ -461,6 +466,7 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
 }
 
 TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
+    ask_for_long_pictures();
     make();
     push(1);
     start();
@@ -477,9 +483,7 @@ TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
 }
 
 TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
-    settings_.format = {.width_px = 480, .height_px = 270};
-    settings_.rate_hz = 200;  // so that no picture is rendered within a tick
-    settings_.quality.level = 0;
+    ask_for_long_pictures();
     make();
     push(1);
     start();
