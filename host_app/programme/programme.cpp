@@ -262,15 +262,16 @@ bool Programme::is_picture_due() const {
     return !shown_ || !is_same_picture(job, shown_->job);
 }
 
-bool Programme::is_worth_rendering() const {
+bool Programme::is_worth_rendering() {
+    const PictureJob job{instant_, camera_, governor_.render(), source_map_};
+    take_finished();
+    if (rendered_ && is_same_picture(rendered_->job, job)) return false;
     if (!transport().is_moving() || !begun_ || !can_reproject() ||
         usual_make_ms() < short_picture * 1000 / settings_.rate_hz)
         return true;
     PictureJob again = *begun_;
     again.camera = camera_;
-    const bool stands = is_same_view(camera_, camera_before_);
-    return stands ||
-           !is_same_picture(again, {instant_, camera_, governor_.render(), source_map_}) ||
+    return is_same_view(camera_, camera_before_) || !is_same_picture(again, job) ||
            Reprojection::way(begun_->camera, camera_) > near_enough;
 }
 

@@ -133,9 +133,10 @@ class Programme {
     bool can_reproject() const;
     /// Of the last pictures; 0 before there are some.
     double usual_make_ms() const;
-    /// False where pictures take long and one that is due would differ from the last one by a short
-    /// way of the camera alone, which a reprojection shows as well: the time is for instants.
-    bool is_worth_rendering() const;
+    /// False where the picture that is due waits to be handed over, and where pictures take long
+    /// and it would differ from the last one by a short way of the camera alone, which a
+    /// reprojection shows as well: the time is for instants.
+    bool is_worth_rendering();
     /// False where pictures that take longer than their ticks have had their share of the time: the
     /// rest is for the instants beside them.
     bool has_picture_time(MonotonicTime now);

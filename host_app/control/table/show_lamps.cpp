@@ -47,7 +47,7 @@ constexpr Lamp all[] = {
      [](const Show& s) { return LampValue(s.render_level); }},
     {"prepare_level", "quality of preparing; 0 is the best",
      [](const Show& s) { return LampValue(s.prepare_level); }},
-    {"repeated", "ticks without a new picture so far",
+    {"repeated", "ticks that repeated a picture",
      [](const Show& s) { return LampValue(s.repeated_ticks); }},
     {"output/1", "state of output 1 (and so on to output/8)", output_state<1>},
     {"output/2", "", output_state<2>},

@@ -449,7 +449,10 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.0005);  // so slowly that pictures are worth rendering now and then only
+    // So slowly that hardly any picture is worth rendering, once it is known that they are long.
+    pilot_.turn(0.0001);
+    const std::uint64_t first = programme_->books().pictures;
+    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= first + 25; }));
     const ProgrammeBooks before = programme_->books();
     ASSERT_TRUE(
         eventually([&] { return programme_->books().reprojected >= before.reprojected + 20; }));
@@ -465,6 +468,18 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
     }
 }
 
+TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
+    ask_for_long_pictures();
+    make();
+    start();
+    for (std::uint64_t pulse = 1; pulse <= 3; ++pulse) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+        ASSERT_TRUE(wait_for_ticks(60));
+        EXPECT_EQ(programme_->books().pictures, pulse);
+    }
+}
+
 TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
     ask_for_long_pictures();
     make();
@@ -474,12 +489,13 @@ TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
     pilot_.turn(0.0005);
     ASSERT_TRUE(eventually([&] { return programme_->books().reprojected >= 5; }));
     pilot_.turn(0);
-    const std::uint64_t pictures = programme_->books().pictures;
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > pictures; }));
-    ASSERT_TRUE(wait_for_ticks(3));
-    const std::uint64_t reprojected = programme_->books().reprojected;
-    ASSERT_TRUE(wait_for_ticks(3));
-    EXPECT_EQ(programme_->books().reprojected, reprojected);
+    ASSERT_TRUE(eventually([&] {
+        const ProgrammeBooks before = programme_->books();
+        return wait_for_ticks(40) && programme_->books().reprojected == before.reprojected &&
+               programme_->books().pictures == before.pictures;
+    }));
+    const ProgrammeState state = programme_->state();
+    EXPECT_TRUE(is_same_view(state.picture->job.camera, state.view.camera()));
 }
 
 TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
