@@ -55,10 +55,14 @@ extern "C" __attribute__((visibility("default"))) int pthread_mutex_destroy(
     // Who destroys a mutex that it holds itself is not held up for ever.
     constexpr std::chrono::milliseconds patience{500};
     constexpr std::chrono::microseconds look_period{50};
-    const auto end = std::chrono::steady_clock::now() + patience;
-    int held = 0;
-    while ((held = pthread_mutex_trylock(mutex)) == EBUSY && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(look_period);
+    int held = pthread_mutex_trylock(mutex);
+    if (held == EBUSY) {
+        const auto end = std::chrono::steady_clock::now() + patience;
+        while (held == EBUSY && std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(look_period);
+            held = pthread_mutex_trylock(mutex);
+        }
+    }
     if (held == 0) pthread_mutex_unlock(mutex);
     return destroy(mutex);
 }

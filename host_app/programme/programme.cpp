@@ -251,9 +251,13 @@ bool Programme::look(double time_s, MonotonicTime now) {
     return is_due;
 }
 
+PictureJob Programme::wanted_picture() const {
+    return {instant_, camera_, governor_.render(), source_map_, look_};
+}
+
 bool Programme::is_picture_due() const {
     if (!instant_ || instant_->synthesiser != renderer_->synthesiser.name) return false;
-    const PictureJob job{instant_, camera_, governor_.render(), source_map_};
+    const PictureJob job = wanted_picture();
     if (shown_ && shown_->job.level.rank < job.level.rank) {
         PictureJob better = job;
         better.level = shown_->job.level;
@@ -263,7 +267,7 @@ bool Programme::is_picture_due() const {
 }
 
 bool Programme::is_worth_rendering() {
-    const PictureJob job{instant_, camera_, governor_.render(), source_map_};
+    const PictureJob job = wanted_picture();
     take_finished();
     if (rendered_ && is_same_picture(rendered_->job, job)) return false;
     if (!transport().is_moving() || !begun_ || !can_reproject() ||
@@ -318,7 +322,7 @@ void Programme::wish_for_instant(MonotonicTime now) {
 }
 
 void Programme::begin_picture() {
-    begun_ = {instant_, camera_, governor_.render(), source_map_, look_};
+    begun_ = wanted_picture();
     renderer_->maker->start(*begun_);
 }
 

@@ -127,6 +127,8 @@ class Programme {
     void rehearse();
     /// Asks hands and plans; true if a picture is due.
     bool look(double time_s, MonotonicTime now);
+    /// Of now.
+    PictureJob wanted_picture() const;
     /// Whether a picture of now would differ from the one that is shown.
     bool is_picture_due() const;
     /// The picture that is shown has the depth for it.
@@ -161,9 +163,9 @@ class Programme {
     void begin_next_synthesiser();
     void follow_preview();
     void follow_synthesiser();
-    /// `due`: the first of the ticks that have passed.
     /// The reprojection to hand over; nothing if what was rendered is as new, or is shown.
     std::optional<Reprojector::Carried> newest_carried();
+    /// `due`: the first of the ticks that have passed.
     void hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due);
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due);
     /// Of the tick that was due then, so many ticks after the one for which time was looked at.
