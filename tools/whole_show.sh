@@ -51,10 +51,11 @@ started=$(date +%s)
 srt-live-transmit -q "srt://127.0.0.1:$srt?mode=caller" file://con >/dev/null 2>"$out/srt.log" &
 receiver=$!
 
-ask() { oscsend 127.0.0.1 $osc "/vantage/$1" "${@:2}"; }
-press() { printf '%s\r\n' "$1" >"/dev/tcp/127.0.0.1/$panel"; }
+# An act that hangs would hold up all that come after it and the samples.
+ask() { timeout 5 oscsend 127.0.0.1 $osc "/vantage/$1" "${@:2}"; }
+press() { timeout 5 bash -c "printf '%s\r\n' '$1' >/dev/tcp/127.0.0.1/$panel"; }
 tally() { printf '\x85%b%-16s' "$1" VIRT1 >"/dev/udp/127.0.0.1/$mixer"; }
-key() { xdotool mousemove 300 200 key --delay 50 "$@"; }
+key() { timeout 5 xdotool mousemove 300 200 key --delay 50 "$@"; }
 # A round of a minute, by its second: what an operator does.
 act() {
   case $1 in
@@ -71,7 +72,7 @@ act() {
     42) ask auto; key F1 ;;
     46) ask preview; key F1 ctrl+shift+Tab ;;
     48) ask remove_entry; ask remove_entry; ask delete_clip; ask delete_clip ;;
-    50) ask take; curl -s "http://127.0.0.1:$metrics/metrics" >"$out/metrics.txt" || true ;;
+    50) ask take; curl -s --max-time 5 "http://127.0.0.1:$metrics/metrics" >"$out/metrics.txt" || true ;;
     52) ask play ;;
     54) ask take; tally '\0' ;;
   esac
@@ -83,7 +84,7 @@ while kill -0 $host 2>/dev/null; do
   now=$(($(date +%s) - started))
   while [ $last -lt $now ]; do
     last=$((last + 1))
-    [ $last -gt $((seconds - 8)) ] || act $((last % 60)) || true
+    [ $last -gt $((seconds - 8)) ] || act $((last % 60)) || echo "an act of second $last failed" >&2
   done 2>>"$out/acts.log"
   sample "$now" $host $(pgrep -P "$rigs" vantage-rig || true) >>"$out/samples"
 done

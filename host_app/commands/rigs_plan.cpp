@@ -6,6 +6,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -49,6 +50,14 @@ class Scales {
         weight.colour_bytes += static_cast<double>(frame.packed->colour.size());
         weight.other_bytes +=
             static_cast<double>(frame.packed->bytes() - frame.packed->colour.size());
+    }
+    /// The rigs that nothing came of.
+    std::vector<std::string> silent() const {
+        const std::lock_guard lock(mutex_);
+        std::vector<std::string> silent;
+        for (const RigWeight& weight : weights_)
+            if (weight.frames == 0) silent.push_back(weight.rig);
+        return silent;
     }
     std::vector<RigWeight> means() const {
         const std::lock_guard lock(mutex_);
@@ -103,20 +112,18 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         if (end ? now >= *end : now >= give_up) break;
         const std::optional<FrameSet> set = receiver.next(std::chrono::milliseconds(100));
         if (!set) continue;
-        if (!end) end = MonotonicClock::now() + from_s(options.seconds);
+        // A rig that starts later than the others is weighed as long as they are.
+        if (!end && scales.silent().empty()) end = MonotonicClock::now() + from_s(options.seconds);
         for (std::size_t i = 0; i < set->slots.size(); ++i)
             if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
                 latest[i] = set->slots[i].frame;
     }
-    std::vector<RigWeight> weights = scales.means();
-    std::string silent;
-    for (const RigWeight& weight : weights)
-        if (weight.frames == 0) silent += (silent.empty() ? "" : ", ") + weight.rig;
-    if (!silent.empty())
-        fail("nothing came of {}: {}; vantage rigs status says how the rigs are", silent,
+    if (const std::vector<std::string> silent = scales.silent(); !silent.empty())
+        fail("nothing came of {}: {}; vantage rigs status says how the rigs are",
+             fmt::join(silent, ", "),
              options.start ? "a rig that sends nothing cannot be weighed"
                            : "rigs film once a host runs the stage, or this is told --start");
-    return {std::move(weights), std::move(latest)};
+    return {scales.means(), std::move(latest)};
 }
 
 std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {

@@ -112,9 +112,9 @@ TEST_F(TeddyOnUsb, HasTheDisparityThatTheFilesHave) {
         frame = rig.next_frame();
         if (frame->exposure >= plugged_in && off(frame->disparity) == 0) break;
     }
-    EXPECT_GE(frame->exposure, plugged_in);
-    EXPECT_EQ(frame->session, session);
-    EXPECT_EQ(off(frame->disparity), 0);
+    EXPECT_GE(frame->exposure, plugged_in) << rig.log();
+    EXPECT_EQ(frame->session, session) << rig.log();
+    EXPECT_EQ(off(frame->disparity), 0) << rig.log();
     const nlohmann::json summary = nlohmann::json::parse(rig.stop());
     EXPECT_GE(summary["source"]["reopened"], 1) << summary;
     EXPECT_GT(summary["source"]["copied_pictures"], 4) << summary;

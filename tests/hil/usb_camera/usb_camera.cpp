@@ -75,6 +75,8 @@ class UsbCamera {
         p.control_packet_func = [](void* self, std::uint64_t id,
                                    usb_redir_control_packet_header* header, std::uint8_t* data,
                                    int) {
+            // What is left of a frame that it was unplugged in is of no use.
+            if (commits_stream(*header)) me(self).sending_ = false;
             me(self).control(id, *header);
             if (data) usbredirparser_free_packet_data(me(self).parser_.get(), data);
         };
@@ -167,6 +169,13 @@ class UsbCamera {
         answer.endpoint = stream_endpoint;
         answer.status = usb_redir_cancelled;
         usbredirparser_send_bulk_packet(parser_.get(), id, &answer, nullptr, 0);
+    }
+
+    /// Whether the guest is about to stream.
+    static bool commits_stream(const usb_redir_control_packet_header& request) {
+        constexpr int set_current = 0x01, class_to_interface = 0x21, commit_control = 2;
+        return request.requesttype == class_to_interface && request.request == set_current &&
+               request.value >> 8 == commit_control;
     }
 
     void control(std::uint64_t id, const usb_redir_control_packet_header& header) const {

@@ -228,5 +228,23 @@ TEST_F(RigTroubles, WithANetworkTooNarrowAreToldBeforeAnybodyFilms) {
     EXPECT_LE(proposals[0]["host_mbit_s"], 80);
 }
 
+TEST_F(RigTroubles, OfARigThatIsSlowToStartDoNotKeepItFromBeingWeighed) {
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const auto north = start_rig("north", ports_.first, 5);
+    const auto south = start_rig("south", ports_.second, 5);
+    ChildProgram plan(VANTAGE_PROGRAM,
+                      {"rigs", "plan", "--stage", file("stage.toml"), "--seconds", "1", "--wait",
+                       "60", "--start", "--json"},
+                      folder_.path());
+    wait_for(plan, "the take's first pulse is");
+    south->send_signal(SIGSTOP);
+    sleep(3);  // for longer than is weighed
+    south->send_signal(SIGCONT);
+    const ProgramResult result = plan.wait();
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const nlohmann::json& rig : nlohmann::json::parse(result.out)["rigs"])
+        EXPECT_GE(rig["frames"], 1) << rig;
+}
+
 }  // namespace
 }  // namespace vantage
