@@ -133,10 +133,12 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                 {"reprojected_ticks", programme.reprojected},
                                 {"repeated_ticks", programme.repeated},
                                 {"missed_ticks", programme.missed},
+                                {"superseded_pictures", programme.superseded},
                                 {"synthesiser", report.synthesiser},
                                 {"renderer", report.renderer},
                                 {"signal", key_of(report.signal)}};
     json["time"] = time_json(report);
+    json["reprojected_way"] = to_json(programme.reprojected_way);
     json["tick_late_ms"] = to_json(programme.late_ms);
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);

@@ -202,10 +202,12 @@ std::string to_text(const LiveReport& report) {
     const ProgrammeBooks& programme = report.programme;
     std::string text = fmt::format(
         "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, of {} "
-        "ticks {} reprojected and {} repeated the last one, {} missed (synthesiser {}, on {})\n",
+        "ticks {} reprojected and {} repeated the last one, {} missed, {} pictures superseded "
+        "(synthesiser {}, on {})\n",
         report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
         report.format.height_px, programme.duration_s, programme.ticks, programme.reprojected,
-        programme.repeated, programme.missed, report.synthesiser, report.renderer);
+        programme.repeated, programme.missed, programme.superseded, report.synthesiser,
+        report.renderer);
     text += line_of("after the tick", programme.late_ms);
     text += line_of("between two pictures", programme.interval_ms);
     if (programme.latency_ms.count > 0)

@@ -30,6 +30,9 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.repeated));
     text.counter("missed_ticks", "Ticks that passed before the programme came to them.");
     text.sample(number(programme.missed));
+    text.counter("superseded_pictures",
+                 "Pictures that no tick showed: a newer one was ready before.");
+    text.sample(number(programme.superseded));
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
     text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");

@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds rest{250};
 constexpr std::size_t fewest_judged = 20, judged_pictures = 200;
 constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
 /// Pictures that take more than this share of a tick leave instants too little time: they are not
-/// made of what a reprojection by no more than this share of a picture's width shows as well.
+/// made of what a reprojection by no more than this share of a picture's width will show as well.
 constexpr double short_picture = 0.5, near_enough = 0.02;
 /// Of the time for pictures, at most, while instants have to be prepared beside them.
 constexpr double most_for_pictures = 0.75;
@@ -113,6 +113,10 @@ double Programme::usual_make_ms() const {
     const auto middle = ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2);
     std::nth_element(ms.begin(), middle, ms.end());
     return *middle;
+}
+
+bool Programme::are_pictures_long() const {
+    return can_reproject() && usual_make_ms() >= short_picture * 1000 / settings_.rate_hz;
 }
 
 std::chrono::nanoseconds Programme::lead() const {
@@ -270,13 +274,11 @@ bool Programme::is_worth_rendering() {
     const PictureJob job = wanted_picture();
     take_finished();
     if (rendered_ && is_same_picture(rendered_->job, job)) return false;
-    if (!transport().is_moving() || !begun_ || !can_reproject() ||
-        usual_make_ms() < short_picture * 1000 / settings_.rate_hz)
-        return true;
+    if (!transport().is_moving() || !begun_ || !are_pictures_long()) return true;
     PictureJob again = *begun_;
     again.camera = camera_;
     return is_same_view(camera_, camera_before_) || !is_same_picture(again, job) ||
-           Reprojection::way(begun_->camera, camera_) > near_enough;
+           Reprojection::way(begun_->camera, forecast_.in(usual_make_ms() / 1000)) > near_enough;
 }
 
 bool Programme::has_picture_time(MonotonicTime now) {
@@ -323,12 +325,20 @@ void Programme::wish_for_instant(MonotonicTime now) {
 
 void Programme::begin_picture() {
     begun_ = wanted_picture();
+    // The ticks that show it reproject it: by less where it is of the camera that they will have.
+    if (are_pictures_long() && !is_same_view(camera_, camera_before_))
+        begun_->camera = forecast_.in(usual_make_ms() / 1000 + 1 / settings_.rate_hz);
     renderer_->maker->start(*begun_);
 }
 
 void Programme::take_finished() {
-    if (std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished())
+    if (std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished()) {
+        if (rendered_) {
+            const std::lock_guard lock(mutex_);
+            ++books_.superseded;
+        }
         rendered_ = std::move(fresh);
+    }
     if (std::optional<Reprojector::Carried> carried = reprojector_.take_finished())
         carried_ = std::move(carried);
 }
@@ -483,6 +493,9 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         if (carried || is_new)
             hands_.showed(handed_->job.look,
                           carried ? carried->rendered->job.look : shown_->job.look, now);
+        if (carried)
+            reprojected_way_.add(
+                Reprojection::way(carried->rendered->job.camera, carried->picture->job.camera));
         if (!is_new && was_due) ++(carried ? books_.reprojected : books_.repeated);
         state_.picture = handed_;
         books_.ticks += passed_ticks;
@@ -545,6 +558,7 @@ ProgrammeBooks Programme::books() const {
     ProgrammeBooks books = books_;
     books.sinks = sinks_.states();
     books.late_ms = late_ms_.summary();
+    books.reprojected_way = reprojected_way_.summary();
     books.interval_ms = interval_ms_.summary();
     books.latency_ms = latency_ms_.summary();
     books.hand_ms = hands_.all_ms();

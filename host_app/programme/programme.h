@@ -36,9 +36,12 @@ struct ProgrammeBooks {
     std::uint64_t pictures = 0;     ///< ticks with a new one
     std::uint64_t reprojected = 0;  ///< ticks for which a new one was due and not ready, and which
                                     ///< got the last one as the camera would see it now
+    Percentiles reprojected_way;    ///< of all that were reprojected, new ones too, in shares of
+                                    ///< the picture's width
     std::uint64_t repeated = 0;     ///< such ticks that got the last one as it was
     std::uint64_t missed = 0;       ///< of those, ticks that had passed before the programme came
                                     ///< to them; sinks were given them late
+    std::uint64_t superseded = 0;   ///< pictures that no tick showed: a newer one was ready before
     Percentiles late_ms;            ///< from a tick to the hand-over of its picture
     double duration_s = 0;          ///< since the first picture
     Percentiles interval_ms;        ///< between two new pictures
@@ -135,6 +138,7 @@ class Programme {
     bool can_reproject() const;
     /// Of the last pictures; 0 before there are some.
     double usual_make_ms() const;
+    bool are_pictures_long() const;
     /// False where the picture that is due waits to be handed over, and where pictures take long
     /// and it would differ from the last one by a short way of the camera alone, which a
     /// reprojection shows as well: the time is for instants.
@@ -219,8 +223,8 @@ class Programme {
     mutable std::mutex mutex_;
     ProgrammeState state_;
     ProgrammeBooks books_;
-    PercentileRecorder late_ms_, interval_ms_, latency_ms_, rest_ms_, render_ms_, readback_ms_,
-        preview_ms_;
+    PercentileRecorder reprojected_way_, late_ms_, interval_ms_, latency_ms_, rest_ms_, render_ms_,
+        readback_ms_, preview_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

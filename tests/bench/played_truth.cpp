@@ -176,6 +176,7 @@ std::string played_table(const PlayedTruth& wanted) {
         "| | |\n| --- | --- |\n"
         "| wavering while the camera flies | {:.1f} times a camera's noise |\n"
         "| ticks: all, reprojected, repeated, missed | {}, {}, {}, {} |\n"
+        "| reprojected by: p50, p99 | {:.1f}, {:.1f} % of the width |\n"
         "| hand-over after the tick: p50, p99, most | {:.1f}, {:.1f}, {:.0f} ms |\n"
         "| exposure to picture: p50, p95, p99 | {:.0f}, {:.0f}, {:.0f} ms |\n"
         "| between two new pictures: p50, p99 | {:.0f}, {:.0f} ms |\n"
@@ -185,9 +186,10 @@ std::string played_table(const PlayedTruth& wanted) {
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
         wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.debris(),
         tick.psnr_db(), tick.ssim(), 100 * tick.debris(), wavering.against_a_camera(), books.ticks,
-        books.reprojected, books.repeated, books.missed, books.late_ms.p50, books.late_ms.p99,
-        books.late_ms.max, books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99,
-        books.interval_ms.p50, books.interval_ms.p99,
+        books.reprojected, books.repeated, books.missed, 100 * books.reprojected_way.p50,
+        100 * books.reprojected_way.p99, books.late_ms.p50, books.late_ms.p99, books.late_ms.max,
+        books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
+        books.interval_ms.p99,
         static_cast<double>(played.report.instants_prepared) / books.duration_s,
         shares_text(books.render_shares), shares_text(books.prepare_shares));
 }

@@ -36,8 +36,7 @@ class ScriptedPilot final : public Pilot {
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;
         // To and fro: what the rigs see stays in the middle, however long a test takes.
-        constexpr double furthest_rad = 0.1;
-        if (std::abs(next_.view.azimuth_rad + turn_rad_) > furthest_rad) turn_rad_ = -turn_rad_;
+        if (std::abs(next_.view.azimuth_rad + turn_rad_) > furthest_rad_) turn_rad_ = -turn_rad_;
         next_.view.azimuth_rad += turn_rad_;
         if (next_.preview) next_.preview->azimuth_rad += preview_turn_rad_;
         PilotStep step = next_;
@@ -57,10 +56,11 @@ class ScriptedPilot final : public Pilot {
         const std::lock_guard lock(mutex_);
         change(next_);
     }
-    /// From now on, at every step.
-    void turn(double rad) {
+    /// From now on, at every step; to and fro.
+    void turn(double rad, double furthest_rad = 0.1) {
         const std::lock_guard lock(mutex_);
         turn_rad_ = rad;
+        furthest_rad_ = furthest_rad;
     }
     void turn_preview(double rad) {
         const std::lock_guard lock(mutex_);
@@ -83,7 +83,7 @@ class ScriptedPilot final : public Pilot {
   private:
     mutable std::mutex mutex_;
     PilotStep next_;
-    double turn_rad_ = 0, preview_turn_rad_ = 0;
+    double turn_rad_ = 0, furthest_rad_ = 0, preview_turn_rad_ = 0;
     int steps_ = 0, shot_ = 0;
     std::string failure_;
 };
@@ -466,6 +466,24 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
         EXPECT_GE(moved, 20) << "the camera of every tick";
         EXPECT_NEAR(seen_->last_middle[0], 200, 3);
     }
+}
+
+TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
+    ask_for_long_pictures();
+    make();
+    push(1);
+    start();
+    ASSERT_TRUE(wait_for_pulse(1));
+    constexpr double turn_rad = 0.004;
+    pilot_.turn(turn_rad, 0.8);
+    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= 60; }));
+    const ProgrammeBooks books = programme_->books();
+    const double ticks_long = books.render_ms.p50 / 1000 * settings_.rate_hz;
+    ASSERT_GT(ticks_long, 1);
+    const double flown_meanwhile =
+        ticks_long * turn_rad / programme_->state().view.field_of_view_rad;
+    EXPECT_LT(books.reprojected_way.p50, flown_meanwhile)
+        << "those of the camera as it was are older than they took, when they are shown first";
 }
 
 TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
