@@ -24,4 +24,9 @@ void HandWatch::showed(std::uint64_t camera_look, std::uint64_t rendered_look, M
     std::erase_if(waiting_, is_shown);
 }
 
+bool HandWatch::is_waiting_for_rendering() const {
+    return std::any_of(waiting_.begin(), waiting_.end(),
+                       [](const Input& input) { return !input.only_flies; });
+}
+
 }  // namespace vantage

@@ -22,6 +22,10 @@ class HandWatch {
     /// over. The longest that an input waited for it counts.
     void showed(std::uint64_t camera_look, std::uint64_t rendered_look, MonotonicTime now);
 
+    bool is_waiting() const { return !waiting_.empty(); }
+    /// For a picture that is rendered with an input.
+    bool is_waiting_for_rendering() const;
+
     Percentiles all_ms() const { return all_ms_.summary(); }
 
   private:

@@ -283,7 +283,14 @@ bool Programme::is_worth_rendering() {
 
 bool Programme::has_picture_time(MonotonicTime now) {
     const bool has_some = picture_time_.has_some(now);
-    return has_some || !transport().is_moving();
+    return has_some || !transport().is_moving() || is_hand_waiting_for_rendering();
+}
+
+bool Programme::is_hand_waiting_for_rendering() const {
+    if (!hands_.is_waiting() || !shown_) return false;
+    const std::shared_ptr<const MadePicture>& newest = rendered_ ? rendered_ : shown_;
+    return hands_.is_waiting_for_rendering() ||
+           Reprojection::way(newest->job.camera, camera_) > Reprojection::furthest;
 }
 
 std::optional<std::uint64_t> Programme::past_pulse() const {

@@ -146,6 +146,8 @@ class Programme {
     /// False where pictures that take longer than their ticks have had their share of the time: the
     /// rest is for the instants beside them.
     bool has_picture_time(MonotonicTime now);
+    /// What an operator asked for comes to light by a new picture alone: instants wait for that.
+    bool is_hand_waiting_for_rendering() const;
     /// While a jump is waited for: what has become ready since the look is shown at the next tick,
     /// not a tick later. True if something has.
     bool take_up_sought();

@@ -14,6 +14,8 @@ TEST(HandWatch, CountsFromTheEarliestInputToTheFirstPictureWithIt) {
     watch.saw(began, 3, true);
     watch.saw(began + 40ms, 4, true);
     watch.showed(2, 2, began + 50ms);
+    EXPECT_TRUE(watch.is_waiting());
+    EXPECT_FALSE(watch.is_waiting_for_rendering());
     EXPECT_EQ(watch.all_ms().count, 0u) << "a picture of before";
     watch.showed(4, 4, began + 90ms);
     EXPECT_EQ(watch.all_ms().count, 1u);
@@ -29,7 +31,9 @@ TEST(HandWatch, TakesAPictureThatWasCarriedOnForWhatOnlyFlies) {
     watch.showed(4, 2, began + 50ms);
     EXPECT_EQ(watch.all_ms().count, 1u);
     EXPECT_DOUBLE_EQ(watch.all_ms().max, 50);
+    EXPECT_TRUE(watch.is_waiting_for_rendering());
     watch.showed(5, 4, began + 101ms);
+    EXPECT_FALSE(watch.is_waiting());
     EXPECT_EQ(watch.all_ms().count, 2u) << "what is more than that waits for one that was rendered";
     EXPECT_DOUBLE_EQ(watch.all_ms().max, 100);
 }
