@@ -288,9 +288,8 @@ bool Programme::has_picture_time(MonotonicTime now) {
 
 bool Programme::is_hand_waiting_for_rendering() const {
     if (!hands_.is_waiting() || !shown_) return false;
-    const std::shared_ptr<const MadePicture>& newest = rendered_ ? rendered_ : shown_;
     return hands_.is_waiting_for_rendering() ||
-           Reprojection::way(newest->job.camera, camera_) > Reprojection::furthest;
+           Reprojection::way(newest_rendered()->job.camera, camera_) > Reprojection::furthest;
 }
 
 std::optional<std::uint64_t> Programme::past_pulse() const {
@@ -352,7 +351,7 @@ void Programme::take_finished() {
 
 void Programme::begin_reprojection() {
     take_finished();
-    std::shared_ptr<const MadePicture> newest = rendered_ ? rendered_ : shown_;
+    std::shared_ptr<const MadePicture> newest = newest_rendered();
     if (!newest || is_same_view(newest->job.camera, camera_) || !reprojector_.is_idle()) return;
     // A cut to the preview is there already.
     if (const std::shared_ptr<const MadePicture> preview = preview_.picture();
@@ -369,7 +368,7 @@ std::optional<Reprojector::Carried> Programme::newest_carried() {
     if (!carried || carried->picture->job.look <= known) return std::nullopt;
     // One that was rendered after the reprojection of the one before was begun waits for the next
     // tick, but if it is of the camera as it is.
-    if (is_same_view((rendered_ ? rendered_ : shown_)->job.camera, camera_)) return std::nullopt;
+    if (is_same_view(newest_rendered()->job.camera, camera_)) return std::nullopt;
     return carried;
 }
 

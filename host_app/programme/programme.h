@@ -157,6 +157,10 @@ class Programme {
     void begin_picture();
     /// What the maker and the reprojector finished waits to be handed over.
     void take_finished();
+    /// Handed over or not yet; null before the first.
+    const std::shared_ptr<const MadePicture>& newest_rendered() const {
+        return rendered_ ? rendered_ : shown_;
+    }
     /// Carries the newest picture on to the camera, if that has left it.
     void begin_reprojection();
     /// Of the past, that time stands at; nothing: there is none.
