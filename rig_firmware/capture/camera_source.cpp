@@ -176,10 +176,14 @@ class CameraSource final : public StereoSource {
     }
 
     /// Lets go of what the drivers filled while the rest of the daemon was being built: those
-    /// pictures are old, and many are lost after them.
+    /// pictures are old, and many are lost after them. One that is new ends it: a computer that
+    /// converts them more slowly than they come would never get to the last.
     void drain() {
+        const MonotonicTime begin = MonotonicClock::now();
         for (const auto& camera : cameras_)
-            while (camera->take()) {
+            for (;;) {
+                const std::optional<SensorPicture> picture = camera->take();
+                if (!picture || picture->time >= begin) break;
             }
         silence_.heard();
         begun_ = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class ChildProgram {
     std::string err() const;
     /// Waits for its end.
     ProgramResult wait();
+    /// As wait()'s status, if it has ended.
+    std::optional<int> ended() { return process_.ended(); }
 
   private:
     std::filesystem::path out_, err_;

@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include <fnmatch.h>
 #include <libcamera/libcamera.h>
 #include <sys/mman.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/pulse_grid.h"
+#include "common/base/time.h"
 #include "common/wire/wake_event.h"
 #include "rig_firmware/capture/buffer_lender.h"
 #include "rig_firmware/capture/camera_access.h"
@@ -105,12 +111,54 @@ class MappedBuffer {
     std::size_t begin_ = 0, length_ = 0;
 };
 
+/// The kernel's devices of a camera. libcamera hears of their end from udev, some time after it,
+/// and ends the process (0.3 to 0.7 at least) where a camera is stopped or given a buffer between.
+class KernelDevices {
+  public:
+    explicit KernelDevices(const libcamera::Camera& camera) {
+        const auto numbers = camera.properties().get(libcamera::properties::SystemDevices);
+        if (!numbers) return;
+        for (const std::int64_t number : *numbers) {
+            const auto device = static_cast<dev_t>(number);
+            entries_.push_back(fmt::format("/sys/dev/char/{}:{}", major(device), minor(device)));
+        }
+    }
+    bool are_there() const {
+        return std::all_of(entries_.begin(), entries_.end(), [](const std::string& entry) {
+            return ::access(entry.c_str(), F_OK) == 0;
+        });
+    }
+
+  private:
+    std::vector<std::string> entries_;
+};
+
+/// Work that libcamera's thread does between its own.
+class Errand : public libcamera::Object {
+  public:
+    /// Returns when the work is done.
+    static void run(libcamera::Camera& camera, std::function<void()> work) {
+        const auto end_there = [](Errand* errand) { errand->deleteLater(); };
+        const std::unique_ptr<Errand, decltype(end_there)> errand(
+            new Errand(camera, std::move(work)));
+        errand->invokeMethod(&Errand::work, libcamera::ConnectionTypeBlocking);
+    }
+
+  private:
+    Errand(libcamera::Camera& camera, std::function<void()> work)
+        : Object(&camera), work_(std::move(work)) {}
+    void work() { work_(); }
+
+    std::function<void()> work_;
+};
+
 class LibcameraCamera final : public SensorCamera {
   public:
     LibcameraCamera(std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
                     const RigConfig::Source& wish, bool side_by_side)
         : manager_(std::move(manager)),
           camera_(find_camera(*manager_, pattern)),
+          devices_(*camera_),
           lender_([this](unsigned index) { take_back(index); }) {
         if (camera_->acquire() != 0)
             throw DeviceLost(fmt::format(
@@ -142,8 +190,7 @@ class LibcameraCamera final : public SensorCamera {
         }
         std::optional<SensorPicture> picture = picture_of(*request);
         if (picture && picture->lent) return picture;
-        request->reuse(libcamera::Request::ReuseBuffers);
-        if (camera_->queueRequest(request) != 0)
+        if (!queue_again(*request))
             throw DeviceLost(fmt::format("camera '{}' takes no more buffers", camera_->id()));
         return picture;
     }
@@ -269,6 +316,7 @@ class LibcameraCamera final : public SensorCamera {
         ready_.notify();
     }
     void on_disconnected() {
+        disconnected_ = true;
         lost_ = true;
         ready_.notify();
     }
@@ -334,26 +382,42 @@ class LibcameraCamera final : public SensorCamera {
 
     /// On any thread; libcamera's queue is safe for that.
     void take_back(unsigned index) noexcept {
-        libcamera::Request* request = requests_[index].get();
-        request->reuse(libcamera::Request::ReuseBuffers);
-        if (camera_->queueRequest(request) == 0) return;
+        if (queue_again(*requests_[index])) return;
         lost_ = true;
         ready_.notify();
+    }
+    bool queue_again(libcamera::Request& request) const {
+        request.reuse(libcamera::Request::ReuseBuffers);
+        return devices_.are_there() && camera_->queueRequest(&request) == 0;
     }
 
     void shut() {
         lender_.close();
-        camera_->requestCompleted.disconnect(this);
-        camera_->disconnected.disconnect(this);
-        if (started_) camera_->stop();
-        requests_.clear();
+        if (!devices_.are_there())
+            await_disconnection();
+        else if (started_)
+            camera_->stop();
+        // libcamera's thread may still be told to do things with requests and slots that end here.
+        Errand::run(*camera_, [this] {
+            camera_->requestCompleted.disconnect(this);
+            camera_->disconnected.disconnect(this);
+            requests_.clear();
+        });
         mappings_.clear();
         allocator_.reset();
         camera_->release();
     }
 
+    void await_disconnection() const {
+        constexpr std::chrono::seconds longest(2);
+        const MonotonicTime end = MonotonicClock::now() + longest;
+        while (!disconnected_ && MonotonicClock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+
     std::shared_ptr<libcamera::CameraManager> manager_;
     std::shared_ptr<libcamera::Camera> camera_;
+    KernelDevices devices_;
     std::unique_ptr<libcamera::CameraConfiguration> configuration_;
     PixelFormat format_ = PixelFormat::grey;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
@@ -367,6 +431,7 @@ class LibcameraCamera final : public SensorCamera {
     std::mutex mutex_;
     std::deque<libcamera::Request*> completed_;  ///< as many as there are requests at most
     std::atomic<bool> lost_ = false;
+    std::atomic<bool> disconnected_ = false;  ///< and libcamera knows
     bool lends_ = false;
     BufferLender lender_;  ///< last: what comes back uses what stands above
 };

@@ -47,8 +47,13 @@ void RigProcess::start() {
 }
 
 std::shared_ptr<const RigFrame> RigProcess::next_frame() {
-    if (const auto set = receiver_->stage_receiver.next(longest_wait))
-        if (set->slots[0].frame) return set->slots[0].frame;
+    const auto end = std::chrono::steady_clock::now() + longest_wait;
+    while (std::chrono::steady_clock::now() < end) {
+        if (const auto set = receiver_->stage_receiver.next(std::chrono::seconds(1)))
+            if (set->slots[0].frame) return set->slots[0].frame;
+        if (const auto status = program_->ended())
+            fail("the rig ended with {}; it said: {}", *status, log());
+    }
     fail("no frame of the rig came within {} s; it said: {}", longest_wait.count(), log());
 }
 

@@ -18,7 +18,15 @@ constexpr int asked_width = 30, asked_height = 20;
 /// What two cameras of a test have to deliver, and how often they were opened.
 struct Bench {
     std::deque<SensorPicture> pictures;  ///< of both sides in one
+    bool has_always_one = false;         ///< exposed just now
     int openings = 0;
+
+    void deliver() {
+        pictures.push_back(
+            {.sequence = 0,
+             .time = MonotonicClock::now(),
+             .colour = ColourImage(asked_height, 2 * asked_width, cv::Vec4b::all(9))});
+    }
 };
 
 class FakeCamera final : public SensorCamera {
@@ -26,6 +34,7 @@ class FakeCamera final : public SensorCamera {
     explicit FakeCamera(Bench& bench) : bench_(bench) { ++bench_.openings; }
     int fd() const override { return -1; }
     std::optional<SensorPicture> take() override {
+        if (bench_.has_always_one) bench_.deliver();
         if (bench_.pictures.empty()) return std::nullopt;
         SensorPicture picture = std::move(bench_.pictures.front());
         bench_.pictures.pop_front();
@@ -58,6 +67,12 @@ class FakeTrigger final : public RigTrigger {
 class CameraSourceTest : public testing::Test {
   protected:
     CameraSourceTest() {
+        open();
+        // What lay there before the first look is thrown away.
+        (void)source_->next(1ms);
+    }
+
+    void open() {
         RigConfig config;
         config.source.kind = "v4l2";
         config.source.left_device = "both";
@@ -68,15 +83,6 @@ class CameraSourceTest : public testing::Test {
             return std::make_unique<FakeCamera>(bench_);
         });
         source_->use(&trigger_);
-        // What lay there before the first look is thrown away.
-        (void)source_->next(1ms);
-    }
-
-    void deliver() {
-        bench_.pictures.push_back(
-            {.sequence = 0,
-             .time = MonotonicClock::now(),
-             .colour = ColourImage(asked_height, 2 * asked_width, cv::Vec4b::all(9))});
     }
 
     static constexpr auto longer_than_any_silence = 3300ms;
@@ -89,12 +95,18 @@ TEST_F(CameraSourceTest, LeavesCamerasOpenThatWaitForTheFirstPulse) {
     EXPECT_FALSE(source_->next(longer_than_any_silence));
     EXPECT_EQ(bench_.openings, 1);
     trigger_.sent = 1;
-    deliver();
+    bench_.deliver();
     const auto frame = source_->next(1s);
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->trigger_index, 7u);
     EXPECT_FALSE(source_->next(longer_than_any_silence)) << "the take has ended";
     EXPECT_EQ(bench_.openings, 1);
+}
+
+TEST_F(CameraSourceTest, BeginsWithCamerasThatAreFasterThanTheirPicturesAreConverted) {
+    open();
+    bench_.has_always_one = true;
+    EXPECT_TRUE(source_->next(1s));
 }
 
 TEST_F(CameraSourceTest, OpensCamerasAnewThatDoNotAnswerToPulses) {
