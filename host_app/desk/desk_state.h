@@ -17,7 +17,7 @@ namespace vantage {
 
 // All that the operator's desk tells, as values: whoever draws it knows no rig and no programme.
 
-enum class RigState { present, late, missed, disconnected, refused };
+enum class RigState { present, starting, late, missed, disconnected, refused };
 
 struct DeskRig {
     std::string name;
@@ -232,7 +232,8 @@ struct DeskState {
     std::string ltc;  ///< that comes in, and by how much it differs; empty: none
     std::uint64_t pulse = 0;
     bool is_ltc_off = false;
-    bool waiting = true;  ///< no set has come yet
+    bool waiting = true;    ///< no instant is ready yet
+    bool has_sets = false;  ///< of frames, whether ready or not
     SignalState signal = SignalState::live;
     bool recording = false;  ///< a film
     bool recording_flight = false;

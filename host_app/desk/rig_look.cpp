@@ -6,6 +6,8 @@ RigLook look_of(RigState state) {
     switch (state) {
         case RigState::present:
             return {"live", Mark::good};
+        case RigState::starting:
+            return {"no picture yet", Mark::care};
         case RigState::late:
             return {"late", Mark::care};
         case RigState::missed:

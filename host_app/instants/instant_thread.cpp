@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -58,6 +59,16 @@ bool is_better(const InstantWish& wish, const InstantWish& before) {
     };
     return wish.level.rank < before.level.rank || is_elsewhere(wish.target, before.target) ||
            (wish.preview && (!before.preview || is_elsewhere(*wish.preview, *before.preview)));
+}
+
+/// Those of the first set. Where the others of so many rigs are yet to come, the one that is there
+/// stands for another too: what rigs do for each other is rehearsed before the show, not in it.
+std::vector<DepthView> for_rehearsal(std::vector<DepthView> views, std::size_t rigs) {
+    if (views.size() == 1 && rigs > 1) {
+        views.push_back(views.front());
+        views.back().name += "'";
+    }
+    return views;
 }
 
 /// The first, and what rigs the second has besides.
@@ -356,6 +367,19 @@ void InstantThread::note_prepared(bool is_counted, const SetMemory* memory) {
     prepare_ms_.add(last_.prepare_ms);
 }
 
+void InstantThread::rehearse(InstantPreparer& preparer, FrameSet& set, const InstantWish& wish) {
+    unprepared_ = set;
+    preparer.rehearse(for_rehearsal(views_of(set, false), set.slots.size()), wish.target);
+    is_rehearsed_ = true;
+    std::optional<FrameSet> newer = wish.pulse ? std::nullopt : sets_.take();
+    if (newer) {
+        const std::lock_guard lock(mutex_);
+        count_unprepared();
+        set = std::move(*newer);
+    }
+    unprepared_.reset();
+}
+
 void InstantThread::prepare_instants() {
     if (generations_.empty() || generations_.back().member.generation != contexts_->generation())
         generations_.push_back({contexts_->join(), {}, {}});
@@ -415,9 +439,13 @@ void InstantThread::prepare_instants() {
         }
         // Of a set that was given up half-way the preparer has some: what is shown comes anew too.
         const std::uint64_t shown = prepared && last_.set ? last_.set->trigger_index : no_pulse;
-        const MonotonicTime taken_up = MonotonicClock::now();
+        MonotonicTime taken_up = MonotonicClock::now();
         double share = 0;
         std::optional<FrameSet> set = next_set(wish, shown, share);
+        if (set && !is_rehearsed_) {
+            rehearse(*preparer, *set, wish);
+            taken_up = MonotonicClock::now();
+        }
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
             const bool is_live = !wish.pulse;
@@ -434,10 +462,6 @@ void InstantThread::prepare_instants() {
             const std::vector<DepthView> views = views_of(*set, is_counted);
             // In the past the camera says nothing of what is needed live.
             if (is_live) ask_for_rigs(views, wish);
-            if (!is_rehearsed_ && set->present() == static_cast<int>(set->slots.size())) {
-                preparer->rehearse(views, wish.target);
-                is_rehearsed_ = true;
-            }
             // What was jumped to is made ready in any case, so that a jog shows what it passes.
             const bool is_sought = std::exchange(fetched_jumps_, wish.jumps) != wish.jumps;
             const auto get_ready = [&] {

@@ -141,6 +141,8 @@ class InstantThread {
     };
     void run();
     void prepare_instants();
+    /// With the first set. That takes seconds: where a newer one came meanwhile, `set` is that.
+    void rehearse(InstantPreparer& preparer, FrameSet& set, const InstantWish& wish);
     /// Counts what was prepared last.
     void note_prepared(bool is_counted, const SetMemory* memory);
     /// As superseded. Precondition: mutex_ is held.
@@ -182,7 +184,7 @@ class InstantThread {
     std::optional<double> fetched_;        ///< the pulse that was looked up in the past last
     std::vector<Generation> generations_;  ///< of the thread; all but the last are lost
     bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown
-    bool is_rehearsed_ = false;            ///< of the thread: with the first set of all rigs
+    bool is_rehearsed_ = false;            ///< of the thread: with the first set
     ReadyInstant last_;                    ///< of the thread: what was prepared last
     std::optional<FrameSet> unprepared_;   ///< of the thread: the live set that is being prepared
     std::optional<std::uint64_t> jumps_;   ///< of the thread: what it does gives way to the next

@@ -31,14 +31,15 @@ constexpr double corridor_reach = 1.3;  ///< of the farthest rig's distance from
 RigState state_in(const FrameSet* set, const RigStatus& status) {
     if (!status.refused.empty()) return RigState::refused;
     if (!status.connected) return RigState::disconnected;
-    if (!set) return RigState::late;
+    const RigState absent = status.received == 0 ? RigState::starting : RigState::late;
+    if (!set) return absent;
     for (const FrameSet::Slot& slot : set->slots) {
         if (slot.rig != status.rig) continue;
         if (slot.frame && slot.frame->has_pictures()) return RigState::present;
         if (slot.absence == Absence::missed_by_rig) return RigState::missed;
         if (slot.absence == Absence::disconnected) return RigState::disconnected;
     }
-    return RigState::late;
+    return absent;
 }
 
 bool is_at_rig(const std::string& step) {
@@ -195,6 +196,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.figures = desk_figures(report);
+    state_.has_sets = show.settings().take || report.sets_closed > 0;
     state_.picture_rate_hz = picture_rate_.per_second();
     state_.tick_rate_hz = show.settings().rate_hz;
     state_.repeat_rate_hz = repeat_rate_.per_second();

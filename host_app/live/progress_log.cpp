@@ -29,6 +29,7 @@ std::string ProgressLog::line(const LiveShow& show) {
     const InstantThread::Books instants = show.instant_books();
     if (books.pictures == 0) {
         instants_ = instants.prepared;
+        if (status.sets == 0) return "no picture yet: no rig has sent one";
         return fmt::format(
             "no picture yet: the renderer compiles its shaders, {} of {} rigs give pictures",
             giving, status.rigs.size());

@@ -29,6 +29,9 @@ TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
     DeskState state = good_state();
     state.waiting = true;
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);
+    EXPECT_EQ(air_verdict(state).why, "no rig has sent a picture yet");
+    state.has_sets = true;
+    EXPECT_EQ(air_verdict(state).why, "the renderer compiles its shaders");
     state = good_state();
     state.signal = SignalState::stale;
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);

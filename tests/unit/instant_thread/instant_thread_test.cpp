@@ -1,6 +1,7 @@
 #include "host_app/instants/instant_thread.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -25,6 +26,9 @@ struct Orders {
     std::atomic<bool> fails_to_prepare = false;
     std::atomic<bool> draws_next_until_released = false, is_released = false;
     std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
+    std::atomic<int> rehearsals = 0, taken_at_rehearsal = 0;
+    std::atomic<std::size_t> rehearsed_rigs = 0;
+    std::function<void()> at_rehearsal;  ///< set before the first set is pushed
     std::atomic<double> dt_s = 0;
 };
 
@@ -51,6 +55,12 @@ class OrderedPreparer final : public InstantPreparer {
         orders_->rank = level.rank;
         ++orders_->prepared;
         return std::make_shared<Instant>();
+    }
+    void rehearse(std::span<const DepthView> views, const VirtualView&) override {
+        ++orders_->rehearsals;
+        if (orders_->at_rehearsal) orders_->at_rehearsal();
+        orders_->rehearsed_rigs = views.size();
+        orders_->taken_at_rehearsal = orders_->taken.load();
     }
     void cut() override { ++orders_->cuts; }
 
@@ -107,6 +117,30 @@ TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
     push(5);
     ASSERT_TRUE(wait_for_pulse(5));
     EXPECT_GT(thread_->newest()->number, first->number);
+}
+
+/// A rehearsal takes seconds, and forgets what was learnt: it has to be over before the show.
+TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
+    feed_.push(feed_.set(4, {"south"}));
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(orders_->rehearsals, 1);
+    EXPECT_EQ(orders_->taken_at_rehearsal, 0);
+    EXPECT_EQ(orders_->rehearsed_rigs, 2u) << "what rigs do for each other is rehearsed too";
+    push(5);
+    ASSERT_TRUE(wait_for_pulse(5));
+    EXPECT_EQ(orders_->rehearsals, 1);
+}
+
+TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
+    orders_->at_rehearsal = [&] {
+        for (const std::uint64_t pulse : {5, 6}) push(pulse);
+        ASSERT_TRUE(eventually([&] { return thread_->books().superseded.sets == 1; }));
+    };
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(6));
+    EXPECT_EQ(orders_->prepared, 1);
+    EXPECT_EQ(thread_->books().superseded.sets, 2u);
+    EXPECT_EQ(thread_->books().superseded.frames.at("north"), 2u);
 }
 
 TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
