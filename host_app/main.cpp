@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     return vantage::run_program({.name = "vantage",
                                  .description = "Vantage on the host: receive, fuse, fly, put out",
                                  .commit = vantage::commit(),
-                                 .libraries = VANTAGE_LIBRARIES},
+                                 .libraries = VANTAGE_LIBRARIES,
+                                 .returns_large_blocks = true},
                                 vantage::host_commands(), argc, argv);
 }

@@ -44,17 +44,20 @@ std::vector<std::string> words_of(int argc, char** argv) {
 /// shaders, leave what they freed to the arena of their time, of which glibc has up to eight a
 /// processor. And once a large block was freed glibc takes blocks of its size from arenas too,
 /// where small ones that live on part them: pictures of encoders, of windows, of takes.
-void bound_heap() {
-    constexpr int arenas = 2, large_bytes = 1 << 20;
+void bound_heap(bool returns_large_blocks) {
+    constexpr int arenas = 2, large_bytes = 1 << 20, kept_bytes = 16 << 20;
     mallopt(M_ARENA_MAX, arenas);
+    if (!returns_large_blocks) return;
     mallopt(M_MMAP_THRESHOLD, large_bytes);
+    // glibc stops adapting this one too, and 128 KiB are gone and back with every picture.
+    mallopt(M_TRIM_THRESHOLD, kept_bytes);
 }
 
 }  // namespace
 
 int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& commands, int argc,
                 char** argv) {
-    bound_heap();
+    bound_heap(facts.returns_large_blocks);
     CLI::App program{std::string(facts.description), std::string(facts.name)};
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text(facts));

@@ -22,6 +22,9 @@ struct ProgramFacts {
     std::string_view name, description;
     std::string_view commit{};     ///< of the sources; empty: unknown
     std::string_view libraries{};  ///< "ZeroMQ 4.3.4, OpenCV 4.6.0"; empty: none that matter
+    /// For hours large blocks of memory come and go beside small ones that stay: they are the
+    /// system's again at once. That costs a page fault every 4 KiB of each.
+    bool returns_large_blocks = false;
 };
 
 /// Parses and runs. Results go to stdout, the log to stderr. Returns the exit status: 0, or 1 with
