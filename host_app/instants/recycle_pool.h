@@ -12,7 +12,9 @@ namespace vantage {
 template <class T>
 class RecyclePool {
   public:
-    std::shared_ptr<T> take() {
+    /// `arguments`: of one that has to be made.
+    template <class... Arguments>
+    std::shared_ptr<T> take(const Arguments&... arguments) {
         std::unique_ptr<T> one;
         {
             const std::lock_guard lock(shelf_->mutex);
@@ -21,7 +23,7 @@ class RecyclePool {
                 shelf_->free.pop_back();
             }
         }
-        if (!one) one = std::make_unique<T>();
+        if (!one) one = std::make_unique<T>(arguments...);
         return {one.release(), [shelf = std::weak_ptr(shelf_)](T* back) {
                     std::unique_ptr<T> owned(back);
                     const std::shared_ptr<Shelf> there = shelf.lock();

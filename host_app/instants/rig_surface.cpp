@@ -23,7 +23,7 @@ void RigSurface::begin(const DepthView& camera, cv::Size colour_size, cv::Size d
     camera_.release_pictures();
     samples_ = samples;
     colour_.resize(colour_size);
-    if (shape_.use_count() > 1) shape_ = std::make_shared<Shape>();
+    if (shape_.use_count() > 1) shape_ = shapes_->take();
     shape_->has_rims = false;
     shape_->has_fine_grid = true;
     shape_->depth.resize(depth_size);

@@ -3,12 +3,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "common/colour/colour_corrector.h"
 #include "host_app/instants/depth_grid.h"
 #include "host_app/instants/depth_uploader.h"
 #include "host_app/instants/depth_view.h"
 #include "host_app/instants/drawn_texture.h"
+#include "host_app/instants/recycle_pool.h"
 #include "host_app/instants/surface_samples.h"
 
 namespace vantage {
@@ -17,6 +19,21 @@ namespace vantage {
 /// instant is published nothing of it changes, and any context that shares objects may read it.
 class RigSurface {
   public:
+    /// What does not change with the colours.
+    struct Shape {
+        DrawnTexture depth{TextureFormat::r32f};
+        DrawnTexture trust{TextureFormat::r8};
+        bool has_rims = false, has_fine_grid = true;
+        std::optional<IndirectTriangles> triangles, coarse_triangles, rims;
+        cv::Size grid_size;
+    };
+
+    using Shapes = RecyclePool<Shape>;
+
+    /// Surfaces that share shapes share where those come from.
+    explicit RigSurface(std::shared_ptr<Shapes> shapes = std::make_shared<Shapes>())
+        : shapes_(std::move(shapes)) {}
+
     /// Trust in a colour that is not seen now but was before: less than in any that is.
     static constexpr float remembered_trust = 4.0f / 255;
 
@@ -63,18 +80,10 @@ class RigSurface {
     void set_has_fine_grid(bool has) { shape_->has_fine_grid = has; }
 
   private:
-    /// What does not change with the colours.
-    struct Shape {
-        DrawnTexture depth{TextureFormat::r32f};
-        DrawnTexture trust{TextureFormat::r8};
-        bool has_rims = false, has_fine_grid = true;
-        std::optional<IndirectTriangles> triangles, coarse_triangles, rims;
-        cv::Size grid_size;
-    };
-
     DepthView camera_;
     SurfaceSamples samples_;
-    std::shared_ptr<Shape> shape_ = std::make_shared<Shape>();
+    std::shared_ptr<Shapes> shapes_;
+    std::shared_ptr<Shape> shape_ = shapes_->take();
     DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
 };
 

@@ -182,7 +182,7 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
     if (before && before->rank == 0)
         made.rest_s = std::min(2 * before->rest_s, longest_model_rest_s);
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
-        const std::shared_ptr<RigSurface> model = surfaces_.take();
+        const std::shared_ptr<RigSurface> model = surfaces_.take(shapes_);
         model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
         closer_.close(*depth_m, *measured_m, colour, model->depth_target());
         made.surface = model;
@@ -198,7 +198,7 @@ void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
 
 std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
                                                                 const PrepareLevel& level) {
-    const std::shared_ptr<RigSurface> surface = surfaces_.take();
+    const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
     surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
     if (level.is_refined) {
         for (RigHistory* one : uploaded_) {
@@ -261,7 +261,7 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
 std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
                                                          const Texture& performers_m,
                                                          const PrepareLevel& level) {
-    const std::shared_ptr<RigSurface> surface = surfaces_.take();
+    const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
     if (has_shape(rig, level)) {
         surface->begin_like(*rig.surface(), rig.samples());
     } else {

@@ -78,6 +78,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void publish(RigHistory& rig, const PrepareLevel& level);
 
     RecyclePool<RigSurface> surfaces_;
+    std::shared_ptr<RigSurface::Shapes> shapes_ = std::make_shared<RigSurface::Shapes>();
     RigRoster rigs_;
     std::vector<RigHistory*> uploaded_;    ///< those of the newest instant
     std::vector<RigHistory*> learnt_;      ///< of them: whose sets were learnt
