@@ -7,6 +7,8 @@ namespace {
 
 /// Of the time, that its pictures take at the most.
 constexpr double share_of_time = 0.33;
+/// After a picture, however long that took: for once, it compiled or waited for a reset.
+constexpr std::chrono::nanoseconds longest_rest = std::chrono::seconds(1);
 /// Of a tick, that a picture of a better level may take.
 constexpr double share_of_tick = 0.2;
 
@@ -30,8 +32,9 @@ void Preview::take_finished(MonotonicTime now) {
     if (!is_under_way_ || !maker_->is_idle()) return;
     is_under_way_ = false;
     const MonotonicTime::duration took = now - began_;
-    next_ =
-        now + std::chrono::duration_cast<std::chrono::nanoseconds>((1 / share_of_time - 1) * took);
+    next_ = now + std::min(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                               (1 / share_of_time - 1) * took),
+                           longest_rest);
     std::shared_ptr<const MadePicture> made = maker_->take_finished();
     if (!made) return;
     shown_ = std::move(made);
