@@ -37,6 +37,9 @@ struct MadePicture {
     cv::Mat1f inverse_depth;           ///< as of CoarseDepth; empty: not known
     double render_ms = 0, readback_ms = 0;
     double make_ms = 0;  ///< from start() on: those, and what it waited for
+    /// Of a reprojection: what it was carried on from; its job is that one's but for camera and
+    /// look. Null: it was rendered itself.
+    std::shared_ptr<const MadePicture> rendered;
 };
 
 /// Renders on a thread and a context of its own, one picture at a time, so that the programme's

@@ -345,7 +345,7 @@ void Programme::take_finished() {
         }
         rendered_ = std::move(fresh);
     }
-    if (std::optional<Reprojector::Carried> carried = reprojector_.take_finished())
+    if (std::shared_ptr<const MadePicture> carried = reprojector_.take_finished())
         carried_ = std::move(carried);
 }
 
@@ -361,14 +361,14 @@ void Programme::begin_reprojection() {
     reprojector_.start(std::move(newest), camera_, look_);
 }
 
-std::optional<Reprojector::Carried> Programme::newest_carried() {
-    std::optional<Reprojector::Carried> carried = std::exchange(carried_, std::nullopt);
+std::shared_ptr<const MadePicture> Programme::newest_carried() {
+    std::shared_ptr<const MadePicture> carried = std::exchange(carried_, nullptr);
     const std::uint64_t known =
         std::max(rendered_ ? rendered_->job.look : 0, handed_ ? handed_->job.look : 0);
-    if (!carried || carried->picture->job.look <= known) return std::nullopt;
+    if (!carried || carried->job.look <= known) return nullptr;
     // One that was rendered after the reprojection of the one before was begun waits for the next
     // tick, but if it is of the camera as it is.
-    if (is_same_view(newest_rendered()->job.camera, camera_)) return std::nullopt;
+    if (is_same_view(newest_rendered()->job.camera, camera_)) return nullptr;
     return carried;
 }
 
@@ -470,7 +470,7 @@ void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
 void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due) {
     const MonotonicTime now = MonotonicClock::now();
     take_finished();
-    const std::optional<Reprojector::Carried> carried = newest_carried();
+    const std::shared_ptr<const MadePicture> carried = newest_carried();
     const bool is_new = rendered_ && (!carried || carried->rendered == rendered_);
     {
         const std::lock_guard lock(mutex_);
@@ -490,7 +490,7 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
             last_new_.reset();
         }
         if (carried) {
-            handed_ = carried->picture;
+            handed_ = carried;
         } else if (!is_new) {
             take_still(now);
             if (shown_ && is_same_view(shown_->job.camera, camera_)) handed_ = shown_;
@@ -501,7 +501,7 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
                           carried ? carried->rendered->job.look : shown_->job.look, now);
         if (carried)
             reprojected_way_.add(
-                Reprojection::way(carried->rendered->job.camera, carried->picture->job.camera));
+                Reprojection::way(carried->rendered->job.camera, carried->job.camera));
         if (!is_new && was_due) ++(carried ? books_.reprojected : books_.repeated);
         state_.picture = handed_;
         books_.ticks += passed_ticks;

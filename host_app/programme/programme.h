@@ -173,8 +173,8 @@ class Programme {
     void begin_next_synthesiser();
     void follow_preview();
     void follow_synthesiser();
-    /// The reprojection to hand over; nothing if what was rendered is as new, or is shown.
-    std::optional<Reprojector::Carried> newest_carried();
+    /// The reprojection to hand over; null if what was rendered is as new, or is shown.
+    std::shared_ptr<const MadePicture> newest_carried();
     /// `due`: the first of the ticks that have passed.
     void hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due);
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due);
@@ -216,8 +216,8 @@ class Programme {
     std::shared_ptr<const MadePicture> shown_;     ///< the last one that was rendered
     std::shared_ptr<const MadePicture> handed_;    ///< the same, or a reprojection of it
     Reprojector reprojector_;
-    std::optional<Reprojector::Carried> carried_;  ///< not handed over yet
-    MonotonicTime changed_{};                      ///< camera or time, last
+    std::shared_ptr<const MadePicture> carried_;  ///< by it, not handed over yet; null: none
+    MonotonicTime changed_{};                     ///< camera or time, last
     MonotonicTime rest_noted_{};  ///< of the rest since then the best picture was shown
     std::optional<MonotonicTime> first_picture_, last_new_;
     std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0, sound_of_ = 0;

@@ -40,9 +40,9 @@ void Reprojector::start(std::shared_ptr<const MadePicture> rendered, const Camer
     woken_.notify_all();
 }
 
-std::optional<Reprojector::Carried> Reprojector::take_finished() {
+std::shared_ptr<const MadePicture> Reprojector::take_finished() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(finished_, std::nullopt);
+    return std::move(finished_);
 }
 
 double Reprojector::longest_ms() const {
@@ -50,17 +50,18 @@ double Reprojector::longest_ms() const {
     return longest_ms_;
 }
 
-std::optional<Reprojector::Carried> Reprojector::carried_on(const Work& work) const {
+std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) const {
     const MadePicture& rendered = *work.rendered;
     const std::optional<Reprojection> way =
         Reprojection::between(rendered.job.camera, work.camera, rendered.inverse_depth, size_);
-    if (!way) return std::nullopt;
+    if (!way) return nullptr;
     auto carried = std::make_shared<MadePicture>(rendered);
     carried->job.camera = work.camera;
     carried->job.look = work.look;
     carried->picture = way->apply(rendered.picture);
     if (carried->sources) carried->sources->picture = way->apply(rendered.sources->picture);
-    return Carried{std::move(carried), work.rendered};
+    carried->rendered = work.rendered;
+    return carried;
 }
 
 void Reprojector::run() {
@@ -72,7 +73,7 @@ void Reprojector::run() {
         const Work work = *work_;
         lock.unlock();
         const MonotonicTime start = MonotonicClock::now();
-        std::optional<Carried> carried = carried_on(work);
+        std::shared_ptr<const MadePicture> carried = carried_on(work);
         lock.lock();
         longest_ms_ = std::max(ms_since(start), forgetting * longest_ms_);
         finished_ = std::move(carried);

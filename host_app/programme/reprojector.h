@@ -20,18 +20,12 @@ class Reprojector {
     Reprojector(const Reprojector&) = delete;
     Reprojector& operator=(const Reprojector&) = delete;
 
-    /// A picture as it would be from another camera.
-    struct Carried {
-        std::shared_ptr<const MadePicture> picture;   ///< its job but for camera and look as it was
-        std::shared_ptr<const MadePicture> rendered;  ///< that was carried on
-    };
-
     bool is_idle() const;
     /// To the camera of this look. Precondition: is_idle().
     void start(std::shared_ptr<const MadePicture> rendered, const CameraState& camera,
                std::uint64_t look);
-    /// Nothing if none was finished since the last call; those whose way was too long never are.
-    std::optional<Carried> take_finished();
+    /// Null if none was finished since the last call; those whose way was too long never are.
+    std::shared_ptr<const MadePicture> take_finished();
     /// That the last ones took.
     double longest_ms() const;
 
@@ -42,13 +36,13 @@ class Reprojector {
         std::uint64_t look;
     };
     void run();
-    std::optional<Carried> carried_on(const Work& work) const;
+    std::shared_ptr<const MadePicture> carried_on(const Work& work) const;
 
     cv::Size size_;
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<Work> work_;
-    std::optional<Carried> finished_;
+    std::shared_ptr<const MadePicture> finished_;
     double longest_ms_ = 0;
     bool is_stopping_ = false;
     std::thread thread_;

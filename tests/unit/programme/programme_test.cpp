@@ -474,20 +474,25 @@ TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    constexpr double turn_rad = 0.004;
-    pilot_.turn(turn_rad, 0.8);
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= 60; }));
-    const ProgrammeBooks books = programme_->books();
-    const double ticks_long =
-        (books.render_ms.p50 + books.readback_ms.p50) / 1000 * settings_.rate_hz;
-    ASSERT_GT(ticks_long, 1);
-    const double flown_meanwhile =
-        ticks_long * turn_rad / programme_->state().view.field_of_view_rad;
-    // A picture is shown from where it was made for until the next one is worth it and there. One
-    // of the camera as it was would be further away by all that was flown meanwhile, all the time.
-    constexpr double near_enough = 0.02;
-    const double to_the_next = std::max(flown_meanwhile, near_enough);
-    EXPECT_LT(books.reprojected_way.p50, to_the_next / 2 + flown_meanwhile / 2);
+    constexpr double turn_rad = 0.004, furthest_rad = 0.8;
+    pilot_.turn(turn_rad, furthest_rad);
+    const auto azimuth_rad = [](const MadePicture& made) {
+        return orbit_view_of(made.job.camera, 0).azimuth_rad;
+    };
+    // One of the camera as it was is behind the camera at all ticks that show it, but for where
+    // that turns back.
+    int ahead = 0;
+    std::shared_ptr<const MadePicture> last;
+    EXPECT_TRUE(eventually([&] {
+        const std::shared_ptr<const MadePicture> shown = programme_->state().picture;
+        if (last && shown != last && shown->rendered) {
+            const double rad = azimuth_rad(*shown), turned_rad = rad - azimuth_rad(*last);
+            const double before_it_rad = azimuth_rad(*shown->rendered) - rad;
+            ahead += std::abs(rad) < 0.75 * furthest_rad && turned_rad * before_it_rad > 0;
+        }
+        last = shown;
+        return ahead >= 20;
+    }));
 }
 
 TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
