@@ -20,11 +20,11 @@ void Readback::begin(const Texture& texture) {
     fence_ = Fence::insert();
 }
 
-cv::Mat Readback::take() {
+cv::Mat Readback::take(cv::Mat pixels) {
     CV_Assert(layout_);
     fence_.wait("a picture was read back");
     fence_ = {};
-    cv::Mat pixels(size_, layout_->cv_type);
+    pixels.create(size_, layout_->cv_type);
     buffer_->read(0,
                   {reinterpret_cast<std::byte*>(pixels.data), pixels.total() * pixels.elemSize()});
     layout_.reset();

@@ -17,8 +17,9 @@ class Readback {
     /// Of the texture as everything drawn so far leaves it; what is drawn later changes nothing.
     void begin(const Texture& texture);
     bool is_begun() const { return layout_.has_value(); }
-    /// Waits until it is here. Precondition: is_begun(), which it is not afterwards.
-    cv::Mat take();
+    /// Waits until it is here. `pixels`: memory for it, where that has its size and type.
+    /// Precondition: is_begun(), which it is not afterwards.
+    cv::Mat take(cv::Mat pixels = {});
 
   private:
     std::optional<Buffer> buffer_;

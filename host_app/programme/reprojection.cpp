@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +15,8 @@ constexpr int steps = 4;
 constexpr float close = 0.01f, found = 1;
 /// Around a cell, within which what stands before others is looked for.
 constexpr int before_cells = 9;
+/// Of a picture, that are looked up at a time.
+constexpr int band_rows = 16;
 
 /// Of a grid, clamped at its borders.
 float bilinear(const cv::Mat1f& grid, float x, float y) {
@@ -27,6 +30,34 @@ float bilinear(const cv::Mat1f& grid, float x, float y) {
     return (1 - down) * ((1 - across) * above[left] + across * above[right]) +
            down * ((1 - across) * below[left] + across * below[right]);
 }
+
+/// Which two cells of a grid, along one of its sides, a pixel lies between, and how near to which.
+class GridMix {
+  public:
+    GridMix(int cells, int pixels) : between_(static_cast<std::size_t>(pixels)) {
+        const float cells_per_px = static_cast<float>(cells) / static_cast<float>(pixels);
+        for (std::size_t i = 0; i < between_.size(); ++i) {
+            const float at = std::clamp((static_cast<float>(i) + 0.5f) * cells_per_px - 0.5f, 0.0f,
+                                        static_cast<float>(cells - 1));
+            const int first = static_cast<int>(at);
+            between_[i] = {first, std::min(first + 1, cells - 1), at - static_cast<float>(first)};
+        }
+    }
+    int first(int pixel) const { return at(pixel).first; }
+    int second(int pixel) const { return at(pixel).second; }
+    cv::Vec2f mixed(int pixel, const cv::Vec2f& first, const cv::Vec2f& second) const {
+        return first + at(pixel).share_of_second * (second - first);
+    }
+
+  private:
+    struct Between {
+        int first, second;
+        float share_of_second;
+    };
+    const Between& at(int pixel) const { return between_[static_cast<std::size_t>(pixel)]; }
+
+    std::vector<Between> between_;
+};
 
 /// Looks up where in a first camera's picture a second camera's pixels are.
 class SourceSearch {
@@ -106,12 +137,7 @@ std::optional<Reprojection> Reprojection::between(const CameraState& from, const
             if (!offset || !(offset->norm() <= furthest_px)) return std::nullopt;
             offsets(row, column) = {offset->x(), offset->y()};
         }
-    cv::Mat2f positions;
-    cv::resize(offsets, positions, size, 0, 0, cv::INTER_LINEAR);
-    for (int y = 0; y < positions.rows; ++y)
-        for (int x = 0; x < positions.cols; ++x)
-            positions(y, x) += cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
-    return Reprojection(std::move(positions));
+    return Reprojection(std::move(offsets), size);
 }
 
 double Reprojection::way(const CameraState& from, const CameraState& to) {
@@ -122,12 +148,28 @@ double Reprojection::way(const CameraState& from, const CameraState& to) {
     return (std::max(turn_rad, aside_rad) + zoom_rad) / from.field_of_view_rad;
 }
 
-ColourImage Reprojection::apply(const ColourImage& picture) const {
-    ColourImage carried, resampled = picture;
-    if (picture.size() != positions_.size())
-        cv::resize(picture, resampled, positions_.size(), 0, 0, cv::INTER_CUBIC);
-    cv::remap(resampled, carried, positions_, cv::noArray(), cv::INTER_LINEAR,
-              cv::BORDER_REPLICATE);
+ColourImage Reprojection::apply(const ColourImage& picture, ColourImage carried) const {
+    ColourImage resampled = picture;
+    if (picture.size() != size_) cv::resize(picture, resampled, size_, 0, 0, cv::INTER_CUBIC);
+    carried.create(size_);
+    const GridMix across(offsets_.cols, size_.width), down(offsets_.rows, size_.height);
+    // All positions at once would be twice as large as the picture.
+    cv::Mat2f positions(band_rows, size_.width), row(1, offsets_.cols);
+    for (int top = 0; top < size_.height; top += band_rows) {
+        const cv::Range rows(top, std::min(top + band_rows, size_.height));
+        for (int y = rows.start; y < rows.end; ++y) {
+            for (int cell = 0; cell < row.cols; ++cell)
+                row(cell) =
+                    down.mixed(y, offsets_(down.first(y), cell), offsets_(down.second(y), cell));
+            cv::Vec2f* const position = positions[y - top];
+            for (int x = 0; x < size_.width; ++x)
+                position[x] = across.mixed(x, row(across.first(x)), row(across.second(x))) +
+                              cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
+        }
+        ColourImage part = carried.rowRange(rows);
+        cv::remap(resampled, part, positions.rowRange(0, rows.size()), cv::noArray(),
+                  cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    }
     return carried;
 }
 

@@ -25,12 +25,15 @@ class Reprojection {
     static double way(const CameraState& from, const CameraState& to);
 
     /// The picture is of the first camera; one of another size is resampled to this first.
-    ColourImage apply(const ColourImage& picture) const;
+    /// `carried`: memory for the second camera's, where that has the size.
+    ColourImage apply(const ColourImage& picture, ColourImage carried = {}) const;
 
   private:
-    explicit Reprojection(cv::Mat2f positions) : positions_(std::move(positions)) {}
+    Reprojection(cv::Mat2f offsets, cv::Size size) : offsets_(std::move(offsets)), size_(size) {}
 
-    cv::Mat2f positions_;  ///< in px: where a pixel of the second camera is in the first's picture
+    cv::Mat2f offsets_;  ///< of the grid: how far a pixel of the second camera is from its place in
+                         ///< the first one's picture, in px of a picture of `size_`
+    cv::Size size_;
 };
 
 }  // namespace vantage

@@ -50,7 +50,7 @@ double Reprojector::longest_ms() const {
     return longest_ms_;
 }
 
-std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) const {
+std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) {
     const MadePicture& rendered = *work.rendered;
     const std::optional<Reprojection> way =
         Reprojection::between(rendered.job.camera, work.camera, rendered.inverse_depth, size_);
@@ -58,7 +58,7 @@ std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) con
     auto carried = std::make_shared<MadePicture>(rendered);
     carried->job.camera = work.camera;
     carried->job.look = work.look;
-    carried->picture = way->apply(rendered.picture);
+    carried->picture = way->apply(rendered.picture, pictures_.take(size_));
     if (carried->sources) carried->sources->picture = way->apply(rendered.sources->picture);
     carried->rendered = work.rendered;
     return carried;

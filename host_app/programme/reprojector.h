@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/image/picture_pool.h"
 #include "host_app/programme/picture_maker.h"
 
 namespace vantage {
@@ -36,9 +37,10 @@ class Reprojector {
         std::uint64_t look;
     };
     void run();
-    std::shared_ptr<const MadePicture> carried_on(const Work& work) const;
+    std::shared_ptr<const MadePicture> carried_on(const Work& work);
 
     cv::Size size_;
+    PicturePool pictures_;  ///< of the thread
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<Work> work_;

@@ -1,5 +1,7 @@
 #include "host_app/programme/view_painter.h"
 
+#include <utility>
+
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/log.h"
@@ -53,21 +55,20 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     const Texture& texture = render(instant, camera, size, level, false);
     check_gl("rendering the virtual view");
     // The way back is under way before this thread waits for the picture.
-    const Fence rendered = Fence::insert();
+    const Fence drawn = Fence::insert();
     readback_.begin(texture);
     if (const Texture* depth_m = renderer_->depth_m();
         depth_m && inverse_depth && !format_.stereoscopy)
         coarse_depth_.begin(*depth_m);
-    rendered.wait("a picture was waited for");
+    drawn.wait("a picture was waited for");
     const MonotonicTime start = MonotonicClock::now();
-    ColourImage picture = readback_.take();
+    ColourImage picture = readback_.take(size == full ? pictures_.take(full) : small_);
     if (coarse_depth_.is_begun()) *inverse_depth = coarse_depth_.take();
     require_context("a picture was read back");
     mark_unseen(picture);
     if (size != full) {
-        ColourImage enlarged;
-        cv::resize(picture, enlarged, full, 0, 0, cv::INTER_CUBIC);
-        picture = std::move(enlarged);
+        small_ = std::exchange(picture, pictures_.take(full));
+        cv::resize(small_, picture, full, 0, 0, cv::INTER_CUBIC);
     }
     readback_ms_ = ms_since(start);
     if (sources && renderer_->note_origins(true)) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/gl/readback.h"
-#include "common/image/image.h"
+#include "common/image/picture_pool.h"
 #include "host_app/flight/camera_state.h"
 #include "host_app/programme/coarse_depth.h"
 #include "host_app/synthesis/novelty_overlay.h"
@@ -58,6 +58,8 @@ class ViewPainter {
     const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
     std::string lacking_;                ///< for the last picture
     Readback readback_;
+    PicturePool pictures_;
+    ColourImage small_;  ///< as it was rendered, where that is not the format's size
     CoarseDepth coarse_depth_;
     double readback_ms_ = 0;
 };

@@ -1,0 +1,82 @@
+#include "common/image/picture_pool.h"
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+/// More are held at once by queues alone, which are emptied.
+constexpr std::size_t most_kept = 16;
+
+}  // namespace
+
+/// What OpenCV counts references of is lent: the last of them gives it back.
+class PicturePool::Shelf final : public cv::MatAllocator,
+                                 public std::enable_shared_from_this<Shelf> {
+  public:
+    cv::UMatData* allocate(int dims, const int* sizes, int type, void*, std::size_t* step,
+                           cv::AccessFlag, cv::UMatUsageFlags) const override {
+        CV_Assert(dims == 2 && type == ColourImage().type());
+        auto lent = std::make_unique<Lent>(Lent{shared_from_this(), take({sizes[1], sizes[0]})});
+        auto data = std::make_unique<cv::UMatData>(this);
+        step[1] = lent->memory.elemSize();
+        step[0] = step[1] * static_cast<std::size_t>(sizes[1]);
+        data->data = data->origdata = lent->memory.data;
+        data->size = lent->memory.total() * step[1];
+        data->userdata = lent.release();
+        return data.release();
+    }
+    bool allocate(cv::UMatData*, cv::AccessFlag, cv::UMatUsageFlags) const override {
+        return false;
+    }
+    void deallocate(cv::UMatData* data) const override {
+        // It keeps the shelf until the end.
+        const std::unique_ptr<Lent> lent(static_cast<Lent*>(data->userdata));
+        delete data;
+        put_back(lent->memory);
+    }
+
+  private:
+    struct Lent {
+        std::shared_ptr<const Shelf> shelf;
+        ColourImage memory;
+    };
+
+    ColourImage take(cv::Size size) const {
+        {
+            const std::lock_guard lock(mutex_);
+            if (std::exchange(size_, size) != size) free_.clear();
+            if (!free_.empty()) {
+                ColourImage memory = std::move(free_.back());
+                free_.pop_back();
+                return memory;
+            }
+        }
+        return ColourImage(size);
+    }
+    void put_back(const ColourImage& memory) const {
+        const std::lock_guard lock(mutex_);
+        if (memory.size() == size_ && free_.size() < most_kept) free_.push_back(memory);
+    }
+
+    mutable std::mutex mutex_;
+    mutable cv::Size size_;
+    mutable std::vector<ColourImage> free_;
+};
+
+PicturePool::PicturePool() : shelf_(std::make_shared<Shelf>()) {}
+
+PicturePool::~PicturePool() = default;
+
+ColourImage PicturePool::take(cv::Size size) {
+    ColourImage picture;
+    picture.allocator = shelf_.get();
+    picture.create(size);
+    // Whoever gives it another size later does so without the pool, which may have gone.
+    picture.allocator = nullptr;
+    return picture;
+}
+
+}  // namespace vantage

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "common/image/image.h"
+
+namespace vantage {
+
+/// Memory for pictures, used again when nobody holds the picture any more: the system gives large
+/// blocks page by page, which takes longer than many a thing that is done with them. Pictures come
+/// back from any thread, and may outlive the pool.
+class PicturePool {
+  public:
+    PicturePool();
+    ~PicturePool();
+
+    /// With whatever was in it before. Pictures of the size before, if that was another, are not
+    /// kept.
+    ColourImage take(cv::Size size);
+
+  private:
+    class Shelf;
+    std::shared_ptr<Shelf> shelf_;
+};
+
+}  // namespace vantage
