@@ -18,8 +18,9 @@ class PicturePool::Shelf final : public cv::MatAllocator,
   public:
     cv::UMatData* allocate(int dims, const int* sizes, int type, void*, std::size_t* step,
                            cv::AccessFlag, cv::UMatUsageFlags) const override {
-        CV_Assert(dims == 2 && type == ColourImage().type());
-        auto lent = std::make_unique<Lent>(Lent{shared_from_this(), take({sizes[1], sizes[0]})});
+        CV_Assert(dims == 2);
+        auto lent =
+            std::make_unique<Lent>(Lent{shared_from_this(), take({sizes[1], sizes[0]}, type)});
         auto data = std::make_unique<cv::UMatData>(this);
         step[1] = lent->memory.elemSize();
         step[0] = step[1] * static_cast<std::size_t>(sizes[1]);
@@ -41,39 +42,42 @@ class PicturePool::Shelf final : public cv::MatAllocator,
   private:
     struct Lent {
         std::shared_ptr<const Shelf> shelf;
-        ColourImage memory;
+        cv::Mat memory;
     };
 
-    ColourImage take(cv::Size size) const {
+    cv::Mat take(cv::Size size, int type) const {
         {
             const std::lock_guard lock(mutex_);
-            if (std::exchange(size_, size) != size) free_.clear();
+            if (std::exchange(size_, size) != size || std::exchange(type_, type) != type)
+                free_.clear();
             if (!free_.empty()) {
-                ColourImage memory = std::move(free_.back());
+                cv::Mat memory = std::move(free_.back());
                 free_.pop_back();
                 return memory;
             }
         }
-        return ColourImage(size);
+        return cv::Mat(size, type);
     }
-    void put_back(const ColourImage& memory) const {
+    void put_back(const cv::Mat& memory) const {
         const std::lock_guard lock(mutex_);
-        if (memory.size() == size_ && free_.size() < most_kept) free_.push_back(memory);
+        if (memory.size() == size_ && memory.type() == type_ && free_.size() < most_kept)
+            free_.push_back(memory);
     }
 
     mutable std::mutex mutex_;
     mutable cv::Size size_;
-    mutable std::vector<ColourImage> free_;
+    mutable int type_ = 0;
+    mutable std::vector<cv::Mat> free_;
 };
 
 PicturePool::PicturePool() : shelf_(std::make_shared<Shelf>()) {}
 
 PicturePool::~PicturePool() = default;
 
-ColourImage PicturePool::take(cv::Size size) {
-    ColourImage picture;
+cv::Mat PicturePool::take(cv::Size size, int type) {
+    cv::Mat picture;
     picture.allocator = shelf_.get();
-    picture.create(size);
+    picture.create(size, type);
     // Whoever gives it another size later does so without the pool, which may have gone.
     picture.allocator = nullptr;
     return picture;

@@ -63,7 +63,7 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
         fail("the colour payload is a JPEG of {}x{} where its header promises {}x{}", width, height,
              width_px, height_px);
     if (colour_space != TJCS_YCbCr) fail("the colour payload is a JPEG, but not in YCbCr");
-    ColourImage colour(height_px, width_px);
+    auto colour = pictures_.take<ColourImage>({width_px, height_px});
     // A damaged or truncated picture is only a warning to the library, which fills it up with grey;
     // the scan limit keeps a progressive picture of endless scans from holding up the decoder.
     if (tjDecompress2(decompressor_, data, payload.size(), colour.data, width_px,
@@ -106,7 +106,7 @@ ColourImage LosslessColourDecoder::decode(std::span<const std::byte> payload, in
     const std::size_t count =
         static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
     const std::byte* in = decompressor_.decompress(payload, channels * count, "colour").data();
-    ColourImage colour(height_px, width_px);
+    auto colour = pictures_.take<ColourImage>({width_px, height_px});
     const std::vector<cv::Vec4b> nothing_above(static_cast<std::size_t>(width_px));
     for (int channel = 0; channel < channels; ++channel) {
         const cv::Vec4b* above = nothing_above.data();

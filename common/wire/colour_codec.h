@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/image/image.h"
+#include "common/image/picture_pool.h"
 #include "common/wire/chroma.h"
 #include "common/wire/payload_compression.h"
 
@@ -43,6 +43,7 @@ class JpegDecoder {
 
   private:
     void* decompressor_;
+    PicturePool pictures_;
 };
 
 /// Lossless colour, all four channels: each channel's difference to the pixel above in a plane of
@@ -63,6 +64,7 @@ class LosslessColourDecoder {
 
   private:
     PayloadDecompressor decompressor_;
+    PicturePool pictures_;
 };
 
 }  // namespace vantage

@@ -42,7 +42,7 @@ DisparityImage DisparityDecoder::decode(std::span<const std::byte> payload, int 
         static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
     const std::byte* low = decompressor_.decompress(payload, 2 * count, "disparity").data();
     const std::byte* high = low + count;
-    DisparityImage disparity(height_px, width_px);
+    auto disparity = pictures_.take<DisparityImage>({width_px, height_px});
     const std::vector<std::uint16_t> nothing_above(static_cast<std::size_t>(width_px), 0);
     const std::uint16_t* above = nothing_above.data();
     for (int y = 0; y < height_px; ++y) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/image/image.h"
+#include "common/image/picture_pool.h"
 #include "common/wire/payload_compression.h"
 
 namespace vantage {
@@ -33,6 +33,7 @@ class DisparityDecoder {
 
   private:
     PayloadDecompressor decompressor_;
+    PicturePool pictures_;
 };
 
 }  // namespace vantage

@@ -58,7 +58,7 @@ std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) {
     auto carried = std::make_shared<MadePicture>(rendered);
     carried->job.camera = work.camera;
     carried->job.look = work.look;
-    carried->picture = way->apply(rendered.picture, pictures_.take(size_));
+    carried->picture = way->apply(rendered.picture, pictures_.take<ColourImage>(size_));
     if (carried->sources) carried->sources->picture = way->apply(rendered.sources->picture);
     carried->rendered = work.rendered;
     return carried;

@@ -62,12 +62,12 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
         coarse_depth_.begin(*depth_m);
     drawn.wait("a picture was waited for");
     const MonotonicTime start = MonotonicClock::now();
-    ColourImage picture = readback_.take(size == full ? pictures_.take(full) : small_);
+    ColourImage picture = readback_.take(size == full ? pictures_.take<ColourImage>(full) : small_);
     if (coarse_depth_.is_begun()) *inverse_depth = coarse_depth_.take();
     require_context("a picture was read back");
     mark_unseen(picture);
     if (size != full) {
-        small_ = std::exchange(picture, pictures_.take(full));
+        small_ = std::exchange(picture, pictures_.take<ColourImage>(full));
         cv::resize(small_, picture, full, 0, 0, cv::INTER_CUBIC);
     }
     readback_ms_ = ms_since(start);
