@@ -76,7 +76,7 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
         }
     }
     hint_gl_window();
-    window_.reset(glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr));
+    window_.reset(create_gl_window(width_px, height_px, title, nullptr, nullptr));
     if (!window_)
         fail(
             "no window with OpenGL ES 3.1 can be opened ({}); with --headless the flight goes to "

@@ -30,7 +30,7 @@ RigsWindow::RigsWindow(GLFWwindow* operators, const ShaderLibrary& shaders,
     glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
     place_ = place.value_or(WindowPlace{});
     window_.reset(
-        glfwCreateWindow(place_.width, place_.height, "Vantage rigs", nullptr, operators));
+        create_gl_window(place_.width, place_.height, "Vantage rigs", nullptr, operators));
     if (!window_) fail("no window can be opened for the rigs ({})", glfw_reason());
     if (place) {
         put_window(window_.get(), *place);

@@ -32,7 +32,7 @@ class ScreenWindows::Window {
         glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
         glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
         window_ =
-            glfwCreateWindow(mode->width, mode->height, "Vantage programme", shown_on, nullptr);
+            create_gl_window(mode->width, mode->height, "Vantage programme", shown_on, nullptr);
         if (!window_) fail("no window with OpenGL ES 3.1 can be opened on monitor {}", monitor);
         glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
         glfwMakeContextCurrent(window_);
