@@ -140,13 +140,6 @@ EglContext::EglContext(EGLDisplay display, EGLContext shared, bool is_software)
         fail("no second OpenGL ES 3.1 context that shares with the first ({})", egl_error_name());
 }
 
-EglContext EglContext::sharing_with_current() {
-    const EGLContext current = eglGetCurrentContext();
-    if (current == EGL_NO_CONTEXT)
-        fail("no second OpenGL context: none is current on this thread to share with");
-    return {eglGetCurrentDisplay(), current, GlInfo::query().is_software};
-}
-
 EglContext EglContext::sharing_with(const EglContext& other) {
     return {other.display_, other.context_, other.is_software_};
 }

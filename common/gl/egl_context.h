@@ -32,13 +32,9 @@ class EglContext {
     /// devices, GBM render nodes; one that the processor draws is taken where no EGL device is a
     /// GPU that works. Throws Error that lists every attempt and its reason, if none works.
     EglContext();
-    /// One that shares textures, buffers, programs and fences with the context that is current on
-    /// this thread, a window's or another of these; framebuffers and vertex arrays stay each
-    /// context's own. Nothing becomes current: another thread takes it with CurrentContext. Throws
-    /// Error if no context is current or the driver refuses. A window's library (GLFW) must outlive
-    /// it.
-    static EglContext sharing_with_current();
-    /// The same with another of these, whether it is current anywhere or not.
+    /// One that shares textures, buffers, programs and fences with another, whether that is current
+    /// anywhere or not; framebuffers and vertex arrays stay each context's own. Nothing becomes
+    /// current: a thread takes it with CurrentContext. Throws Error if the driver refuses.
     static EglContext sharing_with(const EglContext& other);
     ~EglContext();
     EglContext(const EglContext&) = delete;
@@ -48,7 +44,7 @@ class EglContext {
     const std::vector<EglAttempt>& attempts() const { return attempts_; }
     EGLDisplay display() const { return display_; }
     /// What all threads that draw on this display take turns for (DriverTurn); null where they need
-    /// not, and where a window's library opened it.
+    /// not.
     std::mutex* driver() const { return is_software_ ? hold_.driver() : nullptr; }
     bool has_extension(const char* egl_extension) const;
 

@@ -60,7 +60,7 @@ TEST(EglContext, OutlivesAnotherOneOfTheProcess) {
 TEST(EglContext, SharesObjectsWithOneThatIsCurrentElsewhere) {
     const EglContext first;
     const Texture texture(TextureFormat::r8, 3, 2);
-    const EglContext second = EglContext::sharing_with_current();
+    const EglContext second = EglContext::sharing_with(first);
     EXPECT_EQ(second.display(), first.display());
     const EGLContext of_first = eglGetCurrentContext();
     std::thread([&] {
@@ -78,7 +78,7 @@ TEST(EglContext, SharesObjectsWithOneThatIsCurrentElsewhere) {
 TEST(EglContext, SharedObjectsOutliveTheFirst) {
     std::optional<EglContext> first(std::in_place);
     const Texture texture(TextureFormat::r8, 3, 2);
-    const EglContext second = EglContext::sharing_with_current();
+    const EglContext second = EglContext::sharing_with(*first);
     first.reset();
     const CurrentContext current(second);
     EXPECT_TRUE(glIsTexture(texture.name()));
@@ -87,17 +87,12 @@ TEST(EglContext, SharedObjectsOutliveTheFirst) {
 TEST(EglContext, MakesWhatWasCurrentSoAgain) {
     const EglContext first;
     const EGLContext of_first = eglGetCurrentContext();
-    const EglContext second = EglContext::sharing_with_current();
+    const EglContext second = EglContext::sharing_with(first);
     {
         const CurrentContext current(second);
         EXPECT_NE(eglGetCurrentContext(), of_first);
     }
     EXPECT_EQ(eglGetCurrentContext(), of_first);
-}
-
-TEST(EglContext, SharesOnlyWithACurrentOne) {
-    EXPECT_EQ(thrown_sentence([] { EglContext::sharing_with_current(); }),
-              "no second OpenGL context: none is current on this thread to share with");
 }
 
 TEST(EglContext, IsCurrentOnOneThreadOnly) {

@@ -44,9 +44,9 @@ void expect_places(const Texture& texture) {
         EXPECT_EQ(picture.at<int>(at), at.y * 1000 + at.x) << at;
 }
 
-/// What another thread draws with a context that shares with this one's.
-DrawnPicture drawn_elsewhere() {
-    const EglContext sharing = EglContext::sharing_with_current();
+/// What another thread draws with a context that shares with this one.
+DrawnPicture drawn_elsewhere(const EglContext& context) {
+    const EglContext sharing = EglContext::sharing_with(context);
     std::promise<DrawnPicture> promise;
     std::thread([&] {
         try {
@@ -61,7 +61,7 @@ DrawnPicture drawn_elsewhere() {
 
 TEST(Fence, LetsAThreadReadWhatAnotherOnesContextDrew) {
     const EglContext context;
-    const DrawnPicture picture = drawn_elsewhere();
+    const DrawnPicture picture = drawn_elsewhere(context);
     EXPECT_TRUE(picture.drawn.reached_within(std::chrono::seconds(60)));
     EXPECT_TRUE(picture.drawn.reached()) << "and stays so";
     expect_places(picture.texture);
@@ -69,7 +69,7 @@ TEST(Fence, LetsAThreadReadWhatAnotherOnesContextDrew) {
 
 TEST(Fence, HoldsAContextUntilAnotherOneHasDrawn) {
     const EglContext context;
-    const DrawnPicture picture = drawn_elsewhere();
+    const DrawnPicture picture = drawn_elsewhere(context);
     picture.drawn.hold_current_context();
     expect_places(picture.texture);
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});

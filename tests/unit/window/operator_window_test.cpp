@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/gl/egl_context.h"
-#include "common/gl/fence.h"
 #include "common/gl/texture.h"
 #include "tests/support/virtual_screen.h"
 
@@ -359,19 +357,6 @@ TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {
     EXPECT_EQ(after({"key", "ctrl+3"}).store_shot, 0);
     EXPECT_EQ(after({"key", "ctrl+3"}).store_shot, 3);
     EXPECT_EQ(after({"key", "ctrl+4"}).store_shot, 4) << "nothing is kept there";
-}
-
-TEST_F(OperatorHands, AnotherThreadDrawsIntoItsTextures) {
-    const EglContext sharing = EglContext::sharing_with_current();
-    Texture texture(TextureFormat::r8, 5, 4);
-    Fence drawn;
-    std::thread([&] {
-        const CurrentContext current(sharing);
-        texture.upload(cv::Mat1b(4, 5, uchar{77}));
-        drawn = Fence::insert();
-    }).join();
-    EXPECT_TRUE(drawn.reached_within(std::chrono::seconds(60)));
-    EXPECT_EQ(cv::Mat1b(texture.download())(3, 4), 77);
 }
 
 TEST_F(OperatorHands, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
