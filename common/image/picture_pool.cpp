@@ -48,8 +48,9 @@ class PicturePool::Shelf final : public cv::MatAllocator,
     cv::Mat take(cv::Size size, int type) const {
         {
             const std::lock_guard lock(mutex_);
-            if (std::exchange(size_, size) != size || std::exchange(type_, type) != type)
-                free_.clear();
+            if (size != size_ || type != type_) free_.clear();
+            size_ = size;
+            type_ = type;
             if (!free_.empty()) {
                 cv::Mat memory = std::move(free_.back());
                 free_.pop_back();

@@ -199,6 +199,7 @@ class Programme {
     Governor governor_;
     Replay replay_;
     std::optional<double> last_look_s_;
+    std::uint64_t look_ = 0;                     ///< so many
     std::map<std::string, Renderer> renderers_;  ///< by synthesiser
     Renderer* renderer_ = nullptr;               ///< in use
     Renderer* next_ = nullptr;                   ///< takes over when it is ready; null: none
@@ -207,7 +208,6 @@ class Programme {
     OrbitView view_;
     CameraState camera_, camera_before_;  ///< of the last look and the one before
     CameraForecast forecast_;
-    std::uint64_t look_ = 0;  ///< so many
     HandWatch hands_;
     SeekWatch seek_;
     std::shared_ptr<const ReadyInstant> instant_;

@@ -19,6 +19,8 @@ TEST(PicturePool, GivesThePictureThatNobodyHoldsAgain) {
         EXPECT_TRUE(picture.isContinuous());
         first = picture.data;
     }
+    const ColourImage of_the_system(size);
+    EXPECT_NE(of_the_system.data, first) << "which the pool keeps";
     EXPECT_EQ(pool.take<ColourImage>(size).data, first);
 }
 
