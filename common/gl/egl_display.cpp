@@ -44,10 +44,9 @@ EglDisplayHold EglDisplayHold::open(EGLDisplay display, std::shared_ptr<void> na
 EglDisplayHold EglDisplayHold::join(EGLDisplay display) {
     OpenDisplays& open = open_displays();
     const std::scoped_lock lock(open.mutex);
-    const auto known = open.all.find(display);
-    if (known == open.all.end()) return {};
-    ++known->second.holders;
-    return {display, known->second.driver};
+    OpenDisplay& known = open.all.at(display);
+    ++known.holders;
+    return {display, known.driver};
 }
 
 EglDisplayHold::EglDisplayHold(EglDisplayHold&& other) noexcept

@@ -17,8 +17,8 @@ class EglDisplayHold {
     /// made from, where that is an object) until the display ends. `held()` is false, and
     /// eglGetError() says why, where EGL refuses.
     static EglDisplayHold open(EGLDisplay display, std::shared_ptr<void> native);
-    /// Joins the holds on `display`; on one that somebody else opened (a window's library, which
-    /// must outlive this) it has no say.
+    /// Joins the holds on `display`. Precondition: there is one, as that of a context which the new
+    /// one is to share with.
     static EglDisplayHold join(EGLDisplay display);
 
     EglDisplayHold(EglDisplayHold&& other) noexcept;
