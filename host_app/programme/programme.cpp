@@ -213,10 +213,13 @@ bool Programme::look(double time_s, MonotonicTime now) {
         moments_a_pulse_ = governor_.moments_a_pulse(transport().state().speed);
     else if (seek_.has_jumped(transport().jumps()))
         moments_a_pulse_ = 1;
+    const CameraState camera = step.camera.value_or(step.view.camera());
+    const bool flies = !is_same_view(camera, camera_);
     // Whoever moves before the first picture waits for the start, and a jump's time is counted by
-    // its own name.
-    if (step.hand && shown_ && !seek_.has_jumped(transport().jumps()))
-        hands_.saw(*step.hand, look_, !step.toggle_source_map && !step.next_synthesiser);
+    // its own name. What only marks, or flies the preview, waits for no picture of the programme.
+    if (step.hand && shown_ && !seek_.has_jumped(transport().jumps()) &&
+        (flies || step.toggle_source_map))
+        hands_.saw(*step.hand, look_, !step.toggle_source_map);
     seek_.follow(transport().jumps(), past_pulse(),
                  shown_ ? std::optional(shown_->job.instant->set->trigger_index) : std::nullopt,
                  now);
@@ -225,9 +228,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
     preview_.pause(seek_.is_on());
     if (step.toggle_source_map) source_map_ = !source_map_;
     if (step.next_synthesiser && !next_) begin_next_synthesiser();
-    const CameraState camera = step.camera.value_or(step.view.camera());
-    if (!is_same_view(camera, camera_) || step.time.is_any() || transport().is_moving())
-        changed_ = now;
+    if (flies || step.time.is_any() || transport().is_moving()) changed_ = now;
     view_ = step.view;
     camera_before_ = std::exchange(camera_, camera);
     preview_view_ = step.preview;

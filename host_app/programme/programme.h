@@ -46,8 +46,8 @@ struct ProgrammeBooks {
     double duration_s = 0;          ///< since the first picture
     Percentiles interval_ms;        ///< between two new pictures
     Percentiles latency_ms;         ///< from exposure to the hand-over of the first picture of it
-    Percentiles hand_ms;  ///< from an input to the hand-over of the first picture with it, where it
-                          ///< changes the picture; a jump in time counts in seek_ms alone
+    Percentiles hand_ms;  ///< from an input that moves the camera or changes what is drawn to the
+                          ///< hand-over of the first picture with it
     Percentiles seek_ms;  ///< from a jump in time to the hand-over of its instant's picture
     SeekSteps<Percentiles> seek_steps_ms;
     Percentiles rest_ms;  ///< from the last change of camera and time to the best picture

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 /// By how much a picture that took long counts less with every one after it.
-constexpr double forgetting = 0.98;
+constexpr double forgetting = 0.998;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void Reprojector::start(std::shared_ptr<const MadePicture> rendered, const Camer
                         std::uint64_t look) {
     {
         const std::lock_guard lock(mutex_);
-        work_ = Work{std::move(rendered), camera, look};
+        work_ = Work{std::move(rendered), camera, look, MonotonicClock::now()};
     }
     woken_.notify_all();
 }
@@ -72,10 +72,9 @@ void Reprojector::run() {
         if (is_stopping_) return;
         const Work work = *work_;
         lock.unlock();
-        const MonotonicTime start = MonotonicClock::now();
         std::shared_ptr<const MadePicture> carried = carried_on(work);
         lock.lock();
-        longest_ms_ = std::max(ms_since(start), forgetting * longest_ms_);
+        longest_ms_ = std::max(ms_since(work.started), forgetting * longest_ms_);
         finished_ = std::move(carried);
         work_.reset();
     }

@@ -27,7 +27,7 @@ class Reprojector {
                std::uint64_t look);
     /// Null if none was finished since the last call; those whose way was too long never are.
     std::shared_ptr<const MadePicture> take_finished();
-    /// That the last ones took.
+    /// That the last ones took from start() on.
     double longest_ms() const;
 
   private:
@@ -35,6 +35,7 @@ class Reprojector {
         std::shared_ptr<const MadePicture> rendered;
         CameraState camera;
         std::uint64_t look;
+        MonotonicTime started;
     };
     void run();
     std::shared_ptr<const MadePicture> carried_on(const Work& work);

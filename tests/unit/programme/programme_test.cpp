@@ -870,6 +870,22 @@ TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
     EXPECT_EQ(programme_->books().hand_ms.count, 0u) << "its time is not the later picture's";
 }
 
+TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
+    make();
+    start();
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const int steps = pilot_.steps();
+    pilot_.next([](PilotStep& step) {
+        step.hand = MonotonicClock::now();
+        step.time.mark_in = true;
+    });
+    ASSERT_TRUE(eventually([&] { return pilot_.steps() > steps + 1; }));
+    push(2);
+    ASSERT_TRUE(wait_for_pulse(2));
+    EXPECT_EQ(programme_->books().hand_ms.count, 0u) << "the picture is new, but not of the hand";
+}
+
 TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
     settings_.quality = {3};
     make();
