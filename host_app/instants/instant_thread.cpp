@@ -16,6 +16,7 @@
 #include "common/gl/limits.h"
 #include "common/gl/sliced_drawing.h"
 #include "host_app/instants/depth_views.h"
+#include "host_app/instants/rig_consensus.h"
 
 namespace vantage {
 namespace {
@@ -61,12 +62,18 @@ bool is_better(const InstantWish& wish, const InstantWish& before) {
            (wish.preview && (!before.preview || is_elsewhere(*wish.preview, *before.preview)));
 }
 
-/// Those of the first set. Where the others of so many rigs are yet to come, the one that is there
-/// stands for another too: what rigs do for each other is rehearsed before the show, not in it.
+/// Those of the first set. Where others of so many rigs are yet to come, one that is there stands
+/// for them too, a little further on each: shaders differ by the number of rigs that are compared,
+/// and what rigs do for each other is rehearsed before the show, not in it.
 std::vector<DepthView> for_rehearsal(std::vector<DepthView> views, std::size_t rigs) {
-    if (views.size() == 1 && rigs > 1) {
-        views.push_back(views.front());
-        views.back().name += "'";
+    // Further apart than a rig's own two cameras, so that others tell something new.
+    constexpr double apart_baselines = 5;
+    const std::size_t compared = std::min(rigs, RigConsensus::max_others + 1);
+    while (!views.empty() && views.size() < compared) {
+        DepthView twin = views.back();
+        twin.name += "'";
+        twin.world_from_camera.translate(Eigen::Vector3d(apart_baselines * twin.baseline_m, 0, 0));
+        views.push_back(std::move(twin));
     }
     return views;
 }

@@ -30,7 +30,7 @@ class PerformerDepth {
     void better(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
   private:
-    static constexpr std::size_t max_others = 3;
+    static constexpr std::size_t max_others = RigConsensus::max_others;
 
     /// Those whose silhouettes are looked at.
     static std::vector<const RigHistory*> others_of(const RigHistory& rig,

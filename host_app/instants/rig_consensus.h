@@ -48,6 +48,9 @@ bool shows_floor(std::span<const ComparedView> views);
 /// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.
 class RigConsensus {
   public:
+    /// Rigs that one is compared with at the most.
+    static constexpr std::size_t max_others = 3;
+
     /// A pass or two, or a part of one.
     using Step = std::function<void()>;
 
@@ -88,7 +91,6 @@ class RigConsensus {
         Framebuffer target;
         explicit Sweep(cv::Size size);
     };
-    static constexpr std::size_t max_others = 3;
 
     /// A view, those that it is compared with, and where: tiles of a picture (see TilePass).
     struct LookedAt {

@@ -28,7 +28,8 @@ struct Orders {
     std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
     std::atomic<int> rehearsals = 0, taken_at_rehearsal = 0;
     std::atomic<std::size_t> rehearsed_rigs = 0;
-    std::function<void()> at_rehearsal;  ///< set before the first set is pushed
+    std::atomic<double> rehearsed_apart_m = 0;  ///< the first two of them
+    std::function<void()> at_rehearsal;         ///< set before the first set is pushed
     std::atomic<double> dt_s = 0;
 };
 
@@ -60,6 +61,9 @@ class OrderedPreparer final : public InstantPreparer {
         ++orders_->rehearsals;
         if (orders_->at_rehearsal) orders_->at_rehearsal();
         orders_->rehearsed_rigs = views.size();
+        orders_->rehearsed_apart_m =
+            (views[1].world_from_camera.translation() - views[0].world_from_camera.translation())
+                .norm();
         orders_->taken_at_rehearsal = orders_->taken.load();
     }
     void cut() override { ++orders_->cuts; }
@@ -71,7 +75,11 @@ class OrderedPreparer final : public InstantPreparer {
 
 class InstantThreadTest : public testing::Test {
   protected:
-    InstantThreadTest() {
+    InstantThreadTest() { make_thread(feed_.feed()); }
+    void make_thread(StageFeed feed) {
+        thread_ = std::make_unique<InstantThread>(
+            InstantThread::Settings{.pulse_rate_hz = 10, .replay_bytes = 100'000'000},
+            std::move(feed), contexts_);
         thread_->prepare_for("ordered", [orders = orders_](const ShaderLibrary&) {
             return std::make_unique<OrderedPreparer>(orders);
         });
@@ -100,9 +108,7 @@ class InstantThreadTest : public testing::Test {
     ContextGroup contexts_;
     ScriptedFeed feed_{{"north", "south"}};
     std::shared_ptr<Orders> orders_ = std::make_shared<Orders>();
-    std::unique_ptr<InstantThread> thread_ = std::make_unique<InstantThread>(
-        InstantThread::Settings{.pulse_rate_hz = 10, .replay_bytes = 100'000'000}, feed_.feed(),
-        contexts_);
+    std::unique_ptr<InstantThread> thread_;
 };
 
 TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
@@ -126,9 +132,21 @@ TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
     EXPECT_EQ(orders_->rehearsals, 1);
     EXPECT_EQ(orders_->taken_at_rehearsal, 0);
     EXPECT_EQ(orders_->rehearsed_rigs, 2u) << "what rigs do for each other is rehearsed too";
+    EXPECT_GT(orders_->rehearsed_apart_m, 0) << "from one place they would tell nothing new";
     push(5);
     ASSERT_TRUE(wait_for_pulse(5));
     EXPECT_EQ(orders_->rehearsals, 1);
+}
+
+/// Shaders differ by how many rigs are compared with one, but there is a most.
+TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
+    thread_.reset();
+    ScriptedFeed feed{{"a", "b", "c", "d", "e", "f"}};
+    make_thread(feed.feed());
+    feed.push(feed.set(4, {"b", "c"}));
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(orders_->rehearsed_rigs, 4u);
+    thread_.reset();
 }
 
 TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
