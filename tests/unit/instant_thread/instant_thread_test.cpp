@@ -106,7 +106,7 @@ class InstantThreadTest : public testing::Test {
     }
 
     ContextGroup contexts_;
-    ScriptedFeed feed_{{"north", "south"}};
+    ScriptedFeed feed_{{"north", "south"}}, feed_of_six_{{"a", "b", "c", "d", "e", "f"}};
     std::shared_ptr<Orders> orders_ = std::make_shared<Orders>();
     std::unique_ptr<InstantThread> thread_;
 };
@@ -141,12 +141,10 @@ TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
 /// Shaders differ by how many rigs are compared with one, but there is a most.
 TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
     thread_.reset();
-    ScriptedFeed feed{{"a", "b", "c", "d", "e", "f"}};
-    make_thread(feed.feed());
-    feed.push(feed.set(4, {"b", "c"}));
+    make_thread(feed_of_six_.feed());
+    feed_of_six_.push(feed_of_six_.set(4, {"b", "c"}));
     ASSERT_TRUE(wait_for_pulse(4));
     EXPECT_EQ(orders_->rehearsed_rigs, 4u);
-    thread_.reset();
 }
 
 TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
