@@ -40,8 +40,9 @@ class InstantPreparer {
     virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                                    const PrepareLevel& level) = 0;
 
-    /// Does a piece of work that betters later instants. `target`: what they are wished for.
-    void improve(const VirtualView& target) {
+    /// Does a piece of work that betters later instants, and waits for what of it has a thread of
+    /// its own. `target`: what they are wished for.
+    virtual void improve(const VirtualView& target) {
         while (improve_a_step(target)) continue;
     }
     /// A step of that, as long as a pass takes, where there is no time for more. True: more of the

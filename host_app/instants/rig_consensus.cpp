@@ -23,11 +23,6 @@ constexpr double coarse_step_px = 2, fine_step_px = 1;
 constexpr double exact_px = 0.7, least_change_px = 0.5;
 /// Of all points, those that lie on a floor that can be seen.
 constexpr double floor_share = 0.05;
-/// What thin things are looked for by, and where: of the inverse of the view's median depth.
-constexpr std::size_t searched_others = 2;
-/// Steps that a search takes: at every pixel it tries more than all other passes together.
-constexpr int search_parts = 12;
-constexpr float farthest_searched = 0.4f, nearest_searched = 2.2f;
 /// Relative uncertainty of depth that does not come of stereo.
 constexpr double least_sigma = 0.002;
 
@@ -89,9 +84,7 @@ RigConsensus::Sweep::Sweep(cv::Size size)
 RigConsensus::RigConsensus(const ShaderLibrary& library)
     : halve_(library, "rig_smooth.frag", {{"SCALE", "2"}}),
       smooth_(library, "rig_smooth.frag"),
-      refine_(library, "rig_refine.frag"),
-      search_(library, "rig_search.frag", {{"OTHERS", std::to_string(searched_others)}}),
-      found_(library, "rig_found.frag") {
+      refine_(library, "rig_refine.frag") {
     for (std::size_t others = 1; others <= max_others; ++others) {
         const std::pair<std::string, std::string> count{"OTHERS", std::to_string(others)};
         sweep_.emplace_back(library, "rig_sweep.frag", ShaderDefines{count});
@@ -334,45 +327,6 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
         draw(standing, with_floor_.target(), unit + 1, look);
     });
     return with_floor_.texture();
-}
-
-bool RigConsensus::search(const ComparedView& view, std::span<const ComparedView> all,
-                          const Texture& bettered, const Framebuffer& found) {
-    const Look wide = look_at(view, all, max_others);
-    if (wide->others.size() < searched_others || !tell_news(view, parallax_px(wide))) return false;
-    const auto look = std::make_shared<LookedAt>(*wide);
-    look->others.resize(searched_others);
-    const int rows = view.depth_m->height_px();
-    for (int part = 0; part < search_parts; ++part)
-        then([=, this, &bettered, &found] {
-            Program& program = search_.use();
-            const int unit = bind_others(program, *look->view.depth_m, look);
-            const auto nearness = static_cast<float>(1 / look->view.median_depth_m());
-            program.set("range",
-                        Eigen::Vector2f(farthest_searched * nearness, nearest_searched * nearness));
-            program.set("before", unit);
-            bettered.bind(unit);
-            search_.draw(found, *look->tiles, static_cast<GLuint>(unit + 1), look->picture,
-                         cv::Range(rows * part / search_parts, rows * (part + 1) / search_parts));
-        });
-    return true;
-}
-
-const Texture& RigConsensus::with_found(const ComparedView& view, const Texture& bettered,
-                                        const Texture& found) {
-    with_found_.resize(bettered.size());
-    const Look look = look_at(view, {}, 0);
-    then([=, this, &bettered, &found] {
-        Program& program = found_.use();
-        program.set("before", 0);
-        program.set("found", 1);
-        program.set("picture", 2);
-        bettered.bind(0);
-        found.bind(1);
-        look->view.colour->bind(2);
-        draw(found_, with_found_.target(), 3, look);
-    });
-    return with_found_.texture();
 }
 
 }  // namespace vantage

@@ -56,9 +56,9 @@ class RigConsensus {
 
     explicit RigConsensus(const ShaderLibrary& library);
 
-    /// What `work` asks of better_set(), search() and with_found() is not drawn, but is the steps
-    /// that are returned: to be done in order, and before anything else is asked of this. Textures
-    /// that were returned to `work` are valid after the last one.
+    /// What `work` asks of better_set() is not drawn, but is the steps that are returned: to be
+    /// done in order, and before anything else is asked of this. Textures that were returned to
+    /// `work` are valid after the last one.
     std::deque<Step> in_steps(const std::function<void()>& work);
     /// Within in_steps(), the next step; else done at once.
     void then(Step step);
@@ -73,16 +73,6 @@ class RigConsensus {
                                      const Texture& tiles);
     /// The same of the set, which may have a floor.
     const Texture& better_set(const ComparedView& view, std::span<const ComparedView> all);
-
-    /// Looks for thin things of the set where its `bettered` depth is but a guess, by trying all
-    /// depths: inverse depths, 1/m, 0 = nothing found, into an r32f target of the depth's size.
-    /// False, and nothing is drawn: there are too few other views to tell by, or they stand too
-    /// close.
-    bool search(const ComparedView& view, std::span<const ComparedView> all,
-                const Texture& bettered, const Framebuffer& found);
-    /// `bettered` with those of the depths found that the pixels around confirm, valid as it is.
-    const Texture& with_found(const ComparedView& view, const Texture& bettered,
-                              const Texture& found);
 
   private:
     /// How unlike the pictures are at sixteen depths, four a texture.
@@ -127,13 +117,13 @@ class RigConsensus {
                 const Framebuffer& target) const;
 
     std::deque<Step>* steps_ = nullptr;  ///< null: nothing is put off
-    TilePass halve_, smooth_, refine_, search_, found_;
+    TilePass halve_, smooth_, refine_;
     /// One for every number of other views.
     std::vector<TilePass> sweep_, agreement_pass_, carve_, move_and_carve_, adopt_, floor_;
     Texture whole_{TextureFormat::r8, 1, 1};  ///< one tile
     std::unique_ptr<Sweep> costs_;
     DrawnTexture half_before_{TextureFormat::r32f}, result_{TextureFormat::r32f};
-    DrawnTexture with_floor_{TextureFormat::r32f}, with_found_{TextureFormat::r32f};
+    DrawnTexture with_floor_{TextureFormat::r32f};
     DrawnTexture judged_{TextureFormat::rg32f};
     DrawnTexture agreement_{TextureFormat::rgba16f, Filter::linear, true};
     DrawnInTurn half_{TextureFormat::r32f};

@@ -9,7 +9,7 @@ void RigHistory::forget() {
     set_.forget();
     learnt_instants_ = 0;
     model_.reset();
-    search_.reset();
+    match_.reset();
     hide();
 }
 
@@ -37,6 +37,18 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     upload_colour(view, corrector_, *colour_);
     upload_depth(view, uploader_, depth_);
     samples_ = surface_samples(view);
+}
+
+void RigHistory::set_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+                           const ColourImage& colour) {
+    const auto texture = [](TextureFormat format, const cv::Mat& image) {
+        Texture filled(format, image.cols, image.rows);
+        filled.upload(image);
+        return filled;
+    };
+    match_.emplace(Match{texture(TextureFormat::r32f, depth_m),
+                         texture(TextureFormat::r32f, learnt_m),
+                         texture(TextureFormat::rgba8, colour)});
 }
 
 Eigen::Matrix3d RigHistory::K_depth() const {

@@ -89,15 +89,17 @@ class RigHistory {
     std::optional<double> shape_made_s() const { return shape_made_s_; }
     void set_shape_made_s(std::optional<double> made_s) { shape_made_s_ = made_s; }
 
-    /// The inverse depths that a search of the set found, 1/m, 0 = none.
-    DrawnTexture& found() { return found_; }
-    /// The last search: when it was, on the preparer's clock, and how long after it the next one
-    /// is; empty before the first.
-    struct Search {
-        double at_s = 0, rest_s = 0;
+    /// The set's depth as it was matched against other rigs' sets (see match_sets()).
+    struct Match {
+        Texture depth_m;           ///< r32f, metres, 0 = unknown
+        Texture learnt_m, colour;  ///< r32f and rgba8: what had been learnt then
     };
-    const std::optional<Search>& search() const { return search_; }
-    void set_search(const Search& search) { search_ = search; }
+    const std::optional<Match>& match() const { return match_; }
+    /// All of one size: the depth's, or a part of it.
+    void set_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+                   const ColourImage& colour);
+    /// The set's depth with what of the match still holds, to be drawn and read.
+    DrawnTexture& matched_depth() { return matched_depth_; }
 
     /// The performers' share of each pixel of the picture, r8, and the tiles of it in which there
     /// are any (see TilePass).
@@ -145,8 +147,8 @@ class RigHistory {
     int learnt_instants_ = 0;
     std::optional<Model> model_;
     std::optional<double> shape_made_s_;
-    DrawnTexture found_{TextureFormat::r32f};
-    std::optional<Search> search_;
+    std::optional<Match> match_;
+    DrawnTexture matched_depth_{TextureFormat::r32f};
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};
     DrawnTexture matte_tiles_{TextureFormat::r8};
     DrawnTexture performer_depth_{TextureFormat::r32f};

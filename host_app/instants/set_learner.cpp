@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "host_app/instants/depth_spread.h"
+#include "host_app/instants/projection.h"
 
 namespace vantage {
 namespace {
@@ -25,6 +26,8 @@ constexpr double absorbed_after_s = 120;
 constexpr double known_after_s = 0.5;
 /// The longest means, of which certainties are shares.
 constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
+/// A larger set is matched smaller: its costs are 160 MB at this size.
+constexpr double most_matched_pixels = 640 * 480;
 /// Pixels across that look_at() looks at.
 constexpr int most_sampled_px = 128;
 
@@ -193,6 +196,24 @@ cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
     cv::extractChannel(set.colour, still, 3);
     cv::resize(still, still, set.depth_m.size(), 0, 0, cv::INTER_NEAREST);
     return (still >= std::floor(least)) & (set.depth_m > 0);
+}
+
+SetPicture SetLearner::picture(const RigHistory& rig) {
+    const LearntRigSet set = learnt(rig);
+    const cv::Size whole = set.depth_m.size();
+    const int part = static_cast<int>(std::ceil(std::sqrt(whole.area() / most_matched_pixels)));
+    const cv::Size size(whole.width / part, whole.height / part);
+    SetPicture picture;
+    picture.K = scaled_intrinsics(rig.K_depth(), static_cast<double>(size.width) / whole.width,
+                                  static_cast<double>(size.height) / whole.height);
+    picture.world_from_camera = rig.camera().world_from_camera;
+    picture.baseline_m = rig.camera().baseline_m;
+    cv::resize(set.depth_m, picture.depth_m, size, 0, 0, cv::INTER_NEAREST_EXACT);
+    cv::resize(set.colour, picture.colour, size, 0, 0, cv::INTER_AREA);
+    cv::Mat known;
+    cv::resize(SetLearner::known(set, rig.dt_s()), known, size, 0, 0, cv::INTER_NEAREST_EXACT);
+    cv::insertChannel(known, picture.colour, 3);
+    return picture;
 }
 
 SetLearner::Look SetLearner::look_at(const RigHistory& rig) {

@@ -5,6 +5,7 @@
 #include "common/gl/two_stage_pass.h"
 #include "host_app/instants/learnt_set.h"
 #include "host_app/instants/rig_history.h"
+#include "host_app/instants/set_matcher.h"
 
 namespace vantage {
 
@@ -33,6 +34,9 @@ class SetLearner {
     static void restore(RigHistory& rig, const LearntRigSet& set);
     /// Where a set is known that was read back from instants `dt_s` apart; of its depth's size.
     static cv::Mat1b known(const LearntRigSet& set, double dt_s);
+    /// What is to be matched of it, read back, of its depth's size or a part of that. Precondition
+    /// as learnt().
+    static SetPicture picture(const RigHistory& rig);
     struct Look {
         double known_share = 0;  ///< of the rig's pixels: the set is known there
         cv::Mat1b matte;         ///< the performers' share of its picture, small, 0..255

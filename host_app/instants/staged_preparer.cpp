@@ -16,9 +16,9 @@ constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
 /// Before improve() makes a rig's best model anew: first, then twice as long each time, for what
 /// stands still is soon known as well as it will be. What has changed since a model is not of it.
 constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
-/// Between two searches for thin things in a rig's set: first, then twice as long each time, for
-/// what is found in a set that stands still hardly changes.
-constexpr double first_search_rest_s = 2, longest_search_rest_s = 30;
+/// Before the sets are matched, from when they are learnt; and between two matches: first, then
+/// twice as long each time, for what is found in a set that stands still hardly changes.
+constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
 /// For so long the cheapest levels keep the shape of a known set, colours change every instant.
 constexpr double shape_kept_s = 1;
 /// Instants, before which there is nothing to remember.
@@ -37,7 +37,10 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
       triangles_(library),
       show_(library, "set_show.frag"),
       now_(library, "colours_now.frag"),
-      colour_performers_(library, "performer_colour.frag") {}
+      show_matched_(library, "set_matched.frag"),
+      colour_performers_(library, "performer_colour.frag") {
+    match_anew(learnt_before_match_s);
+}
 
 void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
@@ -52,7 +55,12 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
 
 void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualView& target) {
     // So many that there is something to remember, and time to better the set.
+    match_anew(std::numeric_limits<double>::infinity());
     for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
+    for (RigHistory* rig : uploaded_) {
+        const DepthImage none(rig->depth().size(), 0.0f);
+        rig->set_match(none, none, ColourImage(none.size()));
+    }
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
     (void)prepare(target, best_of_one);
@@ -60,6 +68,7 @@ void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualVie
     level_ = prepare_levels().front();
     rigs_.forget();
     improved_s_ = now_s_;
+    match_anew(now_s_ + learnt_before_match_s);
 }
 
 void StagedPreparer::cut() {
@@ -131,6 +140,7 @@ void StagedPreparer::begin_with(std::shared_ptr<const LearntSet> set) {
     begins_with_ = std::move(set);
     misfits_.clear();
     states_.clear();
+    match_anew(begins_with_ ? now_s_ : now_s_ + learnt_before_match_s);
 }
 
 void StagedPreparer::learn_anew() {
@@ -147,23 +157,81 @@ LearntSet StagedPreparer::learnt() const {
 }
 
 const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
-    const ComparedView view = compared(rig);
-    const std::vector<ComparedView> all = compared(rigs_.shown());
-    const Texture& bettered = consensus_.better_set(view, all);
-    const std::optional<RigHistory::Search>& last = rig.search();
-    bool is_searched = last.has_value();
-    // A set that is known at all comes before thin things in it.
-    const bool is_known = rig.model() && rig.model()->rank == 0;
-    if (is_known && (!last || now_s_ - last->at_s >= last->rest_s)) {
-        rig.found().resize(bettered.size());
-        if (consensus_.search(view, all, bettered, rig.found().target())) {
-            is_searched = true;
-            const double rest_s =
-                last ? std::min(2 * last->rest_s, longest_search_rest_s) : first_search_rest_s;
-            consensus_.then([&rig, rest_s, at_s = now_s_] { rig.set_search({at_s, rest_s}); });
-        }
+    ComparedView view = compared(rig);
+    std::vector<ComparedView> all;
+    for (RigHistory* one : rigs_.shown()) {
+        all.push_back(compared(*one));
+        if (!one->match() || one->learnt_instants() == 0) continue;
+        one->matched_depth().resize(one->depth().size());
+        all.back().depth_m = &one->matched_depth().texture();
+        if (one == &rig) view.depth_m = all.back().depth_m;
+        consensus_.then([this, one] {
+            Program& show = show_matched_.use();
+            show.set("learnt", 0);
+            show.set("picture", 1);
+            show.set("learnt_then", 2);
+            show.set("picture_then", 3);
+            show.set("matched", 4);
+            show.set("spread", depth_spread(one->camera()));
+            one->steady_depth().bind(0);
+            one->colour().bind(1);
+            one->match()->learnt_m.bind(2);
+            one->match()->colour.bind(3);
+            one->match()->depth_m.bind(4);
+            show_matched_.draw(one->matched_depth().target());
+        });
     }
-    return is_searched ? consensus_.with_found(view, bettered, rig.found().texture()) : bettered;
+    return consensus_.better_set(view, all);
+}
+
+bool StagedPreparer::match_a_step() {
+    if (matching_.is_under_way()) {
+        if (const auto depths_m = matching_.take()) take_match(*depths_m);
+        return false;
+    }
+    if (!matched_) {
+        if (now_s_ < match_due_s_ || rigs_.shown().size() < 2) return false;
+        matched_.emplace();
+        for (RigHistory* rig : rigs_.shown())
+            if (rig->learnt_instants() > 0) matched_->rigs.push_back(rig);
+    }
+    const std::vector<RigHistory*> known = rigs_.known();
+    const RigHistory* rig = matched_->rigs[matched_->sets.size()];
+    if (std::find(known.begin(), known.end(), rig) == known.end() || rig->learnt_instants() == 0) {
+        matched_.reset();
+        return false;
+    }
+    matched_->sets.push_back(SetLearner::picture(*rig));
+    matched_->depth_sizes.push_back(rig->depth().size());
+    if (matched_->sets.size() < matched_->rigs.size()) return true;
+    matching_.begin(matched_->sets);
+    return false;
+}
+
+void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
+    const std::optional<Matched> matched = std::exchange(matched_, std::nullopt);
+    if (!matched) return;
+    match_due_s_ = now_s_ + match_rest_s_;
+    match_rest_s_ = std::min(2 * match_rest_s_, longest_match_rest_s);
+    const std::vector<RigHistory*> known = rigs_.known();
+    for (std::size_t i = 0; i < depths_m.size(); ++i) {
+        RigHistory* rig = matched->rigs[i];
+        if (std::find(known.begin(), known.end(), rig) == known.end() ||
+            rig->learnt_instants() == 0 || rig->depth().size() != matched->depth_sizes[i])
+            continue;
+        rig->set_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
+        if (!rig->model()) continue;
+        // As soon as there is time.
+        RigHistory::Model model = *rig->model();
+        model.rest_s = 0;
+        rig->set_model(model);
+    }
+}
+
+void StagedPreparer::match_anew(double due_s) {
+    matched_.reset();
+    match_due_s_ = due_s;
+    match_rest_s_ = first_match_rest_s;
 }
 
 std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
@@ -180,7 +248,7 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
                            .made_s = now_s_,
                            .made = rig.learnt_instants()};
     if (before && before->rank == 0)
-        made.rest_s = std::min(2 * before->rest_s, longest_model_rest_s);
+        made.rest_s = std::clamp(2 * before->rest_s, first_model_rest_s, longest_model_rest_s);
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
         const std::shared_ptr<RigSurface> model = surfaces_.take(shapes_);
         model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
@@ -313,7 +381,13 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     return instant;
 }
 
+void StagedPreparer::improve(const VirtualView& target) {
+    InstantPreparer::improve(target);
+    if (const auto depths_m = matching_.take(true)) take_match(*depths_m);
+}
+
 bool StagedPreparer::improve_a_step(const VirtualView& target) {
+    if (match_a_step()) return true;
     if (bettering_ && !is_under_way(*bettering_)) bettering_.reset();
     if (!bettering_) begin_bettering(target);
     if (!bettering_) return false;
@@ -342,7 +416,8 @@ void StagedPreparer::begin_bettering(const VirtualView& target) {
     bettering_.emplace();
     for (RigHistory* rig : rigs_.shown())
         if (rig->learnt_instants() > 0)
-            bettering_->rigs.push_back({rig, rig->colour().size(), rig->depth().size()});
+            bettering_->rigs.push_back(
+                {rig, rig->colour().size(), rig->depth().size(), rig->match().has_value()});
     bettering_->steps = model_in_steps(*oldest, prepare_levels().front());
 }
 
@@ -352,7 +427,8 @@ bool StagedPreparer::is_under_way(const Bettering& bettering) const {
         bettering.rigs.begin(), bettering.rigs.end(), [&](const Bettering::Rig& rig) {
             return std::find(known.begin(), known.end(), rig.rig) != known.end() &&
                    rig.rig->learnt_instants() > 0 && rig.rig->colour().size() == rig.colour &&
-                   rig.rig->depth().size() == rig.depth;
+                   rig.rig->depth().size() == rig.depth &&
+                   rig.rig->match().has_value() == rig.is_matched;
         });
 }
 

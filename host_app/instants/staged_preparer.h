@@ -16,6 +16,7 @@
 #include "host_app/instants/rig_consensus.h"
 #include "host_app/instants/rig_roster.h"
 #include "host_app/instants/set_learner.h"
+#include "host_app/instants/set_matching.h"
 #include "host_app/instants/triangle_builder.h"
 
 namespace vantage {
@@ -29,6 +30,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
+    void improve(const VirtualView& target) override;
     bool improve_a_step(const VirtualView& target) override;
     void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
@@ -53,6 +55,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
         struct Rig {
             RigHistory* rig = nullptr;
             cv::Size colour, depth;
+            bool is_matched = false;
         };
         std::vector<Rig> rigs;  ///< that it needs, of these sizes
         std::deque<RigConsensus::Step> steps;
@@ -64,9 +67,20 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     std::deque<RigConsensus::Step> model_in_steps(RigHistory& rig, const PrepareLevel& level);
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
-    /// The depth of the rig's set as the other rigs better it, with the thin things that are looked
-    /// for now and then.
+    /// The depth of the rig's set as the other rigs better it.
     const Texture& bettered_set(RigHistory& rig);
+    /// Sets that are to be matched against each other: read back rig by rig, matched on a thread of
+    /// their own, and taken over.
+    struct Matched {
+        std::vector<RigHistory*> rigs;
+        std::vector<SetPicture> sets;       ///< of the first of them
+        std::vector<cv::Size> depth_sizes;  ///< likewise
+    };
+    /// A step of that, if it is time. True: more of them is left to be read back.
+    bool match_a_step();
+    void take_match(std::span<const DepthImage> depths_m);
+    /// What the sets are matched by and what was matched is of no use any more.
+    void match_anew(double due_s);
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
@@ -86,13 +100,16 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     PrepareLevel level_;                   ///< of the last instant that was prepared
     std::set<RigHistory*> prepared_rigs_;  ///< for it
     std::optional<Bettering> bettering_;
+    std::optional<Matched> matched_;
+    SetMatching matching_;
+    double match_due_s_ = 0, match_rest_s_ = 0;
     SetLearner sets_;
     PerformerDepth performers_;
     RigConsensus consensus_;
     DepthCloser closer_;
     EdgeTrust edge_trust_;
     TriangleBuilder triangles_;
-    FullscreenPass show_, now_;
+    FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
     /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
     bool is_after_cut_ = false;

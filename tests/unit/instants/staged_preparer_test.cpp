@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/egl_context.h"
+#include "tests/unit/instants/pole_before_wall.h"
 #include "tests/unit/synthesis/wall_and_square.h"
 
 namespace vantage {
@@ -331,6 +332,77 @@ TEST_F(BetteredSetTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
         preparer_.prepare(target_, prepare_levels().front());
     ASSERT_EQ(instant->rigs.size(), 3u);
     EXPECT_EQ(instant->rigs[0].surface->depth().width_px(), staged_width_px + 20);
+}
+
+/// Three rigs that take a pole for the wall behind it.
+class MatchedSetTest : public StagedPreparerTest {
+  protected:
+    static constexpr double dt_s = 0.4;
+
+    /// With no pole: `pole` is empty.
+    static std::vector<DepthView> rigs(const cv::Rect& pole) {
+        std::vector<DepthView> views;
+        for (const double x_m : {0.0, -0.4, 0.4}) {
+            const SetPicture set = set_with_pole(x_m, pole);
+            DepthView view;
+            view.name = std::to_string(x_m);
+            view.K = set.K;
+            view.world_from_camera = set.world_from_camera;
+            view.baseline_m = set.baseline_m;
+            view.colour = set.colour;
+            view.depth_m = set.depth_m;
+            views.push_back(view);
+        }
+        return views;
+    }
+    /// Films for so long, and says how much of the pole is in its place in the end.
+    double pole_share(double seconds, const cv::Rect& pole = pole_place) {
+        const std::vector<DepthView> views = rigs(pole);
+        const VirtualView target{matched_size.width, matched_size.height, views[0].K,
+                                 views[0].world_from_camera};
+        DepthImage depth_m;
+        for (int i = 0; i < std::lround(seconds / dt_s); ++i) {
+            preparer_.take(views, dt_s);
+            depth_m = preparer_.prepare(target, prepare_levels().front())
+                          ->rigs.at(0)
+                          .surface->depth()
+                          .download();
+            preparer_.improve(target);
+        }
+        const cv::Mat off = cv::abs(depth_m(pole_place) - near_pole_m);
+        return cv::countNonZero(off < 0.05 * near_pole_m) / static_cast<double>(pole_place.area());
+    }
+};
+
+TEST_F(MatchedSetTest, HasWhatTheRigsThemselvesCannotSee) {
+    EXPECT_LT(pole_share(1.2), 0.1);
+    EXPECT_GT(pole_share(4), 0.8);
+}
+
+TEST_F(MatchedSetTest, OfALargePictureIsMatchedSmaller) {
+    const DepthView view = wall_and_square(0, 900, 700, {.square_x_m = 100});
+    RigRoster rigs;
+    SetLearner learner(shaders_);
+    for (int i = 0; i < 5; ++i) learner.learn(*rigs.upload({&view, 1}, dt_s).at(0));
+    const SetPicture set = SetLearner::picture(*rigs.shown()[0]);
+    EXPECT_EQ(set.colour.size(), cv::Size(450, 350));
+    EXPECT_NEAR(set.K(0, 0), view.K(0, 0) / 2, 1e-6);
+    EXPECT_LT(cv::norm(set.depth_m, DepthImage(350, 450, stage_wall_m), cv::NORM_INF), 0.01);
+    cv::Mat1b known;
+    cv::extractChannel(set.colour, known, 3);
+    EXPECT_EQ(cv::countNonZero(known), 450 * 350);
+}
+
+TEST_F(MatchedSetTest, LosesWhatIsTakenAway) {
+    ASSERT_GT(pole_share(5.2), 0.8);
+    EXPECT_LT(pole_share(4, cv::Rect()), 0.1);
+}
+
+TEST_F(MatchedSetTest, IsForgottenWithTheSet) {
+    ASSERT_GT(pole_share(5.2), 0.8);
+    preparer_.set_memory()->learn_anew();
+    EXPECT_LT(pole_share(1.2), 0.1);
+    EXPECT_GT(pole_share(4), 0.8) << "and matched anew";
 }
 
 /// A freeze or a jump in time moves performers, not the set.

@@ -1,0 +1,119 @@
+#include "host_app/instants/set_matcher.h"
+
+#include <gtest/gtest.h>
+
+#include "host_app/instants/set_matching.h"
+#include "tests/unit/instants/pole_before_wall.h"
+
+namespace vantage {
+namespace {
+
+int pixels_at(const DepthImage& depth_m, float metres, const cv::Rect& where) {
+    return cv::countNonZero(cv::abs(depth_m(where) - metres) < 0.05 * metres);
+}
+
+TEST(SetMatcher, FindsAThinThingThatWasTakenForWhatIsBehindIt) {
+    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
+    const DepthImage depth_m = match_sets(sets).value().at(0);
+    EXPECT_GT(pixels_at(depth_m, near_pole_m, pole_place), 0.9 * pole_place.area());
+    const int others = matched_size.area() - pole_place.area();
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, cv::Rect({0, 0}, matched_size)), 0.97 * others);
+}
+
+/// Before a wall a card, both painted at random; the rig itself knows the card's depth roughly, and
+/// too broad.
+SetPicture set_with_card(double x_m, const cv::Rect& card) {
+    SetPicture set = set_with_pole(x_m, cv::Rect());
+    const cv::Rect seen(card.x - static_cast<int>(std::lround(150 * x_m / near_pole_m)), card.y,
+                        card.width, card.height);
+    for (int y = 0; y < matched_size.height; ++y)
+        for (int x = 0; x < matched_size.width; ++x) {
+            const bool is_card = seen.contains({x, y});
+            const long column =
+                is_card ? x - seen.x : x + std::lround(150 * x_m / wall_behind_m) + 400;
+            cv::RNG cell(static_cast<std::uint64_t>((column / 3 * 131 + y / 3) * 2 + is_card + 1));
+            for (int c = 0; c < 3; ++c)
+                set.colour(y, x)[c] = static_cast<uchar>(cell.uniform(20, 230));
+        }
+    const cv::Rect broader(seen.x - 6, seen.y, seen.width + 12, seen.height);
+    set.depth_m(broader & cv::Rect({0, 0}, matched_size)) = 1.1f * near_pole_m;
+    return set;
+}
+
+/// Beside what is near lie strips of the wall that one or both of the other rigs cannot see.
+TEST(SetMatcher, KnowsWhatIsHiddenFromOtherRigs) {
+    const cv::Rect card(60, 20, 30, 80), left(48, 20, 12, 80), right(90, 20, 12, 80);
+    const std::vector<SetPicture> sets{set_with_card(0, card), set_with_card(-0.4, card),
+                                       set_with_card(0.4, card)};
+    const DepthImage depth_m = match_sets(sets).value().at(0);
+    EXPECT_GT(pixels_at(depth_m, near_pole_m, card), 0.9 * card.area());
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, left), 0.8 * left.area());
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, right), 0.8 * right.area());
+}
+
+TEST(SetMatcher, StaysWithTheRigsOwnDepthWhereThePicturesSayNothing) {
+    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
+    for (SetPicture& set : sets) {
+        set.colour = cv::Vec4b(120, 120, 120, 255);
+        set.depth_m(cv::Rect(0, 0, 80, 120)) = 3;
+    }
+    const DepthImage depth_m = match_sets(sets).value().at(0);
+    const cv::Rect nearer(0, 0, 78, 120), farther(82, 0, 78, 120);
+    EXPECT_EQ(pixels_at(depth_m, 3, nearer), nearer.area());
+    EXPECT_EQ(pixels_at(depth_m, wall_behind_m, farther), farther.area());
+}
+
+TEST(SetMatcher, LeavesOutWhatIsNotKnown) {
+    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
+    const cv::Rect unknown(20, 30, 20, 40);
+    sets[0].colour(unknown) = cv::Vec4b(0, 0, 0, 0);
+    // Performers stand before one place of the wall in both others' pictures.
+    sets[1].colour(cv::Rect(135, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
+    sets[2].colour(cv::Rect(105, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
+    const DepthImage depth_m = match_sets(sets).value().at(0);
+    EXPECT_EQ(cv::countNonZero(depth_m(unknown)), 0);
+    const cv::Rect behind(120, 30, 20, 40);
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, behind), 0.9 * behind.area());
+    EXPECT_GT(pixels_at(depth_m, near_pole_m, pole_place), 0.9 * pole_place.area());
+}
+
+TEST(SetMatcher, HasNothingToTellWithoutRigsThatStandApart) {
+    const std::vector<SetPicture> alone{set_with_pole(0)};
+    EXPECT_EQ(cv::countNonZero(match_sets(alone).value().at(0)), 0);
+    const std::vector<SetPicture> close{set_with_pole(0), set_with_pole(0.2)};
+    EXPECT_EQ(cv::countNonZero(match_sets(close).value().at(0)), 0);
+}
+
+TEST(SetMatcher, TakesSetsOfWhichNothingIsKnown) {
+    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(0.4)};
+    for (SetPicture& set : sets) set.depth_m = 0.0f;
+    EXPECT_EQ(cv::countNonZero(match_sets(sets).value().at(0)), 0);
+}
+
+TEST(SetMatcher, StopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(0.4)};
+    EXPECT_FALSE(match_sets(sets, stop.get_token()));
+}
+
+TEST(SetMatching, GivesWhatWasMatchedOnce) {
+    SetMatching matching;
+    EXPECT_FALSE(matching.take(true));
+    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4)};
+    matching.begin(sets);
+    EXPECT_TRUE(matching.is_under_way());
+    const std::vector<DepthImage> depths_m = matching.take(true).value();
+    ASSERT_EQ(depths_m.size(), 2u);
+    EXPECT_EQ(cv::norm(depths_m[1], match_sets(sets).value()[1], cv::NORM_INF), 0);
+    EXPECT_FALSE(matching.is_under_way());
+    EXPECT_FALSE(matching.take(true));
+}
+
+TEST(SetMatching, CanBeGivenUp) {
+    SetMatching matching;
+    matching.begin({set_with_pole(0), set_with_pole(-0.4)});
+}
+
+}  // namespace
+}  // namespace vantage
