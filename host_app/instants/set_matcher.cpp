@@ -148,7 +148,7 @@ float difference(const cv::Vec4b& a, const cv::Vec4b& b) {
            3;
 }
 
-/// Costs of all depths at all pixels, depth after depth, pixel after pixel.
+/// Costs of all depths at all pixels: those of a pixel lie side by side.
 class CostVolume {
   public:
     CostVolume(cv::Size size, int depths)
@@ -234,10 +234,13 @@ class PixelSweep {
     std::vector<Cost> least_, second_;
 };
 
-CostVolume swept(const SetPicture& set, std::span<const Other> others, const DepthRange& range) {
+// Where `stop` is asked for what follows is left half-way: it is of no use any more.
+
+CostVolume swept(const SetPicture& set, std::span<const Other> others, const DepthRange& range,
+                 const std::stop_token& stop) {
     CostVolume costs(set.colour.size(), range.depths);
     PixelSweep sweep(range.depths);
-    for (int y = 0; y < set.colour.rows; ++y)
+    for (int y = 0; y < set.colour.rows && !stop.stop_requested(); ++y)
         for (int x = 0; x < set.colour.cols; ++x) {
             sweep.begin();
             if (set.colour(y, x)[3] > 0)
@@ -249,11 +252,12 @@ CostVolume swept(const SetPicture& set, std::span<const Other> others, const Dep
 }
 
 /// The mean over the pixels around that look alike, and the cost of leaving the rig's own depth.
-CostVolume smoothed(const CostVolume& costs, const SetPicture& set, const DepthRange& range) {
+CostVolume smoothed(const CostVolume& costs, const SetPicture& set, const DepthRange& range,
+                    const std::stop_token& stop) {
     constexpr int all = 64;  // the sum of all weights
     CostVolume smooth(costs.size(), costs.depths());
     const float px_per_inverse_m = static_cast<float>(set.K(0, 0) * set.baseline_m);
-    for (int y = 0; y < set.colour.rows; ++y)
+    for (int y = 0; y < set.colour.rows && !stop.stop_requested(); ++y)
         for (int x = 0; x < set.colour.cols; ++x) {
             std::array<const Cost*, 9> around{};
             std::array<float, 9> weights{};
@@ -339,10 +343,10 @@ void walk_row(const CostVolume& costs, const ColourImage& colour, CostVolume& su
 
 /// Walks all columns at once, down or up, and adds their paths' costs.
 void walk_columns(const CostVolume& costs, const ColourImage& colour, CostVolume& sums,
-                  bool is_down) {
+                  bool is_down, const std::stop_token& stop) {
     const int depths = costs.depths(), last = costs.size().height - 1;
     CostVolume before({costs.size().width, 1}, depths), now = before;
-    for (int i = 0; i <= last; ++i) {
+    for (int i = 0; i <= last && !stop.stop_requested(); ++i) {
         const int y = is_down ? i : last - i;
         for (int x = 0; x < costs.size().width; ++x) {
             if (i == 0)
@@ -388,12 +392,12 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
     if (others.empty()) return DepthImage(set.colour.size(), 0.0f);
     const DepthRange range = range_of(set, sets[told_by.front()]);
     if (range.depths == 0) return DepthImage(set.colour.size(), 0.0f);
-    const CostVolume costs = smoothed(swept(set, others, range), set, range);
+    const CostVolume costs = smoothed(swept(set, others, range, stop), set, range, stop);
     CostVolume sums(costs.size(), costs.depths());
-    if (stop.stop_requested()) return std::nullopt;
-    walk_columns(costs, set.colour, sums, true);
-    walk_columns(costs, set.colour, sums, false);
-    for (int y = 0; y < costs.size().height; ++y) walk_row(costs, set.colour, sums, y);
+    walk_columns(costs, set.colour, sums, true, stop);
+    walk_columns(costs, set.colour, sums, false, stop);
+    for (int y = 0; y < costs.size().height && !stop.stop_requested(); ++y)
+        walk_row(costs, set.colour, sums, y);
     if (stop.stop_requested()) return std::nullopt;
     return winners(sums, set, range);
 }

@@ -13,7 +13,7 @@ namespace vantage {
 class SetMatching {
   public:
     SetMatching() = default;
-    /// Gives up what is under way, which takes as long as a step of it.
+    /// Gives up what is under way.
     ~SetMatching() { stop_.request_stop(); }
     SetMatching(const SetMatching&) = delete;
     SetMatching& operator=(const SetMatching&) = delete;

@@ -140,7 +140,7 @@ void StagedPreparer::begin_with(std::shared_ptr<const LearntSet> set) {
     begins_with_ = std::move(set);
     misfits_.clear();
     states_.clear();
-    match_anew(begins_with_ ? now_s_ : now_s_ + learnt_before_match_s);
+    match_anew(now_s_ + learnt_before_match_s);
 }
 
 void StagedPreparer::learn_anew() {
@@ -190,10 +190,12 @@ bool StagedPreparer::match_a_step() {
         return false;
     }
     if (!matched_) {
-        if (now_s_ < match_due_s_ || rigs_.shown().size() < 2) return false;
-        matched_.emplace();
+        if (now_s_ < match_due_s_) return false;
+        Matched next;
         for (RigHistory* rig : rigs_.shown())
-            if (rig->learnt_instants() > 0) matched_->rigs.push_back(rig);
+            if (rig->learnt_instants() > 0) next.rigs.push_back(rig);
+        if (next.rigs.size() < 2) return false;
+        matched_ = std::move(next);
     }
     const std::vector<RigHistory*> known = rigs_.known();
     const RigHistory* rig = matched_->rigs[matched_->sets.size()];

@@ -379,6 +379,18 @@ TEST_F(MatchedSetTest, HasWhatTheRigsThemselvesCannotSee) {
     EXPECT_GT(pole_share(4), 0.8);
 }
 
+/// Instants right after cuts are shown before anything is learnt of them.
+TEST_F(MatchedSetTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
+    const std::vector<DepthView> views = rigs(pole_place);
+    for (int i = 0; i < 10; ++i) {
+        preparer_.cut();
+        preparer_.take(views, dt_s);
+        preparer_.improve(
+            {matched_size.width, matched_size.height, views[0].K, views[0].world_from_camera});
+    }
+    EXPECT_GT(pole_share(8), 0.8);
+}
+
 TEST_F(MatchedSetTest, OfALargePictureIsMatchedSmaller) {
     const DepthView view = wall_and_square(0, 900, 700, {.square_x_m = 100});
     RigRoster rigs;
