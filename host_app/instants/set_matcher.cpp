@@ -24,8 +24,9 @@ constexpr double least_apart = 2;
 
 /// Mean difference of colours (0..255) beyond which nothing is more unlike.
 constexpr float most_unlike = 25;
-/// Of a depth that another rig does not see, or that its own surface hides from it.
-constexpr Cost untold_cost = 130;
+/// Of a depth that other rigs' surfaces hide from them, and of one that lies outside their
+/// pictures: what nobody can deny is not to be the better for it.
+constexpr Cost hidden_cost = 130, unseen_cost = 165;
 /// Relative difference of inverse depths up to which two rigs have one surface: costs half as much.
 constexpr float one_surface = 0.02f;
 /// Added where another rig sees through.
@@ -176,11 +177,14 @@ class CostVolume {
 class PixelSweep {
   public:
     explicit PixelSweep(int depths)
-        : least_(static_cast<std::size_t>(depths)), second_(least_.size()) {}
+        : least_(static_cast<std::size_t>(depths)),
+          second_(least_.size()),
+          is_hidden_(least_.size()) {}
 
     void begin() {
         std::fill(least_.begin(), least_.end(), none);
         std::fill(second_.begin(), second_.end(), none);
+        std::fill(is_hidden_.begin(), is_hidden_.end(), std::uint8_t{0});
     }
     void look(const Other& other, const DepthRange& range, cv::Point pixel,
               const cv::Vec4b& colour) {
@@ -200,10 +204,13 @@ class PixelSweep {
             const cv::Vec4b& there =
                 other.fine(static_cast<int>(static_cast<float>(fineness) * (v + 0.5f)),
                            static_cast<int>(static_cast<float>(fineness) * (u + 0.5f)));
-            if (there[3] < 255) continue;  // a part of it is not known
+            const auto k = static_cast<std::size_t>(depth);
+            if (there[3] < 255) {  // a part of it is not known: a performer hides it
+                is_hidden_[k] = 1;
+                continue;
+            }
             int cost = static_cast<int>(std::min(difference(colour, there), most_unlike) *
                                         (whole / most_unlike));
-            const auto k = static_cast<std::size_t>(depth);
             if (!other.inverse_depths.empty()) {
                 const cv::Vec2f& has =
                     other.inverse_depths(static_cast<int>(v), static_cast<int>(u));
@@ -211,7 +218,8 @@ class PixelSweep {
                 if (std::abs(has[0] - wanted) < off || std::abs(has[1] - wanted) < off) {
                     cost /= 2;
                 } else if (has[0] > wanted) {
-                    continue;  // hidden
+                    is_hidden_[k] = 1;
+                    continue;
                 } else if (has[1] > 0 && has[1] < wanted) {
                     cost = std::min(cost + through_cost, static_cast<int>(whole));
                 }
@@ -223,8 +231,9 @@ class PixelSweep {
     }
     void end(Cost* costs) const {
         for (std::size_t k = 0; k < least_.size(); ++k) {
-            const int first = least_[k] == none ? untold_cost : least_[k],
-                      second = second_[k] == none ? untold_cost : second_[k];
+            const Cost untold = is_hidden_[k] ? hidden_cost : unseen_cost;
+            const int first = least_[k] == none ? untold : least_[k],
+                      second = second_[k] == none ? untold : second_[k];
             costs[k] = static_cast<Cost>((first + second) / 2);
         }
     }
@@ -232,6 +241,7 @@ class PixelSweep {
   private:
     static constexpr Cost none = std::numeric_limits<Cost>::max();
     std::vector<Cost> least_, second_;
+    std::vector<std::uint8_t> is_hidden_;
 };
 
 // Where `stop` is asked for what follows is left half-way: it is of no use any more.
