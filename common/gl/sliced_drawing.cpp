@@ -23,16 +23,21 @@ constexpr std::chrono::seconds patience{10};
 /// A band waits so long for others at most, so that a renderer that is never done leaves some time.
 constexpr std::chrono::milliseconds longest_way{60};
 
+/// While it lives, only the rows that are kept are drawn.
+class ScissorRows {
+  public:
+    explicit ScissorRows(int width) : width_(width) { glEnable(GL_SCISSOR_TEST); }
+    ~ScissorRows() { glDisable(GL_SCISSOR_TEST); }
+    ScissorRows(const ScissorRows&) = delete;
+    ScissorRows& operator=(const ScissorRows&) = delete;
+
+    void keep(int first, int rows) const { glScissor(0, first, width_, rows); }
+
+  private:
+    int width_;
+};
+
 }  // namespace
-
-ScissorRows::ScissorRows(int width, cv::Range rows) : width_(width), rows_(rows) {
-    glEnable(GL_SCISSOR_TEST);
-    keep(rows);
-}
-
-ScissorRows::~ScissorRows() { glDisable(GL_SCISSOR_TEST); }
-
-void ScissorRows::keep(cv::Range rows) const { glScissor(0, rows.start, width_, rows.size()); }
 
 SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way,
                              std::function<void()> between, double least_share)
@@ -68,17 +73,13 @@ void SlicedDrawing::drew_for(std::chrono::nanoseconds time) const {
 }
 
 void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>& draw) const {
-    this->draw(ScissorRows(target.width, {0, target.height}), rows, draw);
-}
-
-void SlicedDrawing::draw(const ScissorRows& within, int& rows,
-                         const std::function<void()>& draw) const {
+    const ScissorRows scissor(target.width);
     if (rows == 0) rows = first_rows;
-    for (int y = within.rows().start; y < within.rows().end;) {
-        const int height = std::min(rows, within.rows().end - y);
+    for (int y = 0; y < target.height;) {
+        const int height = std::min(rows, target.height - y);
         give_way();
         const MonotonicTime start = MonotonicClock::now();
-        within.keep({y, y + height});
+        scissor.keep(y, height);
         draw();
         (void)Fence::insert().reached_within(patience);
         const std::chrono::nanoseconds time = MonotonicClock::now() - start;
@@ -89,7 +90,7 @@ void SlicedDrawing::draw(const ScissorRows& within, int& rows,
         // Halfway to what would have filled the slice: one band says little.
         const double fitting = height / std::max(share, 0.05);
         rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
-                          std::max(within.rows().size(), fewest_rows));
+                          std::max(target.height, fewest_rows));
     }
 }
 

@@ -9,23 +9,6 @@
 
 namespace vantage {
 
-/// While it lives, only these rows of the target are drawn or cleared.
-class ScissorRows {
-  public:
-    ScissorRows(int width, cv::Range rows);
-    ~ScissorRows();
-    ScissorRows(const ScissorRows&) = delete;
-    ScissorRows& operator=(const ScissorRows&) = delete;
-
-    cv::Range rows() const { return rows_; }
-    /// From now on only these, which are some of its own.
-    void keep(cv::Range rows) const;
-
-  private:
-    int width_;
-    cv::Range rows_;
-};
-
 /// While it lives, fullscreen passes of this thread are drawn in bands of rows, each waited for
 /// before the next is begun, so that another context that shares the GPU (or the software
 /// rasteriser) gets its turn between them: while that one claims the right of way, bands wait. How
@@ -47,7 +30,6 @@ class SlicedDrawing {
     /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory
     /// of a band's height; 0 at first.
     void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
-    void draw(const ScissorRows& within, int& rows, const std::function<void()>& draw) const;
     /// Waits while another context has the right of way, not for ever. Throws what `between` does.
     void give_way() const;
 

@@ -12,14 +12,13 @@ Program& TilePass::use() {
     return program_;
 }
 
-void TilePass::draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture,
-                    std::optional<cv::Range> rows) {
+void TilePass::draw(const Framebuffer& target, const Texture& tiles, GLuint unit,
+                    cv::Size picture) {
     constexpr int corners_per_tile = 6;
     program_.set("tiles", static_cast<int>(unit));
     program_.set("tile_share", share_of(picture));
     tiles.bind(unit);
     target.bind();
-    const ScissorRows only(target.size().width, rows.value_or(cv::Range(0, target.size().height)));
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
     vertices_.bind();
@@ -30,7 +29,7 @@ void TilePass::draw(const Framebuffer& target, const Texture& tiles, GLuint unit
         glDrawArrays(GL_TRIANGLES, 0, corners_per_tile * tiles.width_px() * tiles.height_px());
     };
     if (const SlicedDrawing* slices = SlicedDrawing::current())
-        slices->draw(only, slice_rows_, draw);
+        slices->draw(target.size(), slice_rows_, draw);
     else
         draw();
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "common/gl/framebuffer.h"
 #include "common/gl/program.h"
 #include "common/gl/vertex_array.h"
@@ -30,9 +28,8 @@ class TilePass {
     Program& use();
     /// Makes the target 0 and draws the tiles of a picture of `picture` pixels, which covers the
     /// target, where `tiles` (a pixel a tile) is above 0, with the program in use. Binds `tiles` to
-    /// `unit`. `rows`: of the target, the others are left alone.
-    void draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture,
-              std::optional<cv::Range> rows = {});
+    /// `unit`.
+    void draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture);
 
   private:
     Program program_;

@@ -56,4 +56,10 @@ std::vector<RigHistory*> RigRoster::known() const {
     return all;
 }
 
+bool RigRoster::has_learnt(const RigHistory* rig) const {
+    return std::any_of(rigs_.begin(), rigs_.end(), [&](const auto& one) {
+        return one.get() == rig && one->learnt_instants() > 0;
+    });
+}
+
 }  // namespace vantage

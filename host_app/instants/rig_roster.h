@@ -29,6 +29,8 @@ class RigRoster {
     const std::vector<RigHistory*>& shown() const { return shown_; }
     /// Those that are away too.
     std::vector<RigHistory*> known() const;
+    /// Whether it is one of them, and its set was learnt.
+    bool has_learnt(const RigHistory* rig) const;
 
   private:
     std::vector<std::unique_ptr<RigHistory>> rigs_;

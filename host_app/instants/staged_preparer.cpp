@@ -197,9 +197,8 @@ bool StagedPreparer::match_a_step() {
         if (next.rigs.size() < 2) return false;
         matched_ = std::move(next);
     }
-    const std::vector<RigHistory*> known = rigs_.known();
     const RigHistory* rig = matched_->rigs[matched_->sets.size()];
-    if (std::find(known.begin(), known.end(), rig) == known.end() || rig->learnt_instants() == 0) {
+    if (!rigs_.has_learnt(rig)) {
         matched_.reset();
         return false;
     }
@@ -215,12 +214,9 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
     if (!matched) return;
     match_due_s_ = now_s_ + match_rest_s_;
     match_rest_s_ = std::min(2 * match_rest_s_, longest_match_rest_s);
-    const std::vector<RigHistory*> known = rigs_.known();
     for (std::size_t i = 0; i < depths_m.size(); ++i) {
         RigHistory* rig = matched->rigs[i];
-        if (std::find(known.begin(), known.end(), rig) == known.end() ||
-            rig->learnt_instants() == 0 || rig->depth().size() != matched->depth_sizes[i])
-            continue;
+        if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
         rig->set_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
         if (!rig->model()) continue;
         // As soon as there is time.
@@ -424,11 +420,9 @@ void StagedPreparer::begin_bettering(const VirtualView& target) {
 }
 
 bool StagedPreparer::is_under_way(const Bettering& bettering) const {
-    const std::vector<RigHistory*> known = rigs_.known();
     return std::all_of(
         bettering.rigs.begin(), bettering.rigs.end(), [&](const Bettering::Rig& rig) {
-            return std::find(known.begin(), known.end(), rig.rig) != known.end() &&
-                   rig.rig->learnt_instants() > 0 && rig.rig->colour().size() == rig.colour &&
+            return rigs_.has_learnt(rig.rig) && rig.rig->colour().size() == rig.colour &&
                    rig.rig->depth().size() == rig.depth &&
                    rig.rig->match().has_value() == rig.is_matched;
         });

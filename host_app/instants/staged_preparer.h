@@ -79,7 +79,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     /// A step of that, if it is time. True: more of them is left to be read back.
     bool match_a_step();
     void take_match(std::span<const DepthImage> depths_m);
-    /// What the sets are matched by and what was matched is of no use any more.
+    /// What is under way is of no use any more; the next one begins then, on now_s_'s clock.
     void match_anew(double due_s);
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,

@@ -45,24 +45,5 @@ TEST_F(TilePassTest, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     }
 }
 
-TEST_F(TilePassTest, LeavesRowsAloneThatItIsNotAskedFor) {
-    const cv::Size size(TilePass::side_px, TilePass::side_px);
-    Texture tiles(TextureFormat::r8, 1, 1), drawn(TextureFormat::r8, size.width, size.height);
-    tiles.upload(cv::Mat1b(1, 1, uchar{255}));
-    const cv::Mat1b before(size, uchar{77});
-    drawn.upload(before);
-    const Framebuffer target({&drawn});
-    pass_.use();
-    pass_.draw(target, tiles, 0, size, cv::Range(3, 7));
-    const cv::Mat1b seen = drawn.download();
-    for (int y = 0; y < size.height; ++y)
-        EXPECT_EQ(cv::norm(seen.row(y),
-                           cv::Mat1b(1, size.width, y >= 3 && y < 7 ? uchar{255} : uchar{77}),
-                           cv::NORM_INF),
-                  0)
-            << y;
-    EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
-}
-
 }  // namespace
 }  // namespace vantage
