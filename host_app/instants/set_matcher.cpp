@@ -192,8 +192,8 @@ class PixelSweep {
             other.from_pixel *
             Eigen::Vector4f(static_cast<float>(pixel.x), static_cast<float>(pixel.y), 1, 0);
         const Eigen::Vector4f from = other.from_pixel.col(3);
-        const float width = static_cast<float>(other.fine.cols / fineness - 1),
-                    height = static_cast<float>(other.fine.rows / fineness - 1);
+        const int last_x = other.fine.cols / fineness - 1, last_y = other.fine.rows / fineness - 1;
+        const auto width = static_cast<float>(last_x), height = static_cast<float>(last_y);
         for (int depth = 0; depth < range.depths; ++depth) {
             const float inverse = range.at(static_cast<float>(depth));
             const float z = along.z() + inverse * from.z();
@@ -396,6 +396,7 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
     const SetPicture& set = sets[which];
     std::vector<Other> others;
     const std::vector<std::size_t> told_by = others_of(sets, which);
+    others.reserve(told_by.size());
     for (const std::size_t i : told_by)
         others.push_back({other_from_pixel(sets[i], set).cast<float>(), fine[i],
                           inverse_depths.empty() ? cv::Mat2f() : inverse_depths[i]});
@@ -425,6 +426,7 @@ std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> se
     std::vector<DepthImage> depths_m;
     for (int pass = 0; pass < 2; ++pass) {
         std::vector<cv::Mat2f> inverse_depths;
+        inverse_depths.reserve(depths_m.size());
         for (const DepthImage& depth_m : depths_m)
             inverse_depths.push_back(inverse_depths_of(depth_m));
         depths_m.clear();
