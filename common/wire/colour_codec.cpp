@@ -1,6 +1,8 @@
 #include "common/wire/colour_codec.h"
 
 #include <new>
+#include <string>
+#include <utility>
 
 #include <turbojpeg.h>
 
@@ -50,6 +52,12 @@ JpegDecoder::JpegDecoder() : decompressor_(tjInitDecompress()) {
 
 JpegDecoder::~JpegDecoder() { tjDestroy(decompressor_); }
 
+std::string JpegDecoder::trouble() {
+    std::string sentence = tjGetErrorStr2(decompressor_);
+    if (void* fresh = tjInitDecompress()) tjDestroy(std::exchange(decompressor_, fresh));
+    return sentence;
+}
+
 ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px, int height_px) {
     const auto* data = reinterpret_cast<const unsigned char*>(payload.data());
     int width = 0;
@@ -58,7 +66,7 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
     int colour_space = 0;
     if (tjDecompressHeader3(decompressor_, data, payload.size(), &width, &height, &subsampling,
                             &colour_space) != 0)
-        fail("the colour payload is not a JPEG picture: {}", tjGetErrorStr2(decompressor_));
+        fail("the colour payload is not a JPEG picture: {}", trouble());
     if (width != width_px || height != height_px)
         fail("the colour payload is a JPEG of {}x{} where its header promises {}x{}", width, height,
              width_px, height_px);
@@ -69,8 +77,7 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
     if (tjDecompress2(decompressor_, data, payload.size(), colour.data, width_px,
                       static_cast<int>(colour.step), height_px, TJPF_RGBA,
                       TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0)
-        fail("the colour payload of {} bytes is damaged: {}", payload.size(),
-             tjGetErrorStr2(decompressor_));
+        fail("the colour payload of {} bytes is damaged: {}", payload.size(), trouble());
     return colour;
 }
 
@@ -78,7 +85,7 @@ Chroma JpegDecoder::chroma_of(std::span<const std::byte> payload) {
     int width = 0, height = 0, subsampling = 0, colour_space = 0;
     if (tjDecompressHeader3(decompressor_, reinterpret_cast<const unsigned char*>(payload.data()),
                             payload.size(), &width, &height, &subsampling, &colour_space) != 0)
-        fail("the colour payload is not a JPEG picture: {}", tjGetErrorStr2(decompressor_));
+        fail("the colour payload is not a JPEG picture: {}", trouble());
     for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
         if (subsampling == sampling_of(chroma)) return chroma;
     fail("the colour payload is a JPEG whose chroma is none of 4:4:4, 4:2:2 and 4:2:0");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/image/picture_pool.h"
@@ -42,6 +43,10 @@ class JpegDecoder {
     Chroma chroma_of(std::span<const std::byte> payload);
 
   private:
+    /// What the library says of a payload that failed. It stays half-way within that picture and
+    /// would fail at the next one too: it begins anew.
+    std::string trouble();
+
     void* decompressor_;
     PicturePool pictures_;
 };

@@ -118,6 +118,19 @@ TEST(PictureCodecs, EveryTruncationIsRefused) {
     }
 }
 
+TEST(PictureCodecs, OneDecoderTakesWholeJpegsAfterAnyDamagedOne) {
+    const RigFrame frame = make_frame(1);
+    const auto jpeg = JpegEncoder().encode(frame.colour, 85, Chroma::quarter);
+    const ColourImage whole = JpegDecoder().decode(jpeg, frame.colour.cols, frame.colour.rows);
+    JpegDecoder decoder;
+    for (std::size_t size = 0; size < jpeg.size(); size += 7) {
+        const std::span<const std::byte> cut(jpeg.data(), size);
+        EXPECT_THROW(decoder.decode(cut, frame.colour.cols, frame.colour.rows), Error) << size;
+        ASSERT_TRUE(same_pixels(decoder.decode(jpeg, frame.colour.cols, frame.colour.rows), whole))
+            << size;
+    }
+}
+
 TEST(PictureCodecs, PicturesOfAnotherSizeAreRefused) {
     const RigFrame frame = make_frame(1);
     const int width = frame.colour.cols;
