@@ -87,8 +87,8 @@ std::optional<LiveInstant> LiveRigs::next() {
             for (const FrameSet::Slot& slot : set->slots) {
                 instant.pairs.emplace_back();
                 if (slot.frame && slot.frame->content == RigFrame::Content::raw_pair)
-                    instant.pairs.back() = RawPair{slot.frame->colour, slot.frame->raw_right,
-                                                   slot.frame->calibration_id};
+                    instant.pairs.back() =
+                        RawPair{slot.frame->colour, slot.frame->right, slot.frame->calibration_id};
             }
             return instant;
         }

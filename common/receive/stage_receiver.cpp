@@ -96,6 +96,10 @@ struct StageReceiver::Impl {
         std::atomic<bool> is_looked_at = true;
         std::thread decoder;
 
+        // The decoder's own: the newest right picture, and of which of the rig's sessions.
+        SharedBytes right_jpeg;
+        std::uint64_t session = 0;
+
         // Under Impl::mutex.
         RigStatus status;
         bool relay_answers = false;  ///< and says why the rig does not
@@ -300,6 +304,10 @@ struct StageReceiver::Impl {
         const MonotonicTime end = MonotonicClock::now();
         const TaiTime decoded = TaiClock::now();
 
+        // It comes now and then, and who takes some of the frames only is to see it too.
+        if (!frame->right_jpeg && frame->session == rig.session) frame->right_jpeg = rig.right_jpeg;
+        rig.right_jpeg = frame->right_jpeg;
+        rig.session = frame->session;
         const std::lock_guard lock(mutex);
         rig.decode_ms.add(to_ms(end - start));
         rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));

@@ -95,10 +95,14 @@ RigFrame FrameRestorer::restore(const StoredFrame& stored) {
         (has_colour && colour_px(head) != rig_.colour.size_px) ||
         (has_depth && head.disparity_px != rig_.depth.size_px))
         fail("a frame of rig {} does not fit the tracks that it is in", rig_.name);
-    if (has_colour)
-        frame.colour = colour_ ? ColourImage(colour_->decode(stored.colour))
-                               : jpeg_.decode(stored.colour, rig_.colour.size_px.width,
-                                              rig_.colour.size_px.height);
+    if (has_colour && colour_) {
+        frame.colour = ColourImage(colour_->decode(stored.colour));
+    } else if (has_colour) {
+        const ColourParts parts = colour_parts(head, stored.colour);
+        frame.colour =
+            jpeg_.decode(parts.left, rig_.colour.size_px.width, rig_.colour.size_px.height);
+        frame.right_jpeg = shared(parts.right);
+    }
     if (has_depth) {
         if (!depth_) fail("a frame of rig {} has a disparity that is not FFV1", rig_.name);
         frame.disparity = depth_->decode(stored.depth);

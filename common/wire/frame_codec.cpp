@@ -9,6 +9,7 @@
 #include "common/wire/disparity_codec.h"
 #include "common/wire/header_fields.h"
 #include "common/wire/limits.h"
+#include "common/wire/right_picture.h"
 #include "frame.pb.h"
 
 namespace vantage {
@@ -94,7 +95,8 @@ Pose check_header(const wire::FrameHeader& header) {
         if (geometry.f_px() != 0 || geometry.baseline_m() != 0 ||
             geometry.world_from_camera_size() != 0 ||
             header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE ||
-            header.colour_codec() == wire::FrameHeader::COLOUR_NONE)
+            header.colour_codec() == wire::FrameHeader::COLOUR_NONE ||
+            header.right_jpeg_bytes() > 0)
             fail("a raw pair carries two pictures and neither geometry nor disparity");
         return Pose::Identity();
     }
@@ -111,6 +113,9 @@ Pose check_header(const wire::FrameHeader& header) {
     } else if (header.colour_codec() == wire::FrameHeader::COLOUR_NONE) {
         fail("a frame without colour and without disparity carries nothing");
     }
+    if (header.right_jpeg_bytes() > 0 && header.colour_codec() != wire::FrameHeader::COLOUR_JPEG)
+        fail("a frame whose colour is no JPEG has a right picture of {} bytes behind it",
+             header.right_jpeg_bytes());
     return to_pose(header.geometry());
 }
 
@@ -134,6 +139,14 @@ float milliseconds_since(MonotonicTime start) {
     return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
 }
 
+/// The right picture where there is one, behind the left one's JPEG.
+void append_right(RigFrame& frame, std::vector<std::byte>& colour, JpegEncoder& jpeg) {
+    if (frame.right.empty()) return;
+    const std::vector<std::byte> right = pack_right_picture(jpeg, frame.right);
+    colour.insert(colour.end(), right.begin(), right.end());
+    frame.packed_right_bytes = right.size();
+}
+
 }  // namespace
 
 struct ColourPacker::Impl {
@@ -152,10 +165,12 @@ ColourPacker::~ColourPacker() = default;
 
 void ColourPacker::pack(RigFrame& frame) {
     const MonotonicTime start = MonotonicClock::now();
-    frame.packed_colour =
-        impl_->jpeg_quality == 0
-            ? impl_->lossless.encode(frame.colour)
-            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
+    if (impl_->jpeg_quality == 0) {
+        frame.packed_colour = impl_->lossless.encode(frame.colour);
+    } else {
+        frame.packed_colour = impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
+        append_right(frame, frame.packed_colour, impl_->jpeg);
+    }
     frame.times.pack_ms = milliseconds_since(start);
 }
 
@@ -222,9 +237,9 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
                                   frame.colour.rows != frame.geometry.height_px))
         fail("a colour picture of {}x{} does not fit its geometry of {}x{}", frame.colour.cols,
              frame.colour.rows, frame.geometry.width_px, frame.geometry.height_px);
-    if (is_raw_pair && frame.raw_right.size() != frame.colour.size())
-        fail("a raw pair of {}x{} and {}x{} has to be of one size", frame.colour.cols,
-             frame.colour.rows, frame.raw_right.cols, frame.raw_right.rows);
+    if ((is_raw_pair || !frame.right.empty()) && frame.right.size() != frame.colour.size())
+        fail("a pair of {}x{} and {}x{} has to be of one size", frame.colour.cols,
+             frame.colour.rows, frame.right.cols, frame.right.rows);
 
     PackedFrame packed;
     packed.trigger_index = frame.trigger_index;
@@ -232,11 +247,14 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     const bool is_packed_ahead = !frame.packed_colour.empty();
     if (is_packed_ahead)
         packed.colour = std::move(frame.packed_colour);
-    else if (!frame.colour.empty())
-        packed.colour = lossless
-                            ? impl_->lossless_colour.encode(frame.colour)
-                            : impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
-    if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.raw_right);
+    else if (!frame.colour.empty() && lossless)
+        packed.colour = impl_->lossless_colour.encode(frame.colour);
+    else if (!frame.colour.empty()) {
+        packed.colour = impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
+        append_right(frame, packed.colour, impl_->jpeg);
+    }
+    header.set_right_jpeg_bytes(static_cast<std::uint32_t>(frame.packed_right_bytes));
+    if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.right);
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 
     frame.times.pack_ms =
@@ -274,6 +292,7 @@ FrameHead decode_frame_head(std::span<const std::byte> part) {
         frame.geometry.baseline_m = header.geometry().baseline_m();
     }
     frame.max_disparity_px = header.max_disparity_px();
+    head.right_jpeg_bytes = header.right_jpeg_bytes();
     frame.times = {header.times().capture_ms(), header.times().rectify_ms(),
                    header.times().match_ms(), header.times().pack_ms()};
     frame.counters = from_wire(header.counters());
@@ -310,6 +329,20 @@ struct FrameDecoder::Impl {
     DisparityDecoder disparity;
 };
 
+ColourParts colour_parts(const FrameHead& head, std::span<const std::byte> colour) {
+    if (head.right_jpeg_bytes > colour.size())
+        fail("a right picture of {} bytes does not fit a colour payload of {}",
+             head.right_jpeg_bytes, colour.size());
+    return {colour.first(colour.size() - head.right_jpeg_bytes),
+            colour.last(head.right_jpeg_bytes)};
+}
+
+SharedBytes shared(std::span<const std::byte> bytes) {
+    return bytes.empty()
+               ? nullptr
+               : std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
+
 FrameDecoder::FrameDecoder() : impl_(std::make_unique<Impl>()) {}
 
 FrameDecoder::~FrameDecoder() = default;
@@ -322,7 +355,10 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header, std::span<const
     const auto bytes = [](int w, int h, std::size_t each) {
         return static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * each;
     };
-    check_payload("colour", head.colour != FrameHead::Colour::none, colour.size(),
+    const ColourParts parts = colour_parts(head, colour);
+    check_payload("colour", head.colour != FrameHead::Colour::none, parts.left.size(),
+                  bytes(width, height, sizeof(cv::Vec4b)));
+    check_payload("right picture", head.right_jpeg_bytes > 0, parts.right.size(),
                   bytes(width, height, sizeof(cv::Vec4b)));
     const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
     const bool has_disparity = !head.disparity_px.empty();
@@ -338,13 +374,13 @@ RigFrame FrameDecoder::decode(std::span<const std::byte> header, std::span<const
         case FrameHead::Colour::none:
             break;
         case FrameHead::Colour::jpeg:
-            frame.colour = impl_->jpeg.decode(colour, width, height);
-            if (is_raw_pair) frame.raw_right = impl_->jpeg.decode(disparity, width, height);
+            frame.colour = impl_->jpeg.decode(parts.left, width, height);
+            frame.right_jpeg = shared(parts.right);
+            if (is_raw_pair) frame.right = impl_->jpeg.decode(disparity, width, height);
             break;
         case FrameHead::Colour::lossless:
             frame.colour = impl_->lossless_colour.decode(colour, width, height);
-            if (is_raw_pair)
-                frame.raw_right = impl_->lossless_colour.decode(disparity, width, height);
+            if (is_raw_pair) frame.right = impl_->lossless_colour.decode(disparity, width, height);
             break;
     }
     if (has_disparity)

@@ -16,7 +16,8 @@ struct PackedFrame {
     std::uint64_t trigger_index = 0;
     bool is_raw_pair = false;
     std::vector<std::byte> header;     ///< FrameHeader of frame.proto
-    std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour
+    std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour.
+                                       ///< Behind a JPEG that of the right picture, now and then
     std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity. Of a
                                        ///< raw pair: the right picture
 
@@ -61,10 +62,21 @@ struct FrameHead {
     enum class Colour { none, jpeg, lossless };
     RigFrame frame;  ///< all but its pictures; geometry has the colour's size
     Colour colour = Colour::none;
-    cv::Size disparity_px;  ///< 0x0: the frame has none
+    std::size_t right_jpeg_bytes = 0;  ///< at the end of the colour payload
+    cv::Size disparity_px;             ///< 0x0: the frame has none
 };
 /// Throws Error as FrameDecoder::decode.
 FrameHead decode_frame_head(std::span<const std::byte> header);
+
+/// The pictures in a colour payload.
+struct ColourParts {
+    std::span<const std::byte> left, right;  ///< right: a JPEG; empty: there is none
+};
+/// Throws Error where the payload is too short for what the head says.
+ColourParts colour_parts(const FrameHead& head, std::span<const std::byte> colour);
+
+/// A copy; null if there are none.
+SharedBytes shared(std::span<const std::byte> bytes);
 
 /// Parts to RigFrame. Keeps its codecs between frames. Not thread-safe.
 class FrameDecoder {

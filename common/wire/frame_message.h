@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/base/shared_bytes.h"
 #include "common/base/time.h"
 #include "common/geometry/pose.h"
 #include "common/geometry/rectified_stereo.h"
@@ -86,11 +88,17 @@ struct RigFrame {
     Pose world_from_camera = Pose::Identity();  ///< camera = rectified left
     bool place_is_assumed = false;  ///< as StereoCalibration's: nobody said where the rig stands
     ColourImage colour;             ///< rectified left picture, may be empty; or the raw left one
-    /// At a rig: colour as it travels, where a ColourPacker packed it ahead.
+    /// At a rig: of a view the rectified right picture where it is to travel, beside a JPEG only;
+    /// of a raw pair the raw right one. Of the colour's size. At a host: of a raw pair.
+    ColourImage right;
+    /// At a host: the rectified right picture, not decoded yet, the newest that came.
+    SharedBytes right_jpeg;
+    /// At a rig: colour as it travels, where a ColourPacker packed it ahead, and how much of it is
+    /// the right picture.
     std::vector<std::byte> packed_colour;
+    std::size_t packed_right_bytes = 0;
     /// At a host: the frame as it came; null: it came over no wire.
     std::shared_ptr<const PackedFrame> packed;
-    ColourImage raw_right;  ///< of a raw pair: the right one, of the same size
     DisparityImage
         disparity;  ///< left-referenced, in px of its own width (may be smaller than the colour's)
     float max_disparity_px = 0;

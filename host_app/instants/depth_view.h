@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/base/shared_bytes.h"
 #include "common/colour/colour_correction.h"
 #include "common/geometry/pose.h"
 #include "common/geometry/rectified_stereo.h"
@@ -43,6 +44,9 @@ struct DepthView {
     /// not come of stereo.
     double baseline_m = 0;
     double doffs_px = 0;
+    /// The rectified right picture, of right_picture_size() of the colour's; its cx is doffs_px
+    /// more. A JPEG, the newest that came; null: none has.
+    SharedBytes right_jpeg = {};
     /// Brings the picture's colours to the stage's; done on the GPU on its way to the synthesisers.
     ColourCorrection colour_correction = {};
 
@@ -57,6 +61,7 @@ struct DepthView {
         colour.release();
         depth_m.release();
         disparity.release();
+        right_jpeg.reset();
     }
 };
 

@@ -13,6 +13,7 @@ DepthView depth_view_of(const RigFrame& frame) {
         view.disparity_scale = DisparityScale(frame.geometry, frame.disparity.cols);
     view.baseline_m = frame.geometry.baseline_m;
     view.doffs_px = frame.geometry.doffs_px();
+    view.right_jpeg = frame.right_jpeg;
     return view;
 }
 

@@ -3,12 +3,19 @@
 #include "host_app/instants/projection.h"
 
 namespace vantage {
+namespace {
+
+/// So many that what stands still is seen through what passes by: of 8 s.
+constexpr std::size_t most_right_pictures = 16;
+
+}  // namespace
 
 void RigHistory::forget() {
     steady_colour_.forget();
     set_.forget();
     learnt_instants_ = 0;
     model_.reset();
+    right_jpegs_.clear();
     match_.reset();
     hide();
 }
@@ -30,6 +37,9 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     if (!prepared_rank_) hide();
     prepared_rank_.reset();
     is_colour_steady_ = is_set_learnt_ = false;
+    if (view.right_jpeg && (right_jpegs_.empty() || right_jpegs_.back() != view.right_jpeg))
+        right_jpegs_.push_back(view.right_jpeg);
+    if (right_jpegs_.size() > most_right_pictures) right_jpegs_.pop_front();
     camera_ = view;
     camera_.release_pictures();
     if (!colour_ || colour_->size() != view.colour.size())

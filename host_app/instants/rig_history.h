@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -89,6 +90,9 @@ class RigHistory {
     std::optional<double> shape_made_s() const { return shape_made_s_; }
     void set_shape_made_s(std::optional<double> made_s) { shape_made_s_ = made_s; }
 
+    /// The right pictures that came last, the oldest first.
+    const std::deque<SharedBytes>& right_jpegs() const { return right_jpegs_; }
+
     /// The set's depth as it was matched against other rigs' sets (see match_sets()).
     struct Match {
         Texture depth_m;           ///< r32f, metres, 0 = unknown
@@ -147,6 +151,7 @@ class RigHistory {
     int learnt_instants_ = 0;
     std::optional<Model> model_;
     std::optional<double> shape_made_s_;
+    std::deque<SharedBytes> right_jpegs_;
     std::optional<Match> match_;
     DrawnTexture matched_depth_{TextureFormat::r32f};
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "common/wire/right_picture.h"
 #include "host_app/instants/depth_spread.h"
 #include "host_app/instants/projection.h"
 
@@ -208,6 +209,10 @@ SetPicture SetLearner::picture(const RigHistory& rig) {
                                   static_cast<double>(size.height) / whole.height);
     picture.world_from_camera = rig.camera().world_from_camera;
     picture.baseline_m = rig.camera().baseline_m;
+    picture.right_jpegs.assign(rig.right_jpegs().begin(), rig.right_jpegs().end());
+    picture.right_px = right_picture_size(rig.fresh_colour().size());
+    picture.right_correction = rig.camera().colour_correction;
+    picture.doffs_px = rig.camera().doffs_px * size.width / rig.fresh_colour().width_px();
     cv::resize(set.depth_m, picture.depth_m, size, 0, 0, cv::INTER_NEAREST_EXACT);
     cv::resize(set.colour, picture.colour, size, 0, 0, cv::INTER_AREA);
     cv::Mat known;

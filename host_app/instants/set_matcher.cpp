@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "host_app/instants/projection.h"
+#include "host_app/instants/still_picture.h"
 
 namespace vantage {
 namespace {
@@ -27,12 +28,14 @@ constexpr float most_unlike = 25;
 /// Of a depth that other rigs' surfaces hide from them, and of one that lies outside their
 /// pictures: what nobody can deny is not to be the better for it.
 constexpr Cost hidden_cost = 130, unseen_cost = 165;
+/// What the rig's own right picture says counts so much, and the other rigs the rest of it.
+constexpr int right_share = 5, shares = 8;
 /// Relative difference of inverse depths up to which two rigs have one surface: costs half as much.
 constexpr float one_surface = 0.02f;
 /// Added where another rig sees through.
 constexpr int through_cost = 77;
 /// Of a depth that is this many pixels of the rig's own disparity from its matcher's, or more.
-constexpr float own_cost = 77, own_reach_px = 2;
+constexpr float own_cost = 50, own_reach_px = 2;
 /// Between neighbours: of a step to the next depth, and of any jump, less where their colours
 /// (0..255) are unlike: half of it at this difference.
 constexpr Cost step_cost = 10, jump_cost = 256;
@@ -173,21 +176,82 @@ class CostVolume {
     std::vector<Cost> costs_;
 };
 
-/// What the other rigs say of the depths at one pixel.
+/// What other pictures say of the depths at one pixel.
 class PixelSweep {
   public:
     explicit PixelSweep(int depths)
         : least_(static_cast<std::size_t>(depths)),
           second_(least_.size()),
+          right_(least_.size()),
           is_hidden_(least_.size()) {}
 
     void begin() {
         std::fill(least_.begin(), least_.end(), none);
         std::fill(second_.begin(), second_.end(), none);
+        std::fill(right_.begin(), right_.end(), none);
         std::fill(is_hidden_.begin(), is_hidden_.end(), std::uint8_t{0});
     }
+    /// At the picture of another rig.
     void look(const Other& other, const DepthRange& range, cv::Point pixel,
               const cv::Vec4b& colour) {
+        walk(other, range, pixel, [&](std::size_t k, const Reading& read) {
+            if (read.colour[3] < 255) {  // a part of it is not known: a performer hides it
+                is_hidden_[k] = 1;
+                return;
+            }
+            Cost cost = cost_of(colour, read.colour);
+            if (!other.inverse_depths.empty()) {
+                const cv::Vec2f& has = other.inverse_depths(read.pixel);
+                const float off = one_surface * read.inverse_m;
+                if (std::abs(has[0] - read.inverse_m) < off ||
+                    std::abs(has[1] - read.inverse_m) < off) {
+                    cost /= 2;
+                } else if (has[0] > read.inverse_m) {
+                    is_hidden_[k] = 1;
+                    return;
+                } else if (has[1] > 0 && has[1] < read.inverse_m) {
+                    cost = std::min(static_cast<Cost>(cost + through_cost), whole);
+                }
+            }
+            second_[k] = std::min(second_[k], std::max(least_[k], cost));
+            least_[k] = std::min(least_[k], cost);
+        });
+    }
+    /// At the rig's own right picture.
+    void look_right(const Other& right, const DepthRange& range, cv::Point pixel,
+                    const cv::Vec4b& colour) {
+        walk(right, range, pixel,
+             [&](std::size_t k, const Reading& read) { right_[k] = cost_of(colour, read.colour); });
+        has_right_ = true;
+    }
+    void end(Cost* costs) const {
+        for (std::size_t k = 0; k < least_.size(); ++k) {
+            const Cost untold = is_hidden_[k] ? hidden_cost : unseen_cost;
+            const int first = least_[k] == none ? untold : least_[k],
+                      second = second_[k] == none ? untold : second_[k],
+                      others = (first + second) / 2,
+                      right = right_[k] == none ? unseen_cost : right_[k];
+            costs[k] = static_cast<Cost>(
+                has_right_ ? (others * (shares - right_share) + right * right_share) / shares
+                           : others);
+        }
+    }
+
+  private:
+    static constexpr Cost none = std::numeric_limits<Cost>::max();
+
+    /// What a picture has where a depth lies in it.
+    struct Reading {
+        const cv::Vec4b& colour;
+        cv::Point pixel;
+        float inverse_m;  ///< the depth from there
+    };
+    static Cost cost_of(const cv::Vec4b& a, const cv::Vec4b& b) {
+        return static_cast<Cost>(std::min(difference(a, b), most_unlike) * (whole / most_unlike));
+    }
+    template <class Read>
+    static void walk(const Other& other, const DepthRange& range, cv::Point pixel,
+                     const Read& read) {
         const Eigen::Vector4f along =
             other.from_pixel *
             Eigen::Vector4f(static_cast<float>(pixel.x), static_cast<float>(pixel.y), 1, 0);
@@ -204,58 +268,31 @@ class PixelSweep {
             const cv::Vec4b& there =
                 other.fine(static_cast<int>(static_cast<float>(fineness) * (v + 0.5f)),
                            static_cast<int>(static_cast<float>(fineness) * (u + 0.5f)));
-            const auto k = static_cast<std::size_t>(depth);
-            if (there[3] < 255) {  // a part of it is not known: a performer hides it
-                is_hidden_[k] = 1;
-                continue;
-            }
-            int cost = static_cast<int>(std::min(difference(colour, there), most_unlike) *
-                                        (whole / most_unlike));
-            if (!other.inverse_depths.empty()) {
-                const cv::Vec2f& has =
-                    other.inverse_depths(static_cast<int>(v), static_cast<int>(u));
-                const float wanted = inverse / z, off = one_surface * wanted;
-                if (std::abs(has[0] - wanted) < off || std::abs(has[1] - wanted) < off) {
-                    cost /= 2;
-                } else if (has[0] > wanted) {
-                    is_hidden_[k] = 1;
-                    continue;
-                } else if (has[1] > 0 && has[1] < wanted) {
-                    cost = std::min(cost + through_cost, static_cast<int>(whole));
-                }
-            }
-            const auto own = static_cast<Cost>(cost);
-            second_[k] = std::min(second_[k], std::max(least_[k], own));
-            least_[k] = std::min(least_[k], own);
-        }
-    }
-    void end(Cost* costs) const {
-        for (std::size_t k = 0; k < least_.size(); ++k) {
-            const Cost untold = is_hidden_[k] ? hidden_cost : unseen_cost;
-            const int first = least_[k] == none ? untold : least_[k],
-                      second = second_[k] == none ? untold : second_[k];
-            costs[k] = static_cast<Cost>((first + second) / 2);
+            read(static_cast<std::size_t>(depth),
+                 Reading{there, {static_cast<int>(u), static_cast<int>(v)}, inverse / z});
         }
     }
 
-  private:
-    static constexpr Cost none = std::numeric_limits<Cost>::max();
-    std::vector<Cost> least_, second_;
+    std::vector<Cost> least_, second_, right_;
     std::vector<std::uint8_t> is_hidden_;
+    bool has_right_ = false;
 };
 
 // Where `stop` is asked for what follows is left half-way: it is of no use any more.
 
-CostVolume swept(const SetPicture& set, std::span<const Other> others, const DepthRange& range,
+CostVolume swept(const SetPicture& set, std::span<const Other> others,
+                 const std::optional<Other>& right, const DepthRange& range,
                  const std::stop_token& stop) {
     CostVolume costs(set.colour.size(), range.depths);
     PixelSweep sweep(range.depths);
     for (int y = 0; y < set.colour.rows && !stop.stop_requested(); ++y)
         for (int x = 0; x < set.colour.cols; ++x) {
             sweep.begin();
-            if (set.colour(y, x)[3] > 0)
+            if (set.colour(y, x)[3] > 0) {
                 for (const Other& other : others)
                     sweep.look(other, range, {x, y}, set.colour(y, x));
+                if (right) sweep.look_right(*right, range, {x, y}, set.colour(y, x));
+            }
             sweep.end(costs.at(y, x));
         }
     return costs;
@@ -389,8 +426,43 @@ DepthImage winners(const CostVolume& sums, const SetPicture& set, const DepthRan
     return depth_m;
 }
 
+cv::Mat4b finer(const ColourImage& picture) {
+    cv::Mat larger;
+    cv::resize(picture, larger, {}, fineness, fineness, cv::INTER_LINEAR);
+    return larger;
+}
+
+/// `picture`'s channels times so much each that their means are the set's: two sensors differ, and
+/// light has changed since.
+void bring_to(const SetPicture& set, ColourImage& picture) {
+    cv::Mat known;
+    cv::extractChannel(set.colour, known, 3);
+    const cv::Scalar wanted = cv::mean(set.colour, known), is = cv::mean(picture);
+    cv::Scalar gains(1, 1, 1, 1);
+    for (int channel = 0; channel < 3; ++channel)
+        if (is[channel] > 0) gains[channel] = wanted[channel] / is[channel];
+    cv::multiply(picture, gains, picture);
+}
+
+/// The right picture of the set's own rig; nothing if too few have come.
+std::optional<Other> right_of(const SetPicture& set) {
+    const ColourImage still = still_picture(set.right_jpegs, set.right_px);
+    if (still.empty()) return std::nullopt;
+    cv::Mat sized;
+    cv::resize(set.right_correction.is_identity() ? still : set.right_correction.apply(still),
+               sized, set.colour.size(), 0, 0, cv::INTER_AREA);
+    ColourImage picture(sized);
+    bring_to(set, picture);
+    SetPicture right;
+    right.K = set.K;
+    right.K(0, 2) += set.doffs_px;
+    right.world_from_camera = set.world_from_camera * Eigen::Translation3d(set.baseline_m, 0, 0);
+    return Other{other_from_pixel(right, set).cast<float>(), finer(picture), {}};
+}
+
 std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t which,
                                   std::span<const cv::Mat4b> fine,
+                                  std::span<const std::optional<Other>> rights,
                                   std::span<const cv::Mat2f> inverse_depths,
                                   const std::stop_token& stop) {
     const SetPicture& set = sets[which];
@@ -403,7 +475,8 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
     if (others.empty()) return DepthImage(set.colour.size(), 0.0f);
     const DepthRange range = range_of(set, sets[told_by.front()]);
     if (range.depths == 0) return DepthImage(set.colour.size(), 0.0f);
-    const CostVolume costs = smoothed(swept(set, others, range, stop), set, range, stop);
+    const CostVolume costs =
+        smoothed(swept(set, others, rights[which], range, stop), set, range, stop);
     CostVolume sums(costs.size(), costs.depths());
     walk_columns(costs, set.colour, sums, true, stop);
     walk_columns(costs, set.colour, sums, false, stop);
@@ -418,10 +491,10 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
 std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> sets,
                                                   const std::stop_token& stop) {
     std::vector<cv::Mat4b> fine;
+    std::vector<std::optional<Other>> rights;
     for (const SetPicture& set : sets) {
-        cv::Mat larger;
-        cv::resize(set.colour, larger, {}, fineness, fineness, cv::INTER_LINEAR);
-        fine.emplace_back(larger);
+        fine.push_back(finer(set.colour));
+        rights.push_back(right_of(set));
     }
     std::vector<DepthImage> depths_m;
     for (int pass = 0; pass < 2; ++pass) {
@@ -431,7 +504,8 @@ std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> se
             inverse_depths.push_back(inverse_depths_of(depth_m));
         depths_m.clear();
         for (std::size_t i = 0; i < sets.size(); ++i) {
-            std::optional<DepthImage> depth_m = matched(sets, i, fine, inverse_depths, stop);
+            std::optional<DepthImage> depth_m =
+                matched(sets, i, fine, rights, inverse_depths, stop);
             if (!depth_m) return std::nullopt;
             depths_m.push_back(std::move(*depth_m));
         }

@@ -48,6 +48,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       right_intake_(context_, shaders_, {calibration.right.width_px, calibration.right.height_px}),
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
+      sends_right_(config.stream.jpeg_quality > 0),
       packer_(config.stream.jpeg_quality, parse_chroma(config.stream.chroma)),
       matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
     info_.require_vantage_minimum();
@@ -64,6 +65,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
     RigFrame unused;
     rectify_and_match(dark, unused);
     // They are no part of the stream.
+    right_sent_.reset();
     if (matcher_) matcher_->forget();
     if (steady_) steady_->forget();
 }
@@ -142,6 +144,13 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     if (matcher_)
         right = &rectify_right_.rectify(bring(right_intake_, frame.right, frame.lent_right));
     rectify_timer_.end();
+    const bool is_right_due = right && sends_right_ &&
+                              (!right_sent_ || frame.exposure < *right_sent_ ||
+                               frame.exposure - *right_sent_ >= right_period);
+    if (is_right_due) {
+        right_readback_.begin(*right);
+        right_sent_ = frame.exposure;
+    }
     const bool has_colour = rectified_already_ && !frame.lent_left;
     if (!has_colour) colour_readback_.begin(left);
     const bool is_timed = matcher_ && match_timer_.is_of_gpu();
@@ -152,6 +161,7 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     // Everything is under way; what comes first is packed while the GPU matches.
     if (disparity) disparity_readback_.begin(*disparity);
     result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take());
+    if (is_right_due) result.right = ColourImage(right_readback_.take());
     packer_.pack(result);
     if (disparity) result.disparity = disparity_readback_.take();
     result.times.rectify_ms = static_cast<float>(rectify_timer_.wait_ms());

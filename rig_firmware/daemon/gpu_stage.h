@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,9 @@
 
 namespace vantage {
 
+/// Between two right pictures that travel. Of what stands still a few are enough.
+inline constexpr std::chrono::milliseconds right_period{500};
+
 /// The GPU's part of the road: upload, rectify, match, read back. Owns its GL context; made, used
 /// and destroyed on one thread.
 class GpuStage {
@@ -31,8 +35,9 @@ class GpuStage {
     GpuStage(const RigConfig& config, const StereoCalibration& calibration,
              std::span<const LentPicture> specimens = {});
 
-    /// Rectifies and matches one instant, and packs its colour while the GPU matches. Fills
-    /// picture, disparity, geometry, pose and the times of these steps.
+    /// Rectifies and matches one instant, and packs its colour while the GPU matches; the right
+    /// picture's too, every right_period, by which hosts match the set. Fills picture, disparity,
+    /// geometry, pose and the times of these steps.
     RigFrame process(StereoFrame frame);
 
     /// Lent pictures of both sides so far.
@@ -56,7 +61,9 @@ class GpuStage {
     std::string intake_report_;  ///< empty: the source lends no pictures
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_, match_timer_;
-    Readback colour_readback_, disparity_readback_;
+    Readback colour_readback_, right_readback_, disparity_readback_;
+    bool sends_right_;                   ///< not beside lossless colour
+    std::optional<TaiTime> right_sent_;  ///< exposure of the last right picture that was packed
     ColourPacker packer_;
     std::optional<TemporalPass> steady_;
     std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")

@@ -72,7 +72,7 @@ RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id
     pair.exposure = frame.exposure;
     pair.calibration_id = calibration_id;
     pair.colour = frame.lent_left ? to_colour(*frame.lent_left) : frame.left;
-    pair.raw_right = frame.lent_right ? to_colour(*frame.lent_right) : frame.right;
+    pair.right = frame.lent_right ? to_colour(*frame.lent_right) : frame.right;
     pair.geometry.width_px = pair.colour.cols;
     pair.geometry.height_px = pair.colour.rows;
     return pair;

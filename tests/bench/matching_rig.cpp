@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "common/wire/colour_codec.h"
+#include "common/wire/frame_codec.h"
+#include "common/wire/right_picture.h"
+#include "rig_firmware/daemon/gpu_stage.h"
 
 namespace vantage {
 
@@ -37,6 +39,7 @@ MatchingRig::MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::
     view_.K = calibration_.left.K();
     view_.world_from_camera = calibration_.world_from_left;
     view_.baseline_m = calibration_.rectified.baseline_m;
+    view_.doffs_px = calibration_.rectified.doffs_px();
 }
 
 void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
@@ -50,6 +53,11 @@ void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
         view_.colour =
             JpegDecoder().decode(JpegEncoder().encode(frame.left, jpeg_quality_, chroma_),
                                  frame.left.cols, frame.left.rows);
+    if (!right_sent_ || stage_time - *right_sent_ >= right_period) {
+        JpegEncoder jpeg;
+        view_.right_jpeg = shared(pack_right_picture(jpeg, frame.right));
+        right_sent_ = stage_time;
+    }
     own_m_ = depth_of(found);
     exact_m_ = depth_of(frame.exact_disparity);
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
@@ -52,6 +53,7 @@ class MatchingRig {
     int jpeg_quality_;
     Chroma chroma_;
     DepthView view_;
+    std::optional<std::chrono::nanoseconds> right_sent_;  ///< stage time
     DepthImage own_m_, exact_m_;
 };
 

@@ -53,9 +53,12 @@ void write_frames(const Seeds& seeds) {
         const PackedFrame packed = FrameEncoder(quality).encode(frame);
         seeds.write("frame_decoder", "whole-" + std::to_string(quality), join_frame(packed));
     }
+    RigFrame with_right = seed_frame();
+    with_right.right = with_right.colour;
+    seeds.write("frame_decoder", "right-picture", join_frame(FrameEncoder(85).encode(with_right)));
     RigFrame pair = seed_frame();
     pair.content = RigFrame::Content::raw_pair;
-    pair.raw_right = pair.colour;
+    pair.right = pair.colour;
     pair.disparity = DisparityImage();
     seeds.write("frame_decoder", "raw-pair", join_frame(FrameEncoder(lossless).encode(pair)));
     RigFrame frame = seed_frame();

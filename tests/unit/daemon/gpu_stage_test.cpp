@@ -87,6 +87,32 @@ TEST_F(GpuStageTest, PacksTheColourOfEveryFrameAsThePublisherWould) {
     }
 }
 
+TEST_F(GpuStageTest, SendsTheRightPictureTwiceASecond) {
+    StereoCalibration calibration = ideal_rig(config_, {width, height});
+    calibration.left.distortion = calibration.right.distortion = {-0.2, 0.05, 0, 0};
+    GpuStage gpu(config_, calibration);
+    const ColourImage expected =
+        rectify_reference(frame_.right, make_rectification_map(calibration, Side::right));
+    std::vector<int> with_right;
+    for (int frame = 0; frame < 30; ++frame) {
+        frame_.exposure += std::chrono::milliseconds(40);
+        const RigFrame result = gpu.process(frame_);
+        EXPECT_EQ(result.right.empty(), result.packed_right_bytes == 0);
+        if (result.right.empty()) continue;
+        with_right.push_back(frame);
+        EXPECT_EQ(cv::norm(result.right, expected, cv::NORM_INF), 0);
+    }
+    EXPECT_EQ(with_right, (std::vector<int>{0, 13, 26}));
+    frame_.exposure -= std::chrono::hours(1);  // the clock was set
+    EXPECT_FALSE(gpu.process(frame_).right.empty());
+}
+
+TEST_F(GpuStageTest, SendsNoRightPictureBesideLosslessColour) {
+    config_.stream.jpeg_quality = 0;
+    GpuStage gpu(config_, ideal_rig(config_, {width, height}));
+    EXPECT_TRUE(gpu.process(frame_).right.empty());
+}
+
 TEST_F(GpuStageTest, EveryFrameHasItsOwnColourAndDisparity) {
     StereoCalibration calibration = ideal_rig(config_, {width, height});
     calibration.left.distortion = calibration.right.distortion = {-0.2, 0.05, 0, 0};

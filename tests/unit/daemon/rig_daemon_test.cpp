@@ -164,7 +164,7 @@ TEST(RigDaemon, WithoutACalibrationServesRawPairsToWhoAsksAndAccountsForEveryFra
     ASSERT_TRUE(pair);
     EXPECT_EQ(pair->content, RigFrame::Content::raw_pair);
     EXPECT_EQ(pair->colour.size(), cv::Size(61, 47));
-    EXPECT_EQ(pair->raw_right.size(), cv::Size(61, 47));
+    EXPECT_EQ(pair->right.size(), cv::Size(61, 47));
     EXPECT_EQ(pair->calibration_id, "");
     while (daemon.running() && films.status().rigs[0].refused.empty())
         std::this_thread::sleep_for(5ms);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/wire/colour_codec.h"
 #include "host_app/instants/set_matching.h"
 #include "tests/unit/instants/pole_before_wall.h"
 
@@ -38,6 +39,42 @@ SetPicture set_with_card(double x_m, const cv::Rect& card) {
     const cv::Rect broader(seen.x - 6, seen.y, seen.width + 12, seen.height);
     set.depth_m(broader & cv::Rect({0, 0}, matched_size)) = 1.1f * near_pole_m;
     return set;
+}
+
+constexpr int poles = 14, pole_spacing_px = 12;
+
+/// What a camera at x sees of a row of poles before a wall, all alike and of one colour each.
+ColourImage row_of_poles(double x_m) {
+    ColourImage seen(matched_size, cv::Vec4b(60, 140, 60, 255));
+    const int shift = static_cast<int>(std::lround(150 * x_m / near_pole_m));
+    for (int pole = 0; pole < poles; ++pole)
+        seen(cv::Rect(pole * pole_spacing_px - shift, 20, 3, 80) & cv::Rect({0, 0}, matched_size)) =
+            cv::Vec4b(220, 160, 230, 255);
+    return seen;
+}
+
+/// A rig that takes all of that for the wall.
+SetPicture set_with_row_of_poles(double x_m, int right_pictures) {
+    SetPicture set = set_with_pole(x_m, cv::Rect());
+    set.colour = row_of_poles(x_m);
+    const auto right = std::make_shared<const std::vector<std::byte>>(
+        JpegEncoder().encode(row_of_poles(x_m + set.baseline_m), 95, Chroma::full));
+    set.right_jpegs.assign(static_cast<std::size_t>(right_pictures), right);
+    set.right_px = matched_size;
+    return set;
+}
+
+/// Other rigs stand so far away that one pole may as well be the next one.
+TEST(SetMatcher, TellsWhatLooksAlikeApartByTheRightPicture) {
+    const cv::Rect pole(60, 30, 3, 60);
+    const auto right_depths = [&](int right_pictures) {
+        const std::vector<SetPicture> sets{set_with_row_of_poles(0, right_pictures),
+                                           set_with_row_of_poles(-0.4, right_pictures),
+                                           set_with_row_of_poles(0.4, right_pictures)};
+        return pixels_at(match_sets(sets).value().at(0), near_pole_m, pole);
+    };
+    EXPECT_LT(right_depths(0), 0.3 * pole.area());
+    EXPECT_GT(right_depths(3), 0.9 * pole.area());
 }
 
 /// Beside what is near lie strips of the wall that one or both of the other rigs cannot see.

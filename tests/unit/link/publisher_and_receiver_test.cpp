@@ -435,7 +435,7 @@ TEST_F(LinkTest, AHostThatCalibratesGetsRawPairsAndAnotherOneGoesOnFilming) {
     RigFrame view = make_frame(7);
     RigFrame pair = make_frame(7);
     pair.content = RigFrame::Content::raw_pair;
-    pair.raw_right = make_frame(8).colour;
+    pair.right = make_frame(8).colour;
     pair.disparity = DisparityImage();
     rig.publish(view);
     rig.publish(pair);
@@ -444,8 +444,31 @@ TEST_F(LinkTest, AHostThatCalibratesGetsRawPairsAndAnotherOneGoesOnFilming) {
     ASSERT_TRUE(filmed && filmed->slots[0].frame && raw && raw->slots[0].frame);
     EXPECT_EQ(filmed->slots[0].frame->content, RigFrame::Content::view);
     EXPECT_EQ(raw->slots[0].frame->content, RigFrame::Content::raw_pair);
-    EXPECT_TRUE(same_pixels(raw->slots[0].frame->raw_right, pair.raw_right));
+    EXPECT_TRUE(same_pixels(raw->slots[0].frame->right, pair.right));
     EXPECT_EQ(rig.status().counters.published, 1u);
+}
+
+TEST_F(LinkTest, TheNewestRightPictureIsWithEveryFrameThatFollows) {
+    RigConfig::Stream stream = open_stream();
+    stream.jpeg_quality = 85;
+    Publisher rig(stream, "rig-a");
+    StageReceiver host(stage_of(rig));
+    ASSERT_TRUE(eventually([&] { return connected(host); }));
+    const auto got = [&](std::uint64_t pulse, bool with_right) {
+        RigFrame frame = make_frame(pulse);
+        if (with_right) frame.right = make_frame(pulse + 1).colour;
+        rig.publish(frame);
+        const std::optional<FrameSet> set = host.next(patience);
+        return set && set->slots[0].frame ? set->slots[0].frame->right_jpeg : nullptr;
+    };
+    EXPECT_FALSE(got(7, false));
+    const SharedBytes first = got(8, true);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(got(9, false), first);
+    const SharedBytes second = got(10, true);
+    ASSERT_TRUE(second);
+    EXPECT_NE(*second, *first);
+    EXPECT_EQ(got(11, false), second);
 }
 
 TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {

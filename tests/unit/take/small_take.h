@@ -9,7 +9,8 @@
 
 namespace vantage {
 
-/// What a rig of a test sends: the frame of pulse k as it comes over the wire.
+/// What a rig of a test sends: the frame of pulse k as it comes over the wire; every fourth has a
+/// right picture.
 PackedFrame sent_frame(const std::string& rig, std::uint64_t pulse, int jpeg_quality = 85);
 
 /// Facts of a take at 25 pulses a second of rigs that send as above, from pulse `first` on.

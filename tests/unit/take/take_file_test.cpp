@@ -64,6 +64,10 @@ TEST_F(TakeFileTest, GivesBackEveryFrameBitForBit) {
             const RigFrame then = restorer.restore(stored), now = decoded(sent);
             EXPECT_TRUE(same_pixels(then.colour, now.colour));
             EXPECT_TRUE(same_pixels(then.disparity, now.disparity));
+            ASSERT_EQ(then.right_jpeg != nullptr, frame.pulse % 4 == 0);
+            if (then.right_jpeg) {
+                EXPECT_EQ(*then.right_jpeg, *now.right_jpeg);
+            }
             EXPECT_EQ(then.exposure, now.exposure);
             EXPECT_EQ(then.sync, now.sync);
             EXPECT_TRUE(then.world_from_camera.isApprox(now.world_from_camera, 0));

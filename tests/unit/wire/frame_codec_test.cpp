@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/wire/limits.h"
+#include "common/wire/right_picture.h"
 #include "frame.pb.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
@@ -89,6 +90,76 @@ TEST(FrameCodec, ColourThatWasPackedAheadTravelsAsIfItWereNot) {
     }
 }
 
+TEST(FrameCodec, ARightPictureTravelsBehindTheLeftOnesJpeg) {
+    for (const bool is_ahead : {false, true}) {
+        RigFrame sent = make_frame(3);
+        sent.right = make_frame(4).colour;
+        const std::vector<std::byte> left = FrameEncoder(85).encode(sent).colour;
+        RigFrame alone = make_frame(3);
+        const std::size_t left_bytes = FrameEncoder(85).encode(alone).colour.size();
+        if (is_ahead) ColourPacker(85).pack(sent);
+        const PackedFrame packed = FrameEncoder(85).encode(sent);
+        EXPECT_EQ(packed.colour, left);
+        const RigFrame got = decode(packed);
+        expect_same_numbers(got, sent);
+        EXPECT_TRUE(same_pixels(got.colour, decode(FrameEncoder(85).encode(alone)).colour));
+        ASSERT_TRUE(got.right_jpeg);
+        EXPECT_EQ(got.right_jpeg->size(), packed.colour.size() - left_bytes);
+        const ColourImage right = JpegDecoder().decode(*got.right_jpeg, 61, 47);
+        EXPECT_LT(cv::norm(right, sent.right, cv::NORM_L1) / static_cast<double>(right.total()),
+                  30);
+        // Whoever knows nothing of it sees the left one.
+        EXPECT_TRUE(same_pixels(JpegDecoder().decode(packed.colour, 61, 47), got.colour));
+    }
+}
+
+TEST(FrameCodec, ALargeRightPictureTravelsSmaller) {
+    EXPECT_EQ(right_picture_size({640, 480}), cv::Size(640, 480));
+    EXPECT_EQ(right_picture_size({1456, 1088}), cv::Size(485, 362));
+    EXPECT_EQ(right_picture_size({641, 480}), cv::Size(320, 240));
+    RigFrame sent = make_frame(3, 800, 600);
+    sent.right = ColourImage(600, 800, cv::Vec4b(90, 120, 60, 255));
+    const RigFrame got = decode(FrameEncoder(85).encode(sent));
+    ASSERT_TRUE(got.right_jpeg);
+    const ColourImage right = JpegDecoder().decode(*got.right_jpeg, 400, 300);
+    EXPECT_LE(cv::norm(right, ColourImage(300, 400, cv::Vec4b(90, 120, 60, 255)), cv::NORM_INF), 2);
+}
+
+TEST(FrameCodec, LosslessColourTravelsWithoutARightPicture) {
+    RigFrame sent = make_frame(3), ahead = make_frame(3), alone = make_frame(3);
+    sent.right = ahead.right = make_frame(4).colour;
+    ColourPacker(lossless).pack(ahead);
+    const std::vector<std::byte> colour = FrameEncoder(lossless).encode(alone).colour;
+    EXPECT_EQ(FrameEncoder(lossless).encode(sent).colour, colour);
+    const PackedFrame packed = FrameEncoder(lossless).encode(ahead);
+    EXPECT_EQ(packed.colour, colour);
+    EXPECT_FALSE(decode(packed).right_jpeg);
+}
+
+TEST(FrameCodec, HostileRightPicturesAreRefused) {
+    RigFrame sent = make_frame(3);
+    sent.right = make_frame(4).colour;
+    const PackedFrame whole = FrameEncoder(85).encode(sent);
+    const auto refusal = [&](std::uint32_t right_bytes, wire::FrameHeader::ColourCodec codec) {
+        PackedFrame packed = whole;
+        wire::FrameHeader header;
+        header.ParseFromArray(packed.header.data(), static_cast<int>(packed.header.size()));
+        header.set_right_jpeg_bytes(right_bytes);
+        header.set_colour_codec(codec);
+        packed.header.resize(header.ByteSizeLong());
+        header.SerializeToArray(packed.header.data(), static_cast<int>(packed.header.size()));
+        return refusal_of(packed);
+    };
+    const auto all = static_cast<std::uint32_t>(whole.colour.size());
+    EXPECT_THAT(refusal(all + 1, wire::FrameHeader::COLOUR_JPEG), HasSubstr("does not fit"));
+    EXPECT_THAT(refusal(all, wire::FrameHeader::COLOUR_JPEG), HasSubstr("payload is empty"));
+    EXPECT_THAT(refusal(all - 30, wire::FrameHeader::COLOUR_JPEG), HasSubstr("payload"));
+    EXPECT_THAT(refusal(7, wire::FrameHeader::COLOUR_ZSTD_RGBA), HasSubstr("no JPEG"));
+    RigFrame small = make_frame(3);
+    small.right = ColourImage(5, 5);
+    EXPECT_THAT(thrown_sentence([&] { FrameEncoder(85).encode(small); }), HasSubstr("one size"));
+}
+
 TEST(FrameCodec, DisparityMayBeSmallerThanColourAndEitherMayBeMissing) {
     FrameEncoder encoder(lossless);
     FrameDecoder decoder;
@@ -142,7 +213,7 @@ TEST(FrameCodec, RefusesToPackWhatNoHostWouldTake) {
 RigFrame make_raw_pair(std::uint64_t trigger_index) {
     RigFrame pair = make_frame(trigger_index);
     pair.content = RigFrame::Content::raw_pair;
-    pair.raw_right = make_frame(trigger_index + 1).colour;
+    pair.right = make_frame(trigger_index + 1).colour;
     pair.disparity = DisparityImage();
     return pair;
 }
@@ -159,14 +230,14 @@ TEST(FrameCodec, CarriesARawPairBitExactWhateverTheColourQuality) {
         EXPECT_EQ(got.geometry.width_px, sent.colour.cols);
         EXPECT_EQ(got.geometry.height_px, sent.colour.rows);
         EXPECT_TRUE(same_pixels(got.colour, sent.colour));
-        EXPECT_TRUE(same_pixels(got.raw_right, sent.raw_right));
+        EXPECT_TRUE(same_pixels(got.right, sent.right));
         EXPECT_TRUE(got.disparity.empty());
     }
 }
 
 TEST(FrameCodec, RefusesToPackARawPairThatIsNone) {
     RigFrame one_sided = make_raw_pair(3);
-    one_sided.raw_right = ColourImage();
+    one_sided.right = ColourImage();
     EXPECT_THAT(thrown_sentence([&] { FrameEncoder(lossless).encode(one_sided); }),
                 HasSubstr("one size"));
     RigFrame with_disparity = make_raw_pair(3);
