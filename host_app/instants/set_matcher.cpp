@@ -444,25 +444,29 @@ void bring_to(const SetPicture& set, ColourImage& picture) {
     cv::multiply(picture, gains, picture);
 }
 
-/// The right picture of the set's own rig; nothing if too few have come.
-std::optional<Other> right_of(const SetPicture& set) {
+/// What stands still in the right pictures of the set's own rig; empty if too few have come.
+ColourImage right_of(const SetPicture& set) {
     const ColourImage still = still_picture(set.right_jpegs, set.right_px);
-    if (still.empty()) return std::nullopt;
+    if (still.empty()) return {};
     cv::Mat sized;
     cv::resize(set.right_correction.is_identity() ? still : set.right_correction.apply(still),
                sized, set.colour.size(), 0, 0, cv::INTER_AREA);
-    ColourImage picture(sized);
-    bring_to(set, picture);
-    SetPicture right;
-    right.K = set.K;
-    right.K(0, 2) += set.doffs_px;
-    right.world_from_camera = set.world_from_camera * Eigen::Translation3d(set.baseline_m, 0, 0);
-    return Other{other_from_pixel(right, set).cast<float>(), finer(picture), {}};
+    ColourImage right(sized);
+    bring_to(set, right);
+    return right;
+}
+
+/// It as it is looked at.
+Other seen_from(const SetPicture& set, const ColourImage& right) {
+    SetPicture camera;
+    camera.K = set.K;
+    camera.K(0, 2) += set.doffs_px;
+    camera.world_from_camera = set.world_from_camera * Eigen::Translation3d(set.baseline_m, 0, 0);
+    return {other_from_pixel(camera, set).cast<float>(), finer(right), {}};
 }
 
 std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t which,
-                                  std::span<const cv::Mat4b> fine,
-                                  std::span<const std::optional<Other>> rights,
+                                  std::span<const cv::Mat4b> fine, const ColourImage& right_picture,
                                   std::span<const cv::Mat2f> inverse_depths,
                                   const std::stop_token& stop) {
     const SetPicture& set = sets[which];
@@ -475,8 +479,9 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
     if (others.empty()) return DepthImage(set.colour.size(), 0.0f);
     const DepthRange range = range_of(set, sets[told_by.front()]);
     if (range.depths == 0) return DepthImage(set.colour.size(), 0.0f);
-    const CostVolume costs =
-        smoothed(swept(set, others, rights[which], range, stop), set, range, stop);
+    std::optional<Other> right;
+    if (!right_picture.empty()) right = seen_from(set, right_picture);
+    const CostVolume costs = smoothed(swept(set, others, right, range, stop), set, range, stop);
     CostVolume sums(costs.size(), costs.depths());
     walk_columns(costs, set.colour, sums, true, stop);
     walk_columns(costs, set.colour, sums, false, stop);
@@ -491,7 +496,7 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
 std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> sets,
                                                   const std::stop_token& stop) {
     std::vector<cv::Mat4b> fine;
-    std::vector<std::optional<Other>> rights;
+    std::vector<ColourImage> rights;
     for (const SetPicture& set : sets) {
         fine.push_back(finer(set.colour));
         rights.push_back(right_of(set));
@@ -505,7 +510,7 @@ std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> se
         depths_m.clear();
         for (std::size_t i = 0; i < sets.size(); ++i) {
             std::optional<DepthImage> depth_m =
-                matched(sets, i, fine, rights, inverse_depths, stop);
+                matched(sets, i, fine, rights[i], inverse_depths, stop);
             if (!depth_m) return std::nullopt;
             depths_m.push_back(std::move(*depth_m));
         }
