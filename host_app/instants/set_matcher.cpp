@@ -432,16 +432,24 @@ cv::Mat4b finer(const ColourImage& picture) {
     return larger;
 }
 
-/// `picture`'s channels times so much each that their means are the set's: two sensors differ, and
-/// light has changed since.
-void bring_to(const SetPicture& set, ColourImage& picture) {
-    cv::Mat known;
-    cv::extractChannel(set.colour, known, 3);
-    const cv::Scalar wanted = cv::mean(set.colour, known), is = cv::mean(picture);
+/// The right picture's channels times so much each that they are the left one's where the rig's own
+/// depth says that they show the same: two sensors differ, and light has changed since.
+void bring_to_left(const SetPicture& set, ColourImage& right) {
+    const double f_baseline = set.K(0, 0) * set.baseline_m;
+    cv::Scalar left_sum, right_sum;
+    for (int y = 0; y < right.rows; ++y)
+        for (int x = 0; x < right.cols; ++x) {
+            const float z = set.depth_m(y, x);
+            if (z <= 0 || set.colour(y, x)[3] == 0) continue;
+            const long there = std::lround(x - (f_baseline / z - set.doffs_px));
+            if (there < 0 || there >= right.cols) continue;
+            left_sum += cv::Scalar(set.colour(y, x));
+            right_sum += cv::Scalar(right(y, static_cast<int>(there)));
+        }
     cv::Scalar gains(1, 1, 1, 1);
     for (int channel = 0; channel < 3; ++channel)
-        if (is[channel] > 0) gains[channel] = wanted[channel] / is[channel];
-    cv::multiply(picture, gains, picture);
+        if (right_sum[channel] > 0) gains[channel] = left_sum[channel] / right_sum[channel];
+    cv::multiply(right, gains, right);
 }
 
 /// What stands still in the right pictures of the set's own rig; empty if too few have come.
@@ -452,7 +460,7 @@ ColourImage right_of(const SetPicture& set) {
     cv::resize(set.right_correction.is_identity() ? still : set.right_correction.apply(still),
                sized, set.colour.size(), 0, 0, cv::INTER_AREA);
     ColourImage right(sized);
-    bring_to(set, right);
+    bring_to_left(set, right);
     return right;
 }
 

@@ -53,12 +53,14 @@ ColourImage row_of_poles(double x_m) {
     return seen;
 }
 
-/// A rig that takes all of that for the wall.
-SetPicture set_with_row_of_poles(double x_m, int right_pictures) {
+/// A rig that takes all of that for the wall, and whose right sensor has other gains.
+SetPicture set_with_row_of_poles(double x_m, int right_pictures, const cv::Scalar& gains) {
     SetPicture set = set_with_pole(x_m, cv::Rect());
     set.colour = row_of_poles(x_m);
+    ColourImage seen = row_of_poles(x_m + set.baseline_m);
+    cv::multiply(seen, gains, seen);
     const auto right = std::make_shared<const std::vector<std::byte>>(
-        JpegEncoder().encode(row_of_poles(x_m + set.baseline_m), 95, Chroma::full));
+        JpegEncoder().encode(seen, 95, Chroma::full));
     set.right_jpegs.assign(static_cast<std::size_t>(right_pictures), right);
     set.right_px = matched_size;
     return set;
@@ -67,14 +69,15 @@ SetPicture set_with_row_of_poles(double x_m, int right_pictures) {
 /// Other rigs stand so far away that one pole may as well be the next one.
 TEST(SetMatcher, TellsWhatLooksAlikeApartByTheRightPicture) {
     const cv::Rect pole(60, 30, 3, 60);
-    const auto right_depths = [&](int right_pictures) {
-        const std::vector<SetPicture> sets{set_with_row_of_poles(0, right_pictures),
-                                           set_with_row_of_poles(-0.4, right_pictures),
-                                           set_with_row_of_poles(0.4, right_pictures)};
+    const auto right_depths = [&](int right_pictures, const cv::Scalar& gains = {1, 1, 1, 1}) {
+        const std::vector<SetPicture> sets{set_with_row_of_poles(0, right_pictures, gains),
+                                           set_with_row_of_poles(-0.4, right_pictures, gains),
+                                           set_with_row_of_poles(0.4, right_pictures, gains)};
         return pixels_at(match_sets(sets).value().at(0), near_pole_m, pole);
     };
     EXPECT_LT(right_depths(0), 0.3 * pole.area());
     EXPECT_GT(right_depths(3), 0.9 * pole.area());
+    EXPECT_GT(right_depths(3, {0.75, 1, 0.8, 1}), 0.9 * pole.area());
 }
 
 /// Beside what is near lie strips of the wall that one or both of the other rigs cannot see.
