@@ -5,7 +5,6 @@
 uniform sampler2D before;  // metres, 0 = unknown, negative = guessed
 uniform vec3 floor_plane;  // inverse depth per (u, v, 1) of the depth map
 uniform float softness;    // relative depth within which two surfaces are one
-uniform float reach;       // deviations of a measured depth: farther from the pixel's own nothing is taken for the floor
 
 layout(location = 0) out float with_floor;
 
@@ -71,10 +70,8 @@ void main() {
     with_floor = own;
     const float horizon = 1e-3;
     if (own <= 0.0 || nearness < horizon) return;
-    float off = abs(nearness - 1.0 / own) / spread;
-    if (off > reach) return;
     look_around(pixel);
     float on_floor = unlike_on(pixel, floor_plane);
-    if (on_floor > alike && off > near) return;
+    if (on_floor > alike && abs(nearness - 1.0 / own) > near * spread) return;
     if (on_floor < unlike_on(pixel, vec3(0.0, 0.0, 1.0 / own)) + grace) with_floor = 1.0 / nearness;
 }

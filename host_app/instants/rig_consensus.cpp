@@ -23,9 +23,6 @@ constexpr double coarse_step_px = 2, fine_step_px = 1;
 constexpr double exact_px = 0.7, least_change_px = 0.5;
 /// Of all points, those that lie on a floor that can be seen.
 constexpr double floor_share = 0.05;
-/// How far from it a depth may be, in deviations of a measured one: matchers take a plain floor for
-/// what stands on it, but of sets matched against each other a plain wall is no floor.
-constexpr float any_floor_reach = 1e6f, matched_floor_reach = 4;
 /// Relative uncertainty of depth that does not come of stereo.
 constexpr double least_sigma = 0.002;
 
@@ -325,7 +322,6 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
             pose.linear().row(1) * look->view.K_depth().inverse() / -pose.translation().y();
         program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
         program.set("softness", agreeing_softness);
-        program.set("reach", look->view.is_matched ? matched_floor_reach : any_floor_reach);
         program.set("before", unit);
         bettered.bind(unit);
         draw(standing, with_floor_.target(), unit + 1, look);

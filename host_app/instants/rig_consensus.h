@@ -20,7 +20,6 @@ struct ComparedView {
     const Texture* colour = nullptr;
     const Texture* depth_m = nullptr;  ///< metres in its first channel, 0 = unknown
     const SurfaceSamples* samples = nullptr;
-    bool is_matched = false;  ///< the depth is that of sets matched against each other
 
     const DepthView& camera() const { return *seen_by; }
     std::span<const Eigen::Vector3d> sample_points_m() const { return samples->points_m; }
@@ -46,8 +45,7 @@ bool shows_floor(std::span<const ComparedView> views);
 /// the other rigs stand no farther apart than the rig's own two cameras.
 ///
 /// The set's depth is held against the stage's floor too, y = 0 of the world, if enough of what the
-/// rigs measure lies on it (of a matched set's, what is close to it): where the pictures speak as
-/// well for the floor, that is the depth.
+/// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.
 class RigConsensus {
   public:
     /// Rigs that one is compared with at the most.

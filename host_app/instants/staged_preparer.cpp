@@ -164,8 +164,7 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
         if (!one->match() || one->learnt_instants() == 0) continue;
         one->matched_depth().resize(one->depth().size());
         all.back().depth_m = &one->matched_depth().texture();
-        all.back().is_matched = true;
-        if (one == &rig) view = all.back();
+        if (one == &rig) view.depth_m = all.back().depth_m;
         consensus_.then([this, one] {
             Program& show = show_matched_.use();
             show.set("learnt", 0);
