@@ -139,14 +139,6 @@ float milliseconds_since(MonotonicTime start) {
     return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
 }
 
-/// The right picture where there is one, behind the left one's JPEG.
-void append_right(RigFrame& frame, std::vector<std::byte>& colour, JpegEncoder& jpeg) {
-    if (frame.right.empty()) return;
-    const std::vector<std::byte> right = pack_right_picture(jpeg, frame.right);
-    colour.insert(colour.end(), right.begin(), right.end());
-    frame.packed_right_bytes = right.size();
-}
-
 }  // namespace
 
 struct ColourPacker::Impl {
@@ -165,27 +157,31 @@ ColourPacker::~ColourPacker() = default;
 
 void ColourPacker::pack(RigFrame& frame) {
     const MonotonicTime start = MonotonicClock::now();
+    frame.packed_right_bytes = 0;
     if (impl_->jpeg_quality == 0) {
         frame.packed_colour = impl_->lossless.encode(frame.colour);
     } else {
         frame.packed_colour = impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
-        append_right(frame, frame.packed_colour, impl_->jpeg);
+        if (!frame.right.empty()) {
+            const std::vector<std::byte> right = pack_right_picture(impl_->jpeg, frame.right);
+            frame.packed_colour.insert(frame.packed_colour.end(), right.begin(), right.end());
+            frame.packed_right_bytes = right.size();
+        }
     }
     frame.times.pack_ms = milliseconds_since(start);
 }
 
 struct FrameEncoder::Impl {
+    Impl(int quality, Chroma chroma) : jpeg_quality(quality), packer(quality, chroma) {}
+
     int jpeg_quality;
-    Chroma chroma;
-    JpegEncoder jpeg;
-    LosslessColourEncoder lossless_colour;
+    ColourPacker packer;                    ///< of views
+    LosslessColourEncoder lossless_colour;  ///< of raw pairs
     DisparityEncoder disparity;
 };
 
-FrameEncoder::FrameEncoder(int jpeg_quality, Chroma chroma) : impl_(std::make_unique<Impl>()) {
-    impl_->jpeg_quality = checked_quality(jpeg_quality);
-    impl_->chroma = chroma;
-}
+FrameEncoder::FrameEncoder(int jpeg_quality, Chroma chroma)
+    : impl_(std::make_unique<Impl>(jpeg_quality, chroma)) {}
 
 FrameEncoder::~FrameEncoder() = default;
 
@@ -245,16 +241,14 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     packed.trigger_index = frame.trigger_index;
     packed.is_raw_pair = is_raw_pair;
     const bool is_packed_ahead = !frame.packed_colour.empty();
-    if (is_packed_ahead)
-        packed.colour = std::move(frame.packed_colour);
-    else if (!frame.colour.empty() && lossless)
+    if (is_raw_pair) {
         packed.colour = impl_->lossless_colour.encode(frame.colour);
-    else if (!frame.colour.empty()) {
-        packed.colour = impl_->jpeg.encode(frame.colour, impl_->jpeg_quality, impl_->chroma);
-        append_right(frame, packed.colour, impl_->jpeg);
+        packed.disparity = impl_->lossless_colour.encode(frame.right);
+    } else {
+        if (!is_packed_ahead && !frame.colour.empty()) impl_->packer.pack(frame);
+        packed.colour = std::move(frame.packed_colour);
+        header.set_right_jpeg_bytes(static_cast<std::uint32_t>(frame.packed_right_bytes));
     }
-    header.set_right_jpeg_bytes(static_cast<std::uint32_t>(frame.packed_right_bytes));
-    if (is_raw_pair) packed.disparity = impl_->lossless_colour.encode(frame.right);
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 
     frame.times.pack_ms =

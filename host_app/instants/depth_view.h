@@ -44,7 +44,7 @@ struct DepthView {
     /// not come of stereo.
     double baseline_m = 0;
     double doffs_px = 0;
-    /// The rectified right picture, of right_picture_size() of the colour's; its cx is doffs_px
+    /// The rectified right picture, of set_match_size() of the colour's; its cx is doffs_px
     /// more. A JPEG, the newest that came; null: none has.
     SharedBytes right_jpeg = {};
     /// Brings the picture's colours to the stage's; done on the GPU on its way to the synthesisers.

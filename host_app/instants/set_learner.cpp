@@ -27,8 +27,6 @@ constexpr double absorbed_after_s = 120;
 constexpr double known_after_s = 0.5;
 /// The longest means, of which certainties are shares.
 constexpr int longest_depth_mean = 128, longest_colour_mean = 32;
-/// A larger set is matched smaller: its costs are 160 MB at this size.
-constexpr double most_matched_pixels = 640 * 480;
 /// Pixels across that look_at() looks at.
 constexpr int most_sampled_px = 128;
 
@@ -202,15 +200,14 @@ cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
 SetPicture SetLearner::picture(const RigHistory& rig) {
     const LearntRigSet set = learnt(rig);
     const cv::Size whole = set.depth_m.size();
-    const int part = static_cast<int>(std::ceil(std::sqrt(whole.area() / most_matched_pixels)));
-    const cv::Size size(whole.width / part, whole.height / part);
+    const cv::Size size = set_match_size(whole);
     SetPicture picture;
     picture.K = scaled_intrinsics(rig.K_depth(), static_cast<double>(size.width) / whole.width,
                                   static_cast<double>(size.height) / whole.height);
     picture.world_from_camera = rig.camera().world_from_camera;
     picture.baseline_m = rig.camera().baseline_m;
     picture.right_jpegs.assign(rig.right_jpegs().begin(), rig.right_jpegs().end());
-    picture.right_px = right_picture_size(rig.fresh_colour().size());
+    picture.right_px = set_match_size(rig.fresh_colour().size());
     picture.right_correction = rig.camera().colour_correction;
     picture.doffs_px = rig.camera().doffs_px * size.width / rig.fresh_colour().width_px();
     cv::resize(set.depth_m, picture.depth_m, size, 0, 0, cv::INTER_NEAREST_EXACT);
