@@ -176,11 +176,118 @@ class CostVolume {
     std::vector<Cost> costs_;
 };
 
+/// Of the sum of three channels' differences, by that sum: a division and two roundings less for
+/// each of some hundred million readings.
+constexpr std::array<Cost, 3 * 255 + 1> cost_of_difference = [] {
+    std::array<Cost, 3 * 255 + 1> costs{};
+    for (std::size_t sum = 0; sum < costs.size(); ++sum)
+        costs[sum] = static_cast<Cost>(std::min(static_cast<float>(sum) / 3, most_unlike) *
+                                       (whole / most_unlike));
+    return costs;
+}();
+
+Cost cost_of(const cv::Vec4b& a, const cv::Vec4b& b) {
+    return cost_of_difference[static_cast<std::size_t>(
+        std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]))];
+}
+
+/// Where the depths of one pixel lie in another picture: one after the other on a line.
+class DepthLine {
+  public:
+    explicit DepthLine(const DepthRange& range)
+        : inverse_m_(range.depths),
+          z_(range.depths),
+          u_(range.depths),
+          v_(range.depths),
+          seen_inverse_m_(range.depths),
+          fine_(range.depths),
+          pixel_(range.depths) {
+        for (int k = 0; k < range.depths; ++k) inverse_m_[k] = range.at(static_cast<float>(k));
+    }
+
+    void project(const Other& other, cv::Point from_pixel) {
+        const Eigen::Vector4f along =
+            other.from_pixel * Eigen::Vector4f(static_cast<float>(from_pixel.x),
+                                               static_cast<float>(from_pixel.y), 1, 0);
+        const Eigen::Vector4f from = other.from_pixel.col(3);
+        const int columns = other.fine.cols / fineness, rows = other.fine.rows / fineness;
+        const auto right = static_cast<float>(columns - 1), bottom = static_cast<float>(rows - 1);
+        // Before the camera and within its picture: each border is an inequality that is linear in
+        // the inverse depth. Rounding is left to the ends.
+        first_ = 0;
+        end_ = inverse_m_.size();
+        keep(along.z(), from.z());
+        keep(along.x(), from.x());
+        keep(along.y(), from.y());
+        keep(right * along.z() - along.x(), right * from.z() - from.x());
+        keep(bottom * along.z() - along.y(), bottom * from.z() - from.y());
+        const auto is_inside = [&](Eigen::Index k) {
+            const float z = along.z() + inverse_m_[k] * from.z(),
+                        u = (along.x() + inverse_m_[k] * from.x()) / z,
+                        v = (along.y() + inverse_m_[k] * from.y()) / z;
+            return z > 0 && u >= 0 && v >= 0 && u <= right && v <= bottom;
+        };
+        while (first_ < end_ && !is_inside(first_)) ++first_;
+        while (first_ < end_ && !is_inside(end_ - 1)) --end_;
+        const Eigen::Index count = end_ - first_;
+        if (count <= 0) return;
+        const auto inverse_m = inverse_m_.segment(first_, count);
+        auto z = z_.segment(first_, count), u = u_.segment(first_, count),
+             v = v_.segment(first_, count);
+        z = along.z() + inverse_m * from.z();
+        u = ((along.x() + inverse_m * from.x()) / z).max(0.0f).min(right);
+        v = ((along.y() + inverse_m * from.y()) / z).max(0.0f).min(bottom);
+        fine_.segment(first_, count) = (fineness * (v + 0.5f)).cast<int>() * other.fine.cols +
+                                       (fineness * (u + 0.5f)).cast<int>();
+        if (other.inverse_depths.empty()) return;
+        pixel_.segment(first_, count) = v.cast<int>() * columns + u.cast<int>();
+        seen_inverse_m_.segment(first_, count) = inverse_m / z;
+    }
+    /// Calls read(depth, index in the finer picture) for those that lie in it.
+    template <class Read>
+    void for_each(const Read& read) const {
+        for (Eigen::Index k = first_; k < end_; ++k)
+            read(static_cast<std::size_t>(k), static_cast<std::size_t>(fine_[k]));
+    }
+    /// Of a depth that lies in the picture of a rig with inverse depths: the pixel's index, and the
+    /// inverse depth from there.
+    std::size_t pixel(std::size_t depth) const {
+        return static_cast<std::size_t>(pixel_[static_cast<Eigen::Index>(depth)]);
+    }
+    float seen_inverse_m(std::size_t depth) const {
+        return seen_inverse_m_[static_cast<Eigen::Index>(depth)];
+    }
+
+  private:
+    /// Only the depths where at + inverse depth * slope >= 0, and one beyond.
+    void keep(float at, float slope) {
+        const float farthest = inverse_m_[0], step = inverse_m_[1] - farthest;
+        constexpr float rounding = 1e-3f;
+        const float at_first = at + farthest * slope + rounding, by_step = step * slope;
+        if (by_step == 0) {
+            if (at_first < 0) end_ = first_;
+            return;
+        }
+        const auto limit = static_cast<float>(inverse_m_.size());
+        const auto zero =
+            static_cast<Eigen::Index>(std::floor(std::clamp(-at_first / by_step, -1.0f, limit)));
+        if (by_step > 0)
+            first_ = std::max(first_, zero);
+        else
+            end_ = std::min(end_, zero + 2);
+    }
+
+    Eigen::ArrayXf inverse_m_, z_, u_, v_, seen_inverse_m_;
+    Eigen::ArrayXi fine_, pixel_;
+    Eigen::Index first_ = 0, end_ = 0;
+};
+
 /// What other pictures say of the depths at one pixel.
 class PixelSweep {
   public:
-    explicit PixelSweep(int depths)
-        : least_(static_cast<std::size_t>(depths)),
+    explicit PixelSweep(const DepthRange& range)
+        : line_(range),
+          least_(static_cast<std::size_t>(range.depths)),
           second_(least_.size()),
           right_(least_.size()),
           is_hidden_(least_.size()) {}
@@ -192,36 +299,31 @@ class PixelSweep {
         std::fill(is_hidden_.begin(), is_hidden_.end(), std::uint8_t{0});
     }
     /// At the picture of another rig.
-    void look(const Other& other, const DepthRange& range, cv::Point pixel,
-              const cv::Vec4b& colour) {
-        walk(other, range, pixel, [&](std::size_t k, const Reading& read) {
-            if (read.colour[3] < 255) {  // a part of it is not known: a performer hides it
+    void look(const Other& other, cv::Point pixel, const cv::Vec4b& colour) {
+        line_.project(other, pixel);
+        const cv::Vec4b* fine = other.fine[0];
+        const cv::Vec2f* has = other.inverse_depths.empty() ? nullptr : other.inverse_depths[0];
+        line_.for_each([&](std::size_t k, std::size_t index) {
+            const cv::Vec4b& there = fine[index];
+            if (there[3] < 255) {  // a part of it is not known: a performer hides it
                 is_hidden_[k] = 1;
                 return;
             }
-            Cost cost = cost_of(colour, read.colour);
-            if (!other.inverse_depths.empty()) {
-                const cv::Vec2f& has = other.inverse_depths(read.pixel);
-                const float off = one_surface * read.inverse_m;
-                if (std::abs(has[0] - read.inverse_m) < off ||
-                    std::abs(has[1] - read.inverse_m) < off) {
-                    cost /= 2;
-                } else if (has[0] > read.inverse_m) {
-                    is_hidden_[k] = 1;
-                    return;
-                } else if (has[1] > 0 && has[1] < read.inverse_m) {
-                    cost = std::min(static_cast<Cost>(cost + through_cost), whole);
-                }
+            Cost cost = cost_of(colour, there);
+            if (has && !agrees(has[line_.pixel(k)], line_.seen_inverse_m(k), cost)) {
+                is_hidden_[k] = 1;
+                return;
             }
             second_[k] = std::min(second_[k], std::max(least_[k], cost));
             least_[k] = std::min(least_[k], cost);
         });
     }
     /// At the rig's own right picture.
-    void look_right(const Other& right, const DepthRange& range, cv::Point pixel,
-                    const cv::Vec4b& colour) {
-        walk(right, range, pixel,
-             [&](std::size_t k, const Reading& read) { right_[k] = cost_of(colour, read.colour); });
+    void look_right(const Other& right, cv::Point pixel, const cv::Vec4b& colour) {
+        line_.project(right, pixel);
+        const cv::Vec4b* fine = right.fine[0];
+        line_.for_each(
+            [&](std::size_t k, std::size_t index) { right_[k] = cost_of(colour, fine[index]); });
         has_right_ = true;
     }
     void end(Cost* costs) const {
@@ -240,39 +342,20 @@ class PixelSweep {
   private:
     static constexpr Cost none = std::numeric_limits<Cost>::max();
 
-    /// What a picture has where a depth lies in it.
-    struct Reading {
-        const cv::Vec4b& colour;
-        cv::Point pixel;
-        float inverse_m;  ///< the depth from there
-    };
-    static Cost cost_of(const cv::Vec4b& a, const cv::Vec4b& b) {
-        return static_cast<Cost>(std::min(difference(a, b), most_unlike) * (whole / most_unlike));
-    }
-    template <class Read>
-    static void walk(const Other& other, const DepthRange& range, cv::Point pixel,
-                     const Read& read) {
-        const Eigen::Vector4f along =
-            other.from_pixel *
-            Eigen::Vector4f(static_cast<float>(pixel.x), static_cast<float>(pixel.y), 1, 0);
-        const Eigen::Vector4f from = other.from_pixel.col(3);
-        const int last_x = other.fine.cols / fineness - 1, last_y = other.fine.rows / fineness - 1;
-        const auto width = static_cast<float>(last_x), height = static_cast<float>(last_y);
-        for (int depth = 0; depth < range.depths; ++depth) {
-            const float inverse = range.at(static_cast<float>(depth));
-            const float z = along.z() + inverse * from.z();
-            if (z <= 0) continue;
-            const float u = (along.x() + inverse * from.x()) / z,
-                        v = (along.y() + inverse * from.y()) / z;
-            if (!(u >= 0 && v >= 0 && u <= width && v <= height)) continue;
-            const cv::Vec4b& there =
-                other.fine(static_cast<int>(static_cast<float>(fineness) * (v + 0.5f)),
-                           static_cast<int>(static_cast<float>(fineness) * (u + 0.5f)));
-            read(static_cast<std::size_t>(depth),
-                 Reading{there, {static_cast<int>(u), static_cast<int>(v)}, inverse / z});
-        }
+    /// What a depth costs more, or less, by the least and the greatest inverse depth that the other
+    /// rig has there. False: it is hidden from that rig.
+    static bool agrees(const cv::Vec2f& has, float inverse_m, Cost& cost) {
+        const float off = one_surface * inverse_m;
+        if (std::abs(has[0] - inverse_m) < off || std::abs(has[1] - inverse_m) < off)
+            cost /= 2;
+        else if (has[0] > inverse_m)
+            return false;
+        else if (has[1] > 0 && has[1] < inverse_m)
+            cost = std::min(static_cast<Cost>(cost + through_cost), whole);
+        return true;
     }
 
+    DepthLine line_;
     std::vector<Cost> least_, second_, right_;
     std::vector<std::uint8_t> is_hidden_;
     bool has_right_ = false;
@@ -284,14 +367,13 @@ CostVolume swept(const SetPicture& set, std::span<const Other> others,
                  const std::optional<Other>& right, const DepthRange& range,
                  const std::stop_token& stop) {
     CostVolume costs(set.colour.size(), range.depths);
-    PixelSweep sweep(range.depths);
+    PixelSweep sweep(range);
     for (int y = 0; y < set.colour.rows && !stop.stop_requested(); ++y)
         for (int x = 0; x < set.colour.cols; ++x) {
             sweep.begin();
             if (set.colour(y, x)[3] > 0) {
-                for (const Other& other : others)
-                    sweep.look(other, range, {x, y}, set.colour(y, x));
-                if (right) sweep.look_right(*right, range, {x, y}, set.colour(y, x));
+                for (const Other& other : others) sweep.look(other, {x, y}, set.colour(y, x));
+                if (right) sweep.look_right(*right, {x, y}, set.colour(y, x));
             }
             sweep.end(costs.at(y, x));
         }
