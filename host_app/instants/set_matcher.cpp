@@ -264,17 +264,17 @@ class DepthLine {
         const float farthest = inverse_m_[0], step = inverse_m_[1] - farthest;
         constexpr float rounding = 1e-3f;
         const float at_first = at + farthest * slope + rounding, by_step = step * slope;
-        if (by_step == 0) {
+        const float zero = -at_first / by_step;
+        if (!std::isfinite(zero)) {  // the same everywhere
             if (at_first < 0) end_ = first_;
             return;
         }
         const auto limit = static_cast<float>(inverse_m_.size());
-        const auto zero =
-            static_cast<Eigen::Index>(std::floor(std::clamp(-at_first / by_step, -1.0f, limit)));
+        const auto border = static_cast<Eigen::Index>(std::floor(std::clamp(zero, -1.0f, limit)));
         if (by_step > 0)
-            first_ = std::max(first_, zero);
+            first_ = std::max(first_, border);
         else
-            end_ = std::min(end_, zero + 2);
+            end_ = std::min(end_, border + 2);
     }
 
     Eigen::ArrayXf inverse_m_, z_, u_, v_, seen_inverse_m_;
