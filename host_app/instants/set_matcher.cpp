@@ -221,27 +221,23 @@ class DepthLine {
         keep(along.y(), from.y());
         keep(right * along.z() - along.x(), right * from.z() - from.x());
         keep(bottom * along.z() - along.y(), bottom * from.z() - from.y());
+        if (first_ >= end_) return;
+        place(along, from);
         const auto is_inside = [&](Eigen::Index k) {
-            const float z = along.z() + inverse_m_[k] * from.z(),
-                        u = (along.x() + inverse_m_[k] * from.x()) / z,
-                        v = (along.y() + inverse_m_[k] * from.y()) / z;
-            return z > 0 && u >= 0 && v >= 0 && u <= right && v <= bottom;
+            return z_[k] > 0 && u_[k] >= 0 && v_[k] >= 0 && u_[k] <= right && v_[k] <= bottom;
         };
         while (first_ < end_ && !is_inside(first_)) ++first_;
         while (first_ < end_ && !is_inside(end_ - 1)) --end_;
         const Eigen::Index count = end_ - first_;
         if (count <= 0) return;
-        const auto inverse_m = inverse_m_.segment(first_, count);
-        auto z = z_.segment(first_, count), u = u_.segment(first_, count),
-             v = v_.segment(first_, count);
-        z = along.z() + inverse_m * from.z();
-        u = ((along.x() + inverse_m * from.x()) / z).max(0.0f).min(right);
-        v = ((along.y() + inverse_m * from.y()) / z).max(0.0f).min(bottom);
+        const auto u = u_.segment(first_, count).max(0.0f).min(right),
+                   v = v_.segment(first_, count).max(0.0f).min(bottom);
         fine_.segment(first_, count) = (fineness * (v + 0.5f)).cast<int>() * other.fine.cols +
                                        (fineness * (u + 0.5f)).cast<int>();
         if (other.inverse_depths.empty()) return;
         pixel_.segment(first_, count) = v.cast<int>() * columns + u.cast<int>();
-        seen_inverse_m_.segment(first_, count) = inverse_m / z;
+        seen_inverse_m_.segment(first_, count) =
+            inverse_m_.segment(first_, count) / z_.segment(first_, count);
     }
     /// Calls read(depth, index in the finer picture) for those that lie in it.
     template <class Read>
@@ -259,6 +255,15 @@ class DepthLine {
     }
 
   private:
+    /// From the first depth to the end, in the other camera: z, and where that is in its picture.
+    void place(const Eigen::Vector4f& along, const Eigen::Vector4f& from) {
+        const Eigen::Index count = end_ - first_;
+        const auto inverse_m = inverse_m_.segment(first_, count);
+        auto z = z_.segment(first_, count);
+        z = along.z() + inverse_m * from.z();
+        u_.segment(first_, count) = (along.x() + inverse_m * from.x()) / z;
+        v_.segment(first_, count) = (along.y() + inverse_m * from.y()) / z;
+    }
     /// Only the depths where at + inverse depth * slope >= 0, and one beyond.
     void keep(float at, float slope) {
         const float farthest = inverse_m_[0], step = inverse_m_[1] - farthest;

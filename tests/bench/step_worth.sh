@@ -39,6 +39,11 @@ sharpness|colours as sharp as the view (7)|fused_colour.frag|s/if (fine \&\& lod
 doubts|rigs'"'"' colours decide at edges (8)|fused_colour.frag|s/^float doubt(Evidence e) {/\0 if (e.weight > 0.0) return 0.0;/
 specks|specks (12)|impulse_filter.frag|s/leave_to_second(!is_one_surface(at));/leave_to_second(false);/'
 
+for step in ${wanted[@]+"${wanted[@]}"}; do
+  grep -q "^$step|" <<<"$steps" ||
+    { echo "step_worth.sh: there is no step '$step', only $(cut -d'|' -f1 <<<"$steps" | paste -sd' ')" >&2; exit 2; }
+done
+
 # The means of rows, from PSNR on, as cells.
 means() {
   awk -F'|' '{ sub(/%/, "", $8); for (i = 4; i <= 11; ++i) sum[i] += $i }
