@@ -178,6 +178,8 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
     wait_for(host, " pictures, ");
     north->send_signal(SIGKILL);
     wait_for(host, "rig north is gone");
+    // Its port is free once it has ended, which may be later than its connections.
+    EXPECT_EQ(north->wait().status, 128 + SIGKILL);
     north = start_rig("north", ports_.first, 5);
     // The log's last word of it so far is that it is gone.
     const auto back = [&] {
