@@ -2,15 +2,16 @@
 // surface and one sees a farther one. A rig confirms a surface if it has one at the same place that looks alike: what
 // repeats, or shows nothing, both rigs' matchers may take for the same wrong place. With MOVES 0, where the others stand
 // no farther apart than this rig's own cameras, what none of them confirms becomes a guess (negative), if the map is
-// faulty. With MOVES 1 it first goes along with its half-size map, which was refined, and what is known of it goes to
-// rig_adopt.frag.
+// faulty; that of a set which was matched against theirs is not. With MOVES 1 it first goes along with its half-size
+// map, which was refined, and what is known of it goes to rig_adopt.frag.
 #ifndef MOVES
 #define MOVES 1
 #endif
 #include "rig_others.glsl"
 
 uniform float softness;       // relative depth within which two surfaces are one
-uniform sampler2D agreement;  // from rig_agreement.frag
+uniform bool doubts;          // the map is a matcher's, which may be faulty
+uniform sampler2D agreement;  // from rig_agreement.frag; of such a map
 
 #if MOVES
 // Depth, and what is known of it: 1 = confirmed, 0 = a matcher's that may err, -1 = not to be doubted, because no other
@@ -92,7 +93,7 @@ void examine(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float z = texelFetch(depth_map, at, 0).r;
-    vec4 share = textureLod(agreement, vec2(0.5), 16.0);  // of the whole map
+    vec4 share = doubts ? textureLod(agreement, vec2(0.5), 16.0) : vec4(0.0);  // of the whole map
     bool errs = share.g > faulty * share.b;
     float support = 0.0, through = 0.0, looks = 0.0;
     if (z > 0.0) {

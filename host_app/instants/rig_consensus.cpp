@@ -258,17 +258,20 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
     judged_.resize(depth_m.size());
 
     const double parallax = parallax_px(look);
-    const bool moves = tell_news(look->view, parallax);
+    const bool doubts = !look->view.is_matched, moves = doubts && tell_news(look->view, parallax);
     const Texture& carved = moves ? judged_.texture() : result_.texture();
-    then([=, this] { compare(look, parallax); });
+    if (doubts) then([=, this] { compare(look, parallax); });
     if (moves) refine(look, parallax);
     then([=, this] {
         TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
         Program& carve = carving.use();
         int unit = bind_others(carve, *look->view.depth_m, look);
         carve.set("softness", agreeing_softness);
-        carve.set("agreement", unit);
-        agreement_.texture().bind(unit++);
+        carve.set("doubts", doubts);
+        if (doubts) {
+            carve.set("agreement", unit);
+            agreement_.texture().bind(unit++);
+        }
         if (moves) {
             carve.set("half_before", unit);
             half_before_.texture().bind(unit++);

@@ -20,6 +20,7 @@ struct ComparedView {
     const Texture* colour = nullptr;
     const Texture* depth_m = nullptr;  ///< metres in its first channel, 0 = unknown
     const SurfaceSamples* samples = nullptr;
+    bool is_matched = false;  ///< its depth is what match_sets() found
 
     const DepthView& camera() const { return *seen_by; }
     std::span<const Eigen::Vector3d> sample_points_m() const { return samples->points_m; }
@@ -42,7 +43,8 @@ bool shows_floor(std::span<const ComparedView> views);
 /// one surface and colour), and what other rigs see through is carved away. In a map that errs
 /// much, what no other rig confirms takes over the depth of confirmed pixels near it, where the
 /// pictures agree better on that. Where the rigs' depths agree already nothing is moved, nor where
-/// the other rigs stand no farther apart than the rig's own two cameras.
+/// the other rigs stand no farther apart than the rig's own two cameras. What was matched against
+/// the other rigs' sets is only carved.
 ///
 /// The set's depth is held against the stage's floor too, y = 0 of the world, if enough of what the
 /// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.

@@ -52,7 +52,7 @@ constexpr double farthest_tried = 0.4, nearest_tried = 2.2;
 constexpr double farther_share = 0.01, nearer_share = 0.002, room = 1.25;
 
 /// Pictures are read at the nearest pixel of one that is so many times as large.
-constexpr int fineness = 4;
+constexpr int fineness = 5;
 
 /// Inverse depths, 1/m.
 struct DepthRange {
@@ -515,7 +515,7 @@ DepthImage winners(const CostVolume& sums, const SetPicture& set, const DepthRan
 
 cv::Mat4b finer(const ColourImage& picture) {
     cv::Mat larger;
-    cv::resize(picture, larger, {}, fineness, fineness, cv::INTER_LINEAR);
+    cv::resize(picture, larger, {}, fineness, fineness, cv::INTER_CUBIC);
     return larger;
 }
 

@@ -57,13 +57,14 @@ void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualVie
     // So many that there is something to remember, and time to better the set.
     match_anew(std::numeric_limits<double>::infinity());
     for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
+    constexpr PrepareLevel best_of_one{0, 1, true, true};
+    (void)prepare(target, prepare_levels().back());
+    (void)prepare(target, best_of_one);
+    // A set that is matched is bettered in another way.
     for (RigHistory* rig : uploaded_) {
         const DepthImage none(rig->depth().size(), 0.0f);
         rig->set_match(none, none, ColourImage(none.size()));
     }
-    constexpr PrepareLevel best_of_one{0, 1, true, true};
-    (void)prepare(target, prepare_levels().back());
-    (void)prepare(target, best_of_one);
     improve(target);
     level_ = prepare_levels().front();
     rigs_.forget();
@@ -164,7 +165,8 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
         if (!one->match() || one->learnt_instants() == 0) continue;
         one->matched_depth().resize(one->depth().size());
         all.back().depth_m = &one->matched_depth().texture();
-        if (one == &rig) view.depth_m = all.back().depth_m;
+        all.back().is_matched = true;
+        if (one == &rig) view = all.back();
         consensus_.then([this, one] {
             Program& show = show_matched_.use();
             show.set("learnt", 0);
@@ -217,6 +219,7 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
     for (std::size_t i = 0; i < depths_m.size(); ++i) {
         RigHistory* rig = matched->rigs[i];
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
+        if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
         rig->set_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
         if (!rig->model()) continue;
         // As soon as there is time.

@@ -36,11 +36,13 @@ DepthView wall(double x_m) {
 /// Beside a rig whose second camera stands where this rig looks from.
 class FaultyPairTest : public testing::Test {
   protected:
-    DepthImage bettered(const DepthView& own, const DepthView& other) {
+    DepthImage bettered(const DepthView& own, const DepthView& other, bool is_matched = false) {
         const DepthView pair[] = {own, other};
         RigRoster views;
         views.upload(pair, nominal_dt_s);
-        return consensus_.better(compared(*views.shown()[0]), compared(views.shown())).download();
+        ComparedView view = compared(*views.shown()[0]);
+        view.is_matched = is_matched;
+        return consensus_.better(view, compared(views.shown())).download();
     }
 
     EglContext context_;
@@ -67,6 +69,16 @@ TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) 
     // What it does confirm, and what is outside its picture, stays.
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, consensus_height_px)) != far_wall_m), 0);
+}
+
+TEST_F(FaultyPairTest, IsOnlyCarvedWhereItWasMatched) {
+    DepthView own = wall(0);
+    own.depth_m(behind) = 1.5f * far_wall_m;
+    const cv::Rect before(130, 5, 30, 40);
+    own.depth_m(before) = 0.9f * far_wall_m;
+    DepthImage carved = own.depth_m.clone();
+    carved(before) = 0;
+    EXPECT_EQ(cv::norm(bettered(own, wall(baseline_m), true), carved, cv::NORM_INF), 0);
 }
 
 /// Both matchers may be wrong in the same way: then the surfaces meet and the colours do not.
@@ -106,12 +118,13 @@ class DoubtedStripTest : public testing::Test {
         return view;
     }
 
-    DepthImage bettered_strip(const DepthView& own) {
+    DepthImage bettered_strip(const DepthView& own, bool is_matched = false) {
         const DepthView rigs[] = {own, film(-0.4), film(0.4)};
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
-        return consensus_.better(compared(*views.shown()[0]), compared(views.shown()))
-            .download()(strip);
+        ComparedView view = compared(*views.shown()[0]);
+        view.is_matched = is_matched;
+        return consensus_.better(view, compared(views.shown())).download()(strip);
     }
 
     EglContext context_;
@@ -129,6 +142,14 @@ TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
     const DepthImage mended = bettered_strip(own);
     const int right = cv::countNonZero(cv::abs(mended - far_wall_m) < 0.03 * far_wall_m);
     EXPECT_GE(right, 0.9 * strip.area()) << mended;
+}
+
+TEST_F(DoubtedStripTest, IsCarvedAndNotMovedWhereItWasMatched) {
+    DepthView own = film(0);
+    own.depth_m(strip) = 1.3f * far_wall_m;
+    EXPECT_EQ(cv::countNonZero(bettered_strip(own, true) != 1.3f * far_wall_m), 0);
+    own.depth_m(strip) = square_m;
+    EXPECT_LT(cv::countNonZero(bettered_strip(own, true)), 0.1 * strip.area());
 }
 
 TEST_F(DoubtedStripTest, KeepsItsDepthInAMapThatErrsNowhereElseAndHardlyHere) {
