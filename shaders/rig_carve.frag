@@ -2,20 +2,20 @@
 // surface and one sees a farther one. A rig confirms a surface if it has one at the same place that looks alike: what
 // repeats, or shows nothing, both rigs' matchers may take for the same wrong place. With MOVES 0, where the others stand
 // no farther apart than this rig's own cameras, what none of them confirms becomes a guess (negative), if the map is
-// faulty; that of a set which was matched against theirs is not. With MOVES 1 it first goes along with its half-size
-// map, which was refined, and what is known of it goes to rig_adopt.frag.
+// faulty. With MOVES 1 it first goes along with its half-size map, which was refined, and what is known of it goes to
+// rig_adopt.frag. A set that was matched against the others' is not doubted: it is not moved, and there are no guesses.
 #ifndef MOVES
 #define MOVES 1
 #endif
 #include "rig_others.glsl"
 
 uniform float softness;       // relative depth within which two surfaces are one
-uniform bool doubts;          // the map is a matcher's, which may be faulty
-uniform sampler2D agreement;  // from rig_agreement.frag; of such a map
+uniform bool doubts;          // the map is one rig's own
+uniform sampler2D agreement;  // from rig_agreement.frag; if doubts
 
 #if MOVES
-// Depth, and what is known of it: 1 = confirmed, 0 = a matcher's that may err, -1 = not to be doubted, because no other
-// rig looks there or the map is no matcher's.
+// Depth, and what is known of it: 1 = confirmed, 0 = a matcher's that may err, or carved away, -1 = kept, because no
+// other rig looks there, or the map was matched or is no matcher's.
 layout(location = 0) out vec2 judged;
 #else
 layout(location = 0) out float carved;
@@ -98,15 +98,15 @@ void main() {
     float support = 0.0, through = 0.0, looks = 0.0;
     if (z > 0.0) {
 #if MOVES
-        z = moved(at, z, share);
+        if (doubts) z = moved(at, z, share);
 #endif
 #define EXAMINE(i) examine(i, other_depth[i], other_colour[i], vec2(at), z, support, through, looks);
         FOR_OTHERS(EXAMINE)
         if (through > support) z = 0.0;
     }
 #if MOVES
-    judged = vec2(z, !errs || (z > 0.0 && looks == 0.0) ? -1.0 : min(support, 1.0));
-    if (z == 0.0) judged.g = min(judged.g, 0.0);  // nothing to confirm
+    bool is_kept = doubts ? !errs || (z > 0.0 && looks == 0.0) : z > 0.0;
+    judged = vec2(z, z > 0.0 && support > 0.0 ? 1.0 : is_kept ? -1.0 : 0.0);
 #else
     carved = looks > 0.0 && support == 0.0 && errs ? -z : z;
 #endif

@@ -258,10 +258,10 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
     judged_.resize(depth_m.size());
 
     const double parallax = parallax_px(look);
-    const bool doubts = !look->view.is_matched, moves = doubts && tell_news(look->view, parallax);
+    const bool doubts = !look->view.is_matched, moves = tell_news(look->view, parallax);
     const Texture& carved = moves ? judged_.texture() : result_.texture();
     if (doubts) then([=, this] { compare(look, parallax); });
-    if (moves) refine(look, parallax);
+    if (doubts && moves) refine(look, parallax);
     then([=, this] {
         TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
         Program& carve = carving.use();
@@ -272,7 +272,7 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
             carve.set("agreement", unit);
             agreement_.texture().bind(unit++);
         }
-        if (moves) {
+        if (doubts && moves) {
             carve.set("half_before", unit);
             half_before_.texture().bind(unit++);
             carve.set("half_after", unit);
