@@ -43,9 +43,9 @@ bool shows_floor(std::span<const ComparedView> views);
 /// one surface and colour), and what other rigs see through is carved away. In a map that errs
 /// much, what no other rig confirms takes over the depth of confirmed pixels near it, where the
 /// pictures agree better on that. Where the rigs' depths agree already nothing is moved, nor where
-/// the other rigs stand no farther apart than the rig's own two cameras. Of what
-/// was matched against the other rigs' sets nothing is moved, and only what was carved away takes
-/// over depth.
+/// the other rigs stand no farther apart than the rig's own two cameras. Of what was matched
+/// against the other rigs' sets nothing is moved, and only what was carved away, or is unknown,
+/// takes over depth.
 ///
 /// The set's depth is held against the stage's floor too, y = 0 of the world, if enough of what the
 /// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.

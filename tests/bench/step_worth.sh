@@ -28,9 +28,8 @@ steps='nothing|nothing||
 silhouettes|performers held by other rigs'"'"' silhouettes (2)|performer_carve.frag|s/if (look_at_silhouettes(pixel, z) >= 0) carved = z;/carved = z;/
 smoothing|their depth smoothed (2)|performer_depth.frag|s/smooth_weight = 0.24/smooth_weight = 0.0/
 unmixing|the set taken out of their edges (1)|performer_colour.frag|s/if (share == 0.0 .. share == 1.0) return;/return;/
-matching|sets matched against each other (3)|set_matched.frag|s/depth = found > 0.0 \&\& is_same ? found : now;/depth = now;/
 floor|the floor (3)|rig_floor.frag|s/if (own <= 0.0 .. nearness < horizon) return;/return;/
-moving|depth moved to where pictures agree (4)|rig_carve.frag|s/z = moved(at, z, share);//
+moving|depth moved to where pictures agree (4)|rig_carve.frag|s/if (doubts) z = moved(at, z, share);//
 carving|what others see through carved away (4)|rig_carve.frag|s/if (through > support) z = 0.0;//
 adoption|confirmed depth taken over (4)|rig_adopt.frag|s/if (own.g != 0.0) return;/return;/
 votes|rigs vote for surfaces (6)|fused_depth.frag|s/^bool is_there(vec2 pixel, float z) {/\0 return true;/
