@@ -268,15 +268,15 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
         int unit = bind_others(carve, *look->view.depth_m, look);
         carve.set("softness", agreeing_softness);
         carve.set("doubts", doubts);
-        if (doubts) {
-            carve.set("agreement", unit);
-            agreement_.texture().bind(unit++);
-        }
-        if (doubts && moves) {
-            carve.set("half_before", unit);
-            half_before_.texture().bind(unit++);
-            carve.set("half_after", unit);
-            half_.texture().bind(unit++);
+        // What a program may read must not be what it draws, even where it does not read it.
+        const auto read_if_doubted = [&](const char* name, const auto& drawn) {
+            carve.set(name, doubts ? unit : 0);
+            if (doubts) drawn.texture().bind(unit++);
+        };
+        read_if_doubted("agreement", agreement_);
+        if (moves) {
+            read_if_doubted("half_before", half_before_);
+            read_if_doubted("half_after", half_);
             carve.set("least_change", static_cast<float>(least_change_px / parallax));
         }
         draw(carving, moves ? judged_.target() : result_.target(), unit, look);
