@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <GLES2/gl2ext.h>
+
 #include "common/base/error.h"
 #include "common/gl/framebuffer.h"
 #include "common/gl/limits.h"
@@ -17,6 +19,8 @@ TextureFormatInfo format_info(TextureFormat format) {
             return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2, CV_8UC2};
         case TextureFormat::rgba8:
             return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, CV_8UC4};
+        case TextureFormat::bgra8:
+            return {GL_BGRA_EXT, GL_RGBA, GL_UNSIGNED_BYTE, 4, CV_8UC4};
         case TextureFormat::r8ui:
             return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1, CV_8UC1};
         case TextureFormat::r16ui:
@@ -60,8 +64,13 @@ Texture::Texture(TextureFormat format, int width_px, int height_px, Filter filte
     glGenTextures(1, &name);
     handle_ = GlHandle<delete_texture>(name);
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexStorage2D(GL_TEXTURE_2D, levels_, format_info(format).internal_format, width_px,
-                   height_px);
+    if (format == TextureFormat::bgra8)
+        // Its extension has no sized format, as storage asks for.
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_BGRA_EXT, width_px, height_px, 0, GL_BGRA_EXT,
+                     GL_UNSIGNED_BYTE, nullptr);
+    else
+        glTexStorage2D(GL_TEXTURE_2D, levels_, format_info(format).internal_format, width_px,
+                       height_px);
     const GLint magnify = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magnify);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
@@ -73,7 +82,8 @@ Texture::Texture(TextureFormat format, int width_px, int height_px, Filter filte
 
 void Texture::upload(const cv::Mat& image) {
     const TextureFormatInfo info = format_info(format_);
-    CV_Assert(image.type() == info.cv_type && image.cols == width_px_ && image.rows == height_px_);
+    CV_Assert(format_ != TextureFormat::bgra8 && image.type() == info.cv_type &&
+              image.cols == width_px_ && image.rows == height_px_);
     glBindTexture(GL_TEXTURE_2D, handle_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const bool padded = !image.isContinuous();

@@ -11,11 +11,13 @@ namespace vantage {
 
 inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
 
-/// Formats that Vantage uses; all are core in ES 3.1.
+/// Formats that Vantage uses; all but bgra8 are core in ES 3.1.
 enum class TextureFormat {
     r8,
     rg8,
     rgba8,  // normalised
+    bgra8,  // as windows have it: drawn to and downloaded as rgba8, not uploaded; where
+            // EXT_texture_format_BGRA8888 is there
     r8ui,
     r16ui,
     r32ui,
@@ -41,8 +43,8 @@ TextureFormatInfo format_info(TextureFormat format);
 
 enum class Filter { nearest, linear };
 
-/// A 2-D texture of immutable storage, one level (or a full mip chain where asked for), clamped at
-/// the edges.
+/// A 2-D texture whose size does not change, one level (or a full mip chain where asked for),
+/// clamped at the edges.
 class Texture {
   public:
     /// Throws Error if the size is not within 1..PiLimits::max_image_side_px or memory is short.

@@ -19,9 +19,9 @@
 namespace vantage {
 namespace {
 
-/// By itself the desk takes no more than a tenth of the time, and a third while hands change it; it
-/// is drawn no oftener than anybody can read, and no more seldom than it must.
-constexpr int idle_times = 9, idle_times_in_hand = 2;
+/// By itself the desk takes no more than a twentieth of the time, and a third while hands change
+/// it; it is drawn no oftener than anybody can read, and no more seldom than it must.
+constexpr int idle_times = 19, idle_times_in_hand = 2;
 constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000};
 /// Between the presses of a double click.
 constexpr double double_press_s = 0.35;

@@ -18,8 +18,7 @@ struct WindowScreen {
     Texture texture;
     Framebuffer target;
 
-    WindowScreen(int width_px, int height_px)
-        : texture(TextureFormat::rgba8, width_px, height_px), target({&texture}) {}
+    WindowScreen(int width_px, int height_px);
     /// Precondition: the window's context is current.
     void present(GLFWwindow* window) const;
 };

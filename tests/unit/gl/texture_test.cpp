@@ -5,6 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/gl/egl_context.h"
+#include "common/gl/framebuffer.h"
+#include "common/gl/limits.h"
 
 namespace vantage {
 namespace {
@@ -42,6 +44,19 @@ INSTANTIATE_TEST_SUITE_P(Formats, TextureTest,
                                          TextureFormat::r8ui, TextureFormat::r16ui,
                                          TextureFormat::r32ui, TextureFormat::rgba32ui,
                                          TextureFormat::r32f, TextureFormat::rgba32f));
+
+TEST(TextureOfWindows, IsDrawnToAndDownloadedAsOthers) {
+    const EglContext context;
+    if (!has_gl_extension("GL_EXT_texture_format_BGRA8888"))
+        GTEST_SKIP() << "SKIPPED: this driver has no EXT_texture_format_BGRA8888";
+    const Texture texture(TextureFormat::bgra8, 4, 3);
+    const Framebuffer target({&texture});
+    target.bind();
+    glClearColor(1, 0.2f, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const cv::Mat4b expected(3, 4, cv::Vec4b(255, 51, 0, 255));
+    EXPECT_EQ(cv::norm(texture.download(), expected, cv::NORM_INF), 0);
+}
 
 TEST(TextureLimits, RefusesWhatAPiCannotHold) {
     const EglContext context;
