@@ -1,20 +1,23 @@
 #include "host_app/instants/set_matching.h"
 
+#include <utility>
+
 #include "common/base/this_thread.h"
 
 namespace vantage {
-namespace {
 
-constexpr int niceness = 10;
-
-}  // namespace
-
-void SetMatching::begin(std::vector<SetPicture> sets) {
-    result_ = std::async(std::launch::async, [sets = std::move(sets), stop = stop_.get_token()] {
-        name_this_thread("set matching");
-        make_this_thread_nice(niceness);
+void SetMatching::begin(std::vector<SetPicture> sets, Manner manner) {
+    auto match = [sets = std::move(sets), stop = stop_.get_token()] {
         return match_sets(sets, stop);
-    });
+    };
+    if (manner == Manner::when_waited_for)
+        result_ = std::async(std::launch::deferred, std::move(match));
+    else
+        result_ = std::async(std::launch::async, [match = std::move(match)] {
+            name_this_thread("set matching");
+            make_this_thread_idle();
+            return match();
+        });
 }
 
 std::optional<std::vector<DepthImage>> SetMatching::take(bool waits) {

@@ -9,9 +9,14 @@
 
 namespace vantage {
 
-/// Matches sets on a thread of its own, which leaves the processor to all others.
+/// Matches sets beside other work.
 class SetMatching {
   public:
+    enum class Manner {
+        beside,           ///< on a thread of its own, which leaves the processor to all others
+        when_waited_for,  ///< on the thread that waits for it
+    };
+
     SetMatching() = default;
     /// Gives up what is under way.
     ~SetMatching() { stop_.request_stop(); }
@@ -20,7 +25,7 @@ class SetMatching {
 
     bool is_under_way() const { return result_.valid(); }
     /// Precondition: nothing is under way.
-    void begin(std::vector<SetPicture> sets);
+    void begin(std::vector<SetPicture> sets, Manner manner);
     /// What match_sets() made of them, once; empty before it is done. `waits`: until it is.
     std::optional<std::vector<DepthImage>> take(bool waits = false);
 

@@ -186,7 +186,7 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
     return consensus_.better_set(view, all);
 }
 
-bool StagedPreparer::match_a_step() {
+bool StagedPreparer::match_a_step(SetMatching::Manner manner) {
     if (matching_.is_under_way()) {
         if (const auto depths_m = matching_.take()) take_match(*depths_m);
         return false;
@@ -207,7 +207,7 @@ bool StagedPreparer::match_a_step() {
     matched_->sets.push_back(SetLearner::picture(*rig));
     matched_->depth_sizes.push_back(rig->depth().size());
     if (matched_->sets.size() < matched_->rigs.size()) return true;
-    matching_.begin(matched_->sets);
+    matching_.begin(matched_->sets, manner);
     return false;
 }
 
@@ -383,12 +383,12 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
 }
 
 void StagedPreparer::improve(const VirtualView& target) {
-    InstantPreparer::improve(target);
+    while (improve_a_step(target, SetMatching::Manner::when_waited_for)) continue;
     if (const auto depths_m = matching_.take(true)) take_match(*depths_m);
 }
 
-bool StagedPreparer::improve_a_step(const VirtualView& target) {
-    if (match_a_step()) return true;
+bool StagedPreparer::improve_a_step(const VirtualView& target, SetMatching::Manner manner) {
+    if (match_a_step(manner)) return true;
     if (bettering_ && !is_under_way(*bettering_)) bettering_.reset();
     if (!bettering_) begin_bettering(target);
     if (!bettering_) return false;

@@ -31,7 +31,9 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
     void improve(const VirtualView& target) override;
-    bool improve_a_step(const VirtualView& target) override;
+    bool improve_a_step(const VirtualView& target) override {
+        return improve_a_step(target, SetMatching::Manner::beside);
+    }
     void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
     SetMemory* set_memory() override { return this; }
@@ -69,15 +71,16 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void make_model(RigHistory& rig, const PrepareLevel& level);
     /// The depth of the rig's set as the other rigs better it.
     const Texture& bettered_set(RigHistory& rig);
-    /// Sets that are to be matched against each other: read back rig by rig, matched on a thread of
-    /// their own, and taken over.
+    /// Sets that are to be matched against each other: read back rig by rig, matched, and taken
+    /// over.
     struct Matched {
         std::vector<RigHistory*> rigs;
         std::vector<SetPicture> sets;       ///< of the first of them
         std::vector<cv::Size> depth_sizes;  ///< likewise
     };
     /// A step of that, if it is time. True: more of them is left to be read back.
-    bool match_a_step();
+    bool match_a_step(SetMatching::Manner manner);
+    bool improve_a_step(const VirtualView& target, SetMatching::Manner manner);
     void take_match(std::span<const DepthImage> depths_m);
     /// What is under way is of no use any more; the next one begins then, on now_s_'s clock.
     void match_anew(double due_s);

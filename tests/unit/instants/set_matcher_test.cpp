@@ -1,5 +1,8 @@
 #include "host_app/instants/set_matcher.h"
 
+#include <filesystem>
+#include <iterator>
+
 #include <gtest/gtest.h>
 
 #include "common/wire/colour_codec.h"
@@ -138,11 +141,13 @@ TEST(SetMatcher, StopsWhenAsked) {
     EXPECT_FALSE(match_sets(sets, stop.get_token()));
 }
 
-TEST(SetMatching, GivesWhatWasMatchedOnce) {
+class SetMatchingTest : public testing::TestWithParam<SetMatching::Manner> {};
+
+TEST_P(SetMatchingTest, GivesWhatWasMatchedOnce) {
     SetMatching matching;
     EXPECT_FALSE(matching.take(true));
     const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4)};
-    matching.begin(sets);
+    matching.begin(sets, GetParam());
     EXPECT_TRUE(matching.is_under_way());
     const std::vector<DepthImage> depths_m = matching.take(true).value();
     ASSERT_EQ(depths_m.size(), 2u);
@@ -151,9 +156,27 @@ TEST(SetMatching, GivesWhatWasMatchedOnce) {
     EXPECT_FALSE(matching.take(true));
 }
 
-TEST(SetMatching, CanBeGivenUp) {
+TEST_P(SetMatchingTest, CanBeGivenUp) {
     SetMatching matching;
-    matching.begin({set_with_pole(0), set_with_pole(-0.4)});
+    matching.begin({set_with_pole(0), set_with_pole(-0.4)}, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Manners, SetMatchingTest,
+                         testing::Values(SetMatching::Manner::beside,
+                                         SetMatching::Manner::when_waited_for));
+
+std::ptrdiff_t threads() {
+    using Entries = std::filesystem::directory_iterator;
+    return std::distance(Entries("/proc/self/task"), Entries());
+}
+
+TEST(SetMatching, HasNoThreadOfItsOwnWhereItIsWaitedFor) {
+    SetMatching matching;
+    const std::ptrdiff_t before = threads();
+    matching.begin({set_with_pole(0), set_with_pole(-0.4)}, SetMatching::Manner::when_waited_for);
+    EXPECT_EQ(threads(), before);
+    EXPECT_FALSE(matching.take());
+    EXPECT_TRUE(matching.take(true));
 }
 
 }  // namespace
