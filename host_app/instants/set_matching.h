@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// Matches sets beside other work.
+/// Matches sets beside other work, or for who waits for them.
 class SetMatching {
   public:
     enum class Manner {

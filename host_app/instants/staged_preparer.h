@@ -80,6 +80,7 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     };
     /// A step of that, if it is time. True: more of them is left to be read back.
     bool match_a_step(SetMatching::Manner manner);
+    /// As without `manner`, in which sets are matched.
     bool improve_a_step(const VirtualView& target, SetMatching::Manner manner);
     void take_match(std::span<const DepthImage> depths_m);
     /// What is under way is of no use any more; the next one begins then, on now_s_'s clock.

@@ -517,6 +517,10 @@ TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
     ASSERT_TRUE(eventually([&] { return programme_->books().reprojected >= 5; }));
     pilot_.turn(0);
     EXPECT_TRUE(eventually([&] {
+        const ProgrammeBooks before = programme_->books();
+        if (!wait_for_ticks(40) || programme_->books().reprojected != before.reprojected ||
+            programme_->books().pictures != before.pictures)
+            return false;
         const ProgrammeState state = programme_->state();
         return !state.picture->rendered &&
                is_same_view(state.picture->job.camera, state.view.camera());
