@@ -1,5 +1,5 @@
 # How every target of Vantage is built: language level, warnings, sanitizers, and five helpers.
-#   vantage_library(NAME DEPENDS ...)      a static library of all *.cpp of the current folder
+#   vantage_library(NAME ROOMS ... DEPENDS ...)  a static library of all *.cpp of the current folder and of its subfolders ROOMS
 #   vantage_command_library(NAME ...)      the same of a program's subcommands
 #   vantage_registry(TARGET ...)           gathers backends by file name, so that adding one touches no other file
 #   vantage_embed_texts(TARGET ...)        builds files in
@@ -107,8 +107,13 @@ std::span<const EmbeddedText> ${ARG_FUNCTION}() {
 endfunction()
 
 function(vantage_library name)
-  cmake_parse_arguments(ARG "" "" "APART;DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(ARG "" "" "ROOMS;APART;DEPENDS" ${ARGN})
+  set(patterns *.cpp)
+  foreach(room ${ARG_ROOMS})
+    list(APPEND patterns ${room}/*.cpp)
+  endforeach()
+  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_use_precompiled(${name} vantage_headers)
@@ -124,15 +129,20 @@ endfunction()
 # vantage_command_library(vantage_host_commands FUNCTION host_commands DEPENDS ...)
 # The subcommands of a program: every file x_command.cpp of the current folder defines `CommandEntry x_command_entry();`.
 function(vantage_command_library name)
-  cmake_parse_arguments(ARG "" "FUNCTION" "DEPENDS" ${ARGN})
-  file(GLOB commands CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(ARG "" "FUNCTION" "ROOMS;DEPENDS" ${ARGN})
+  set(patterns *.cpp)
+  foreach(room ${ARG_ROOMS})
+    list(APPEND patterns ${room}/*.cpp)
+  endforeach()
+  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB commands CONFIGURE_DEPENDS ${patterns})
   add_library(${name} STATIC ${commands})
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_optimise_little(${name})
   vantage_use_precompiled(${name} vantage_command_headers)
   vantage_compile_together(${name})
   vantage_registry(TOGETHER TARGET ${name} TYPE CommandEntry FUNCTION ${ARG_FUNCTION}
-    HEADER common/base/command.h SUFFIX command FILES ${commands})
+    HEADER common/base/cli/command.h SUFFIX command FILES ${commands})
   # All at once would be one long job at the end of a build.
   set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
 endfunction()

@@ -1,7 +1,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 
 namespace vantage {
 std::string_view commit();

@@ -1,4 +1,4 @@
-# Validates FILE with the reference GLSL compiler as the shader library would hand it to the driver, with the
+# Validates FILE, which may include files of any room of ROOT, with the reference GLSL compiler as the shader library would hand it to the driver, with the
 # file's own default definitions, and touches STAMP.
 set(preamble "#version 310 es
 precision highp float;
@@ -11,7 +11,6 @@ precision highp usampler2DArray;
 precision highp image2D;
 precision highp uimage2D;
 ")
-get_filename_component(folder ${FILE} DIRECTORY)
 get_filename_component(extension ${FILE} LAST_EXT)
 file(READ ${FILE} text)
 # Includes nest at most a few levels deep.
@@ -20,7 +19,8 @@ foreach(level RANGE 8)
     break()
   endif()
   set(included ${CMAKE_MATCH_1})
-  file(READ ${folder}/${included} included_text)
+  file(GLOB included_path ${ROOT}/*/${included})
+  file(READ ${included_path} included_text)
   string(REPLACE "#include \"${included}\"" "${included_text}" text "${text}")
 endforeach()
 set(expanded ${STAMP}${extension})

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "calib_tools/board/charuco_finder.h"
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/config/toml_reader.h"
 
 namespace vantage {

@@ -11,9 +11,9 @@
 #include "calib_tools/board/board_file.h"
 #include "calib_tools/board/charuco_finder.h"
 #include "calib_tools/board/paper.h"
-#include "common/base/atomic_file.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 #include "calib_tools/commands/snapshots.h"
 #include "calib_tools/health/health_report.h"
 #include "calib_tools/report/calibration_text.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 

@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
-#include "common/base/output_path.h"
-#include "common/base/print_result.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
+#include "common/base/files/output_path.h"
 #include "common/config/calibration_file.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
 #include "common/image/image_file.h"
 #include "common/rectification/rectify_pass.h"
 

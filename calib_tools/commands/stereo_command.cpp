@@ -11,7 +11,7 @@
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/rig/rig_calibration.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"

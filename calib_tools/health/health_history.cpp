@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {

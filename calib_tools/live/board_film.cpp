@@ -10,9 +10,9 @@
 #include "calib_tools/board/chessboard_finder.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/folder.h"
 #include "common/base/log.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

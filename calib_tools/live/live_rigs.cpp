@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/stop_signal.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
 #include "common/wire/limits.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include "calib_tools/sync/bar_finder.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/colour/colour_correction.h"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 #include "calib_tools/board/median.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 namespace {

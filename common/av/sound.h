@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "common/base/pulse_grid.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

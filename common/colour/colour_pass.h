@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "common/colour/colour_correction.h"
-#include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/texture.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 
 namespace vantage {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
-#include "common/base/time_zone.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/time/time_zone.h"
 #include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 

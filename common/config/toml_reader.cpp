@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/atomic_file.h"
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "common/geometry/opencv_bridge.h"
 
 namespace vantage {

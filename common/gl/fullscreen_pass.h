@@ -1,15 +1,14 @@
 #pragma once
 
-#include "common/gl/framebuffer.h"
-#include "common/gl/program.h"
-#include "common/gl/vertex_array.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/vertex_array.h"
 
 namespace vantage {
 
-/// Runs a fragment shader once for every pixel of a framebuffer, with shaders/fullscreen.vert; in
-/// bands where the thread has a SlicedDrawing. Row
-/// 0 of the target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the pixel's
-/// (x, y).
+/// Runs a fragment shader once for every pixel of a framebuffer, with
+/// shaders/shared/fullscreen.vert; in bands where the thread has a SlicedDrawing. Row 0 of the
+/// target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the pixel's (x, y).
 class FullscreenPass {
   public:
     FullscreenPass(const ShaderLibrary& library, std::string fragment, ShaderDefines defines = {});

@@ -79,8 +79,8 @@ void ShaderLibrary::expand(std::string_view file, std::string& out, int depth) c
 }
 
 std::string ShaderLibrary::read(std::string_view file) const {
-    if (!override_folder_.empty()) {
-        std::ifstream in(override_folder_ / file, std::ios::binary);
+    if (const auto path = override_files_.find(file); path != override_files_.end()) {
+        std::ifstream in(path->second, std::ios::binary);
         if (in) return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
     for (const EmbeddedShader& shader : embedded_shaders())
@@ -91,11 +91,17 @@ std::string ShaderLibrary::read(std::string_view file) const {
 bool ShaderLibrary::poll() {
     if (override_folder_.empty()) return false;
     std::map<std::filesystem::path, std::filesystem::file_time_type> now;
+    std::map<std::string, std::filesystem::path, std::less<>> files;
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(override_folder_, ignored))
-        if (entry.is_regular_file(ignored)) now[entry.path()] = entry.last_write_time(ignored);
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(override_folder_, ignored)) {
+        if (!entry.is_regular_file(ignored)) continue;
+        now[entry.path()] = entry.last_write_time(ignored);
+        files[entry.path().filename().string()] = entry.path();
+    }
     if (now == seen_) return false;
     seen_ = std::move(now);
+    override_files_ = std::move(files);
     ++generation_;
     return true;
 }

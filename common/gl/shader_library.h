@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -12,12 +13,13 @@ namespace vantage {
 /// Preprocessor definitions put before a shader, e.g. {"LANES", "16"}.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-/// The shaders of shaders/, by file name ("census.comp"). They are embedded at build time; with the
-/// environment variable VANTAGE_SHADERS set to a folder, files found there win, and poll() notices
-/// when they change, so that running programs take up an edited shader (see Program). Shader files:
-/// no #version line (this class writes `#version 310 es` and the default precisions), `#include
-/// "x.glsl"` of files in the same folder, and `#ifndef X / #define X default` for every define they
-/// take, so that each file compiles alone and is validated at build.
+/// The shaders of shaders/, by file name without the room ("stereo_luma.comp"). They are embedded
+/// at build time. With the environment variable VANTAGE_SHADERS set to a folder, files found there
+/// or in its subfolders win, and poll() notices when they change, so that running programs reload
+/// an edited shader (see Program). Shader files have no #version line (this class writes `#version
+/// 310 es` and the default precisions), include other files by name (`#include "x.glsl"`), and have
+/// `#ifndef X / #define X default` for every define they take, so that each file compiles alone and
+/// is validated at build.
 class ShaderLibrary {
   public:
     ShaderLibrary();
@@ -40,6 +42,7 @@ class ShaderLibrary {
 
     std::filesystem::path override_folder_;
     std::map<std::filesystem::path, std::filesystem::file_time_type> seen_;
+    std::map<std::string, std::filesystem::path, std::less<>> override_files_;  ///< by file name
     std::uint64_t generation_ = 0;
 };
 

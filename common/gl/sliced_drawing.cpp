@@ -5,9 +5,9 @@
 
 #include <GLES3/gl31.h>
 
-#include "common/base/time.h"
-#include "common/gl/driver_turn.h"
-#include "common/gl/fence.h"
+#include "common/base/time/time.h"
+#include "common/gl/context/driver_lock.h"
+#include "common/gl/objects/fence.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/gl/right_of_way.h"
+#include "common/gl/context/render_priority.h"
 
 namespace vantage {
 

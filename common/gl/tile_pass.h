@@ -1,14 +1,14 @@
 #pragma once
 
-#include "common/gl/framebuffer.h"
-#include "common/gl/program.h"
-#include "common/gl/vertex_array.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/vertex_array.h"
 
 namespace vantage {
 
-/// Runs a fragment shader for the pixels of some tiles of a framebuffer, with shaders/tiles.vert:
-/// what has nothing to do far from where something happens costs nothing there. Which tiles is
-/// known to the GPU alone.
+/// Runs a fragment shader for the pixels of some tiles of a framebuffer, with
+/// shaders/shared/tiles.vert: what has nothing to do far from where something happens costs nothing
+/// there. Which tiles is known to the GPU alone.
 class TilePass {
   public:
     static constexpr int side_px = 16;

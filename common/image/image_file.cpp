@@ -12,8 +12,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/jpeg.h"
 #include "common/image/netpbm.h"
 #include "common/image/png.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/receive/frame_set.h"
 #include "common/receive/stage_step.h"
 

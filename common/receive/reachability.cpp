@@ -9,7 +9,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 namespace {

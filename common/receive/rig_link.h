@@ -6,7 +6,7 @@
 #include <string>
 #include <zmq.hpp>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/stage_config.h"
 #include "common/receive/link_account.h"
 #include "common/wire/curve_keys.h"

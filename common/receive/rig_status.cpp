@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/counted.h"
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/percentiles.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/wire/link_message.h"
 
 namespace vantage {

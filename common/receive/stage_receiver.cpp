@@ -13,11 +13,11 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
-#include "common/base/kernel_clock.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/kernel_clock.h"
+#include "common/base/time/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
 #include "common/receive/outage_book.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/wire/frame_message.h"
 
 namespace vantage {

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "common/geometry/rectification_map.h"
-#include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 #include "common/gl/shader_library.h"
-#include "common/gl/texture.h"
 
 namespace vantage {
 

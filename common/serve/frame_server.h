@@ -13,7 +13,7 @@
 #include <zmq.hpp>
 
 #include "common/base/log_limiter.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/serve/host_admission.h"
 #include "common/serve/host_links.h"
 #include "common/serve/stranger_watch.h"

@@ -6,7 +6,7 @@
 #include <zmq.hpp>
 
 #include "common/base/log_limiter.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/kept_parts.h"
 #include "common/wire/link_message.h"

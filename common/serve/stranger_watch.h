@@ -10,7 +10,7 @@
 #include <zmq.hpp>
 
 #include "common/base/log_limiter.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

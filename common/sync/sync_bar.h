@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

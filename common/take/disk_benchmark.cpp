@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/base/time.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 namespace {

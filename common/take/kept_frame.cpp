@@ -1,7 +1,7 @@
 #include "common/take/kept_frame.h"
 
 #include "common/base/error.h"
-#include "common/take/take_format.h"
+#include "common/take/format/take_format.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/header_fields.h"
 #include "common/wire/limits.h"

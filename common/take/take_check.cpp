@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/take/take_pulses.h"
 
 namespace vantage {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/timecode.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/timecode.h"
 
 namespace vantage {
 namespace {

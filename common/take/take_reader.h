@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/take/ebml_file.h"
-#include "common/take/take_format.h"
+#include "common/take/format/ebml_file.h"
+#include "common/take/format/take_format.h"
 #include "common/take/take_writer.h"
 
 namespace vantage {

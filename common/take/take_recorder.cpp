@@ -6,10 +6,10 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
-#include "common/base/timecode.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
+#include "common/base/time/timecode.h"
 
 namespace vantage {
 namespace {

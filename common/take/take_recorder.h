@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/take/disk_benchmark.h"
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/take_writer.h"
 #include "common/wire/arrived_frame.h"
 

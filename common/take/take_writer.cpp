@@ -9,8 +9,8 @@ extern "C" {
 }
 
 #include "common/base/error.h"
-#include "common/base/output_path.h"
-#include "common/take/take_file.h"
+#include "common/base/files/output_path.h"
+#include "common/take/format/take_file.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/av/av_handles.h"
-#include "common/take/take_format.h"
+#include "common/take/format/take_format.h"
 
 namespace vantage {
 

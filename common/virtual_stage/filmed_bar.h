@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "common/sync/sync_bar.h"
 

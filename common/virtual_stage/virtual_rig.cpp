@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/limits.h"
 
 namespace vantage {
 namespace {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/gl/buffer.h"
+#include "common/gl/context/limits.h"
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/limits.h"
-#include "common/gl/program.h"
-#include "common/gl/vertex_array.h"
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/vertex_array.h"
 #include "common/virtual_stage/stage_bounds.h"
 #include "common/virtual_stage/stage_projection.h"
 #include "common/virtual_stage/stage_scene.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/wire/frame_codec.h"
 
 namespace vantage {

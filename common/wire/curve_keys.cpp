@@ -13,8 +13,8 @@
 #include <unistd.h>
 #include <zmq.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {

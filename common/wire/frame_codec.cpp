@@ -5,11 +5,11 @@
 #include <string>
 
 #include "common/base/error.h"
-#include "common/wire/colour_codec.h"
-#include "common/wire/disparity_codec.h"
+#include "common/wire/codec/colour_codec.h"
+#include "common/wire/codec/disparity_codec.h"
+#include "common/wire/codec/right_picture.h"
 #include "common/wire/header_fields.h"
 #include "common/wire/limits.h"
-#include "common/wire/right_picture.h"
 #include "frame.pb.h"
 
 namespace vantage {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "common/wire/chroma.h"
+#include "common/wire/codec/chroma.h"
 #include "common/wire/frame_message.h"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/shared_bytes.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/geometry/pose.h"
 #include "common/geometry/rectified_stereo.h"
 #include "common/image/image.h"

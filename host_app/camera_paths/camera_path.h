@@ -6,7 +6,7 @@
 #include <opencv2/core/types.hpp>
 
 #include "host_app/flight/camera_state.h"
-#include "host_app/flight/flight_recording.h"
+#include "host_app/flight/moves/flight_recording.h"
 
 namespace vantage {
 

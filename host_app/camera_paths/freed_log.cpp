@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/control/freed/freed_message.h"
 

@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/child_process.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
-#include "host_app/commands/demo_moves.h"
-#include "host_app/commands/demo_stage.h"
+#include "host_app/commands/demo/demo_moves.h"
+#include "host_app/commands/demo/demo_stage.h"
 #include "host_app/commands/live_session.h"
-#include "host_app/commands/pair_look.h"
+#include "host_app/commands/rigs/pair_look.h"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
-#include "common/base/print_result.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
 #include "host_app/view_sets/data_set_import.h"
 
 namespace vantage {

@@ -13,14 +13,14 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/stop_signal.h"
-#include "host_app/commands/help_words.h"
-#include "host_app/control/hid/jog_deck.h"
-#include "host_app/control/hid/simulated_xpress.h"
-#include "host_app/control/hid/uhid_wheel.h"
+#include "host_app/control/hid/jog_devices.h"
+#include "host_app/control/hid/simulated/simulated_xpress.h"
+#include "host_app/control/hid/simulated/uhid_wheel.h"
+#include "host_app/session/options/help_words.h"
 
 namespace vantage {
 namespace {

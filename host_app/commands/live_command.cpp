@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/base/command.h"
-#include "host_app/commands/help_words.h"
+#include "common/base/cli/command.h"
 #include "host_app/commands/live_session.h"
+#include "host_app/session/options/help_words.h"
 
 namespace vantage {
 

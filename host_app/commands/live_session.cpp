@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "common/base/log.h"
-#include "common/base/time.h"
-#include "common/base/time_zone.h"
+#include "common/base/time/time.h"
+#include "common/base/time/time_zone.h"
 #include "common/colour/colour_file.h"
 #include "host_app/takes/stage_habits.h"
 

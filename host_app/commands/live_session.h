@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "host_app/commands/show_session.h"
+#include "host_app/session/show_session.h"
 
 namespace vantage {
 

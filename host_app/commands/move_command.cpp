@@ -6,14 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/atomic_file.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
 #include "common/base/error.h"
-#include "common/base/output_path.h"
-#include "common/base/print_result.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/output_path.h"
 #include "host_app/camera_paths/camera_path_file.h"
-#include "host_app/commands/picture_options.h"
 #include "host_app/flight/flight_book.h"
+#include "host_app/session/options/picture_options.h"
 
 namespace vantage {
 namespace {

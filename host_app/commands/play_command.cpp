@@ -4,15 +4,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/time_zone.h"
-#include "host_app/commands/show_session.h"
-#include "host_app/commands/take_time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time_zone.h"
+#include "host_app/session/options/take_time.h"
+#include "host_app/session/show_session.h"
 #include "host_app/sound/take_sound.h"
 #include "host_app/takes/stage_habits.h"
-#include "host_app/takes/take_sets.h"
+#include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "common/base/atomic_file.h"
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
-#include "common/base/stop_signal.h"
 #include "common/config/endpoint.h"
 #include "host_app/relay/rig_relay.h"
 

@@ -6,15 +6,15 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
 #include "common/base/error.h"
-#include "common/base/print_result.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "common/image/image_file.h"
-#include "host_app/commands/stereoscopic_options.h"
-#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/session/options/stereoscopic_options.h"
+#include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"

@@ -10,18 +10,18 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/line_input.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/event_teller.h"
-#include "common/base/folder.h"
-#include "common/base/line_input.h"
-#include "common/base/stop_signal.h"
+#include "common/base/files/folder.h"
 #include "common/config/endpoint.h"
 #include "common/pairing/pairing_place.h"
 #include "common/wire/limits.h"
 #include "common/wire/status_report.h"
 #include "common/wire/zmq_helpers.h"
-#include "host_app/commands/rigs_look.h"
+#include "host_app/commands/rigs/rigs_status.h"
 #include "host_app/setup/pairing_call.h"
 #include "host_app/setup/rig_browser.h"
 #include "host_app/setup/stage_file.h"

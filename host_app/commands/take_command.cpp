@@ -5,17 +5,17 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/time_zone.h"
-#include "common/base/timecode.h"
+#include "common/base/time/time_zone.h"
+#include "common/base/time/timecode.h"
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
 #include "common/take/take_pulses.h"
-#include "host_app/commands/film_options.h"
-#include "host_app/commands/take_time.h"
 #include "host_app/exports/take_export.h"
+#include "host_app/session/options/film_options.h"
+#include "host_app/session/options/take_time.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/hid/jog_mapper.h"
-#include "host_app/control/hid/wheel_desk.h"
+#include "host_app/control/hid/wheel_input.h"
 #include "host_app/control/tracked_camera.h"
 #include "host_app/flight/camera_pair.h"
-#include "host_app/flight/corridor_books.h"
+#include "host_app/flight/camera_source.h"
+#include "host_app/flight/corridor_stats.h"
 #include "host_app/flight/flight_plan.h"
-#include "host_app/flight/flight_recording.h"
-#include "host_app/flight/pilot.h"
+#include "host_app/flight/moves/flight_recording.h"
 #include "host_app/flight/stage_framing.h"
 
 namespace vantage {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host_app/flight/move.h"
+#include "host_app/flight/moves/move.h"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "host_app/flight/camera_state.h"
 
 namespace vantage {

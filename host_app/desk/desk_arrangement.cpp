@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/config/toml_reader.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/limits.h"
 
 namespace vantage {
 namespace {

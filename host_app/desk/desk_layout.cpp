@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_app/desk/shot_places.h"
+#include "host_app/desk/panels/shot_places.h"
 
 namespace vantage {
 namespace {

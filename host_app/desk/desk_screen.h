@@ -1,7 +1,7 @@
 #pragma once
 
-#include "host_app/desk/desk_parts.h"
 #include "host_app/desk/desk_switches.h"
+#include "host_app/desk/panels/desk_parts.h"
 
 namespace vantage {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "common/gl/texture.h"
+#include "common/gl/objects/texture.h"
 #include "common/receive/signal_state.h"
 #include "host_app/flight/corridor.h"
 #include "host_app/flight/orbit_view.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "common/base/kept_file.h"
+#include "common/base/files/kept_file.h"
 #include "host_app/desk/desk_arrangement.h"
 
 namespace vantage {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/pen.h"
+#include "host_app/desk/windows/pen.h"
 
 namespace vantage {
 

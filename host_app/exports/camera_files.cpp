@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
-#include "common/base/timecode.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/time/timecode.h"
 
 namespace vantage {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 
 namespace vantage {
 namespace {

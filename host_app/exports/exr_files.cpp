@@ -9,9 +9,9 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/colour/colour_correction.h"
 
 namespace vantage {

@@ -6,22 +6,22 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/base/cli/version.h"
 #include "common/base/error.h"
-#include "common/base/version.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
 #include "common/take/take_pulses.h"
 #include "host_app/exports/camera_files.h"
 #include "host_app/exports/export_claim.h"
 #include "host_app/exports/film_parts.h"
 #include "host_app/exports/film_sound.h"
-#include "host_app/instants/colour_harmoniser.h"
-#include "host_app/instants/depth_views.h"
-#include "host_app/motion/between_sets.h"
+#include "host_app/foreground/motion/interpolated_frame_sets.h"
+#include "host_app/output/media/video_writer.h"
 #include "host_app/output/set_timecode.h"
-#include "host_app/output/video_writer.h"
-#include "host_app/takes/take_sets.h"
+#include "host_app/refine/gain_compensation.h"
+#include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
+#include "host_app/views/depth_views.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/take/take_reader.h"
 #include "host_app/exports/take_export.h"
-#include "host_app/flight/move.h"
+#include "host_app/flight/moves/move.h"
 #include "host_app/programme/view_painter.h"
 
 namespace vantage {

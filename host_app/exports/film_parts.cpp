@@ -11,8 +11,8 @@
 
 #include "common/av/av_log.h"
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
-#include "host_app/output/film_file.h"
+#include "common/base/time/pulse_grid.h"
+#include "host_app/output/media/film_file.h"
 
 namespace vantage {
 namespace {

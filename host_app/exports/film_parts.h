@@ -8,7 +8,7 @@
 
 #include "common/av/av_handles.h"
 #include "common/av/sound.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "host_app/sound/picture_sound.h"
 #include "host_app/sound/take_sound.h"
 

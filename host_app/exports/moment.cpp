@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/log.h"
-#include "host_app/instants/depth_views.h"
-#include "host_app/instants/projection.h"
+#include "host_app/views/depth_views.h"
+#include "host_app/views/projection.h"
 
 namespace vantage {
 namespace {

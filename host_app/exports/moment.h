@@ -10,7 +10,7 @@
 
 #include "common/geometry/pose.h"
 #include "common/image/image.h"
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/take_reader.h"
 #include "host_app/takes/take_show.h"
 

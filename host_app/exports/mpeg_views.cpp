@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "host_app/camera_paths/omaf_camera.h"
-#include "host_app/output/picture_converter.h"
+#include "host_app/output/media/picture_converter.h"
 
 namespace vantage {
 namespace {

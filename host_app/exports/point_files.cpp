@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/colour/colour_correction.h"
 
 namespace vantage {

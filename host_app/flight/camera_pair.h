@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host_app/flight/helm.h"
+#include "host_app/flight/flight_controller.h"
 
 namespace vantage {
 

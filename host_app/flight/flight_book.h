@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host_app/flight/move.h"
+#include "host_app/flight/moves/move.h"
 
 namespace vantage {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/base/version.h"
+#include "common/base/cli/version.h"
 #include "host_app/metrics/metric_text.h"
 
 namespace vantage {

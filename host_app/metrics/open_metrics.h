@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "host_app/live/live_report.h"
+#include "host_app/session/report/live_report.h"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/image/image_file.h"
-#include "host_app/output/contact_sheet.h"
-#include "host_app/output/disparity_picture.h"
+#include "host_app/output/media/contact_sheet.h"
+#include "host_app/output/media/disparity_picture.h"
 
 namespace vantage {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/percentiles.h"
-#include "common/base/rate_meter.h"
+#include "common/base/time/rate_meter.h"
 #include "host_app/output/output_target.h"
 #include "host_app/output/picture_sink.h"
 #include "host_app/output/set_timecode.h"

@@ -8,7 +8,7 @@
 
 #include "common/av/sound.h"
 #include "common/image/image.h"
-#include "host_app/output/output_patience.h"
+#include "host_app/output/output_retry.h"
 #include "host_app/output/output_url.h"
 
 namespace vantage {

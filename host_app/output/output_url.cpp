@@ -7,9 +7,9 @@
 
 #include <fmt/ranges.h>
 
-#include "common/base/atomic_file.h"
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
+#include "common/base/files/atomic_file.h"
 #include "common/config/endpoint.h"
 
 namespace vantage {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/base/timecode.h"
+#include "common/base/time/timecode.h"
 #include "common/receive/frame_set.h"
 
 namespace vantage {

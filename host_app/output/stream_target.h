@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "host_app/output/media/picture_encoder.h"
+#include "host_app/output/media/sound_encoder.h"
 #include "host_app/output/output_target.h"
-#include "host_app/output/picture_encoder.h"
-#include "host_app/output/sound_encoder.h"
 
 namespace vantage {
 

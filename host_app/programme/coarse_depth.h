@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/readback.h"
-#include "host_app/instants/drawn_texture.h"
+#include "common/gl/objects/readback.h"
+#include "host_app/surfaces/drawn_texture.h"
 
 namespace vantage {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {

@@ -2,9 +2,9 @@
 
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
-#include "common/gl/context_loss.h"
-#include "common/gl/driver_turn.h"
+#include "common/base/time/time.h"
+#include "common/gl/context/context_loss.h"
+#include "common/gl/context/driver_lock.h"
 #include "common/gl/sliced_drawing.h"
 
 namespace vantage {

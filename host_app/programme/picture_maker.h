@@ -7,12 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "common/base/time.h"
-#include "common/gl/context_group.h"
-#include "common/gl/right_of_way.h"
+#include "common/base/time/time.h"
+#include "common/gl/context/context_group.h"
+#include "common/gl/context/render_priority.h"
 #include "common/image/image.h"
 #include "host_app/flight/camera_state.h"
-#include "host_app/instants/instant_thread.h"
+#include "host_app/pipeline/instant_thread.h"
 #include "host_app/programme/view_painter.h"
 
 namespace vantage {

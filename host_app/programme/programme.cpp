@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 #include "host_app/programme/tick_clock.h"
 
 namespace vantage {

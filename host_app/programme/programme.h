@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "common/base/percentiles.h"
-#include "common/base/time_share.h"
+#include "common/base/time/time_budget.h"
 #include "host_app/flight/camera_forecast.h"
-#include "host_app/flight/pilot.h"
-#include "host_app/instants/instant_thread.h"
+#include "host_app/flight/camera_source.h"
+#include "host_app/pipeline/instant_thread.h"
 #include "host_app/programme/governor.h"
-#include "host_app/programme/hand_watch.h"
+#include "host_app/programme/input_latency.h"
 #include "host_app/programme/picture_maker.h"
 #include "host_app/programme/picture_sinks.h"
 #include "host_app/programme/preview.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "host_app/programme/reprojection.h"
 
 namespace vantage {

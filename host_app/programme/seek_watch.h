@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "common/base/percentiles.h"
-#include "common/base/time.h"
-#include "host_app/instants/instant_thread.h"
+#include "common/base/time/time.h"
+#include "host_app/pipeline/instant_thread.h"
 
 namespace vantage {
 

@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/log.h"
-#include "common/base/time.h"
-#include "common/gl/context_loss.h"
-#include "common/gl/limits.h"
+#include "common/base/time/time.h"
+#include "common/gl/context/context_loss.h"
+#include "common/gl/context/limits.h"
 #include "host_app/programme/unseen_mark.h"
 
 namespace vantage {

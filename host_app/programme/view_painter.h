@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "common/gl/readback.h"
+#include "common/gl/objects/readback.h"
 #include "common/image/picture_pool.h"
 #include "host_app/flight/camera_state.h"
 #include "host_app/programme/coarse_depth.h"
-#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/stereoscopy.h"
 #include "host_app/synthesis/synthesiser.h"
 

@@ -12,7 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/rig_link.h"
 #include "common/serve/frame_server.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/sets/past_sets.h"
+#include "host_app/frames/past_sets.h"
 
 namespace vantage {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "common/base/kept_file.h"
+#include "common/base/files/kept_file.h"
 #include "host_app/replay/clip.h"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/base/timecode.h"
+#include "common/base/time/timecode.h"
 
 namespace vantage {
 namespace {

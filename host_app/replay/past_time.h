@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host_app/sets/past_sets.h"
+#include "host_app/frames/past_sets.h"
 
 namespace vantage {
 

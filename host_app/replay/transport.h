@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "host_app/frames/past_sets.h"
 #include "host_app/replay/transport_input.h"
-#include "host_app/sets/past_sets.h"
 
 namespace vantage {
 

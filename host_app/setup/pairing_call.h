@@ -5,7 +5,7 @@
 #include <string>
 #include <zmq.hpp>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/pairing/pairing.h"
 
 namespace vantage {

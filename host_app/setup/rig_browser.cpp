@@ -11,7 +11,7 @@
 #include <avahi-common/simple-watch.h>
 
 #include "common/base/error.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/pairing/pairing_place.h"
 
 namespace vantage {

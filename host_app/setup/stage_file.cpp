@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/config/toml_edit.h"
 #include "common/config/toml_text.h"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/texture.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 
 namespace vantage {
 

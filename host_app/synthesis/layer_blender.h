@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host_app/instants/depth_picture.h"
+#include "host_app/surfaces/depth_picture.h"
 #include "host_app/synthesis/hole_filler.h"
 #include "host_app/synthesis/layer_pass.h"
 #include "host_app/synthesis/rig_layers.h"

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "host_app/instants/view_ranking.h"
 #include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "host_app/views/view_ranking.h"
 
 namespace vantage {
 

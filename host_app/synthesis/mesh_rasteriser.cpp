@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "host_app/instants/projection.h"
+#include "host_app/views/projection.h"
 
 namespace vantage {
 namespace {

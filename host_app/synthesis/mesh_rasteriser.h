@@ -1,10 +1,10 @@
 #pragma once
 
-#include "common/gl/framebuffer.h"
-#include "common/gl/program.h"
-#include "common/gl/vertex_array.h"
-#include "host_app/instants/rig_surface.h"
-#include "host_app/instants/virtual_view.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/vertex_array.h"
+#include "host_app/surfaces/rig_surface.h"
+#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

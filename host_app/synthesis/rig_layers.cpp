@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "host_app/instants/depth_spread.h"
-#include "host_app/instants/projection.h"
+#include "host_app/views/depth_spread.h"
+#include "host_app/views/projection.h"
 
 namespace vantage {
 double near_plane_m(std::span<const DrawnLayer> layers) {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "common/gl/program.h"
-#include "host_app/instants/drawn_texture.h"
-#include "host_app/instants/instant.h"
+#include "common/gl/objects/program.h"
+#include "host_app/surfaces/drawn_texture.h"
+#include "host_app/surfaces/instant.h"
 #include "host_app/synthesis/mesh_rasteriser.h"
 
 namespace vantage {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/instants/depth_view.h"
-#include "host_app/instants/drawn_texture.h"
+#include "host_app/surfaces/drawn_texture.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 

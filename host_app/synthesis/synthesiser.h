@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "common/gl/objects/texture.h"
 #include "common/gl/shader_library.h"
-#include "common/gl/texture.h"
-#include "host_app/instants/instant_preparer.h"
+#include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/synthesiser_options.h"
 
 namespace vantage {

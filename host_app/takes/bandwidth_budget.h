@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

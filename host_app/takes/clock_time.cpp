@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "common/base/timecode.h"
+#include "common/base/time/timecode.h"
 
 namespace vantage {
 namespace {

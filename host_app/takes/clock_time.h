@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 
 namespace vantage {
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "common/base/cli/version.h"
 #include "common/base/error.h"
+#include "common/base/files/output_path.h"
 #include "common/base/log.h"
-#include "common/base/output_path.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/timecode.h"
-#include "common/base/version.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/timecode.h"
 #include "common/take/kept_files.h"
 #include "common/take/take_pulses.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/wire/random_id.h"
 
 namespace vantage {

@@ -7,8 +7,8 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/image/image_file.h"
 #include "host_app/view_sets/data_set_import.h"
 #include "host_app/view_sets/view_set_writer.h"

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/limits.h"
 #include "common/image/image_file.h"
 #include "common/image/pfm.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host_app/instants/depth_view.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 

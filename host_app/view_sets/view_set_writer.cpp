@@ -1,8 +1,8 @@
 #include "host_app/view_sets/view_set_writer.h"
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/image/pfm.h"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// The number that shaders/camera_picture.frag has for the format.
+/// The number that shaders/capture/camera_picture.frag has for the format.
 int shader_format(PixelFormat format) {
     switch (format) {
         case PixelFormat::y10:

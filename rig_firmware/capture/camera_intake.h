@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "common/gl/dma_buf_texture.h"
-#include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/texture.h"
+#include "common/gl/objects/dma_buf_texture.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 #include "rig_firmware/capture/lent_picture.h"
 
 namespace vantage {

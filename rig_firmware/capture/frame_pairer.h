@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/image/image.h"
 
 namespace vantage {

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
-#include "common/wire/colour_codec.h"
+#include "common/wire/codec/colour_codec.h"
 
 namespace vantage {
 namespace {

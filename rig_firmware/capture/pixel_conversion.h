@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/gl/texture.h"
+#include "common/gl/objects/texture.h"
 #include "common/image/image.h"
 #include "rig_firmware/capture/pixel_format.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "rig_firmware/capture/lent_picture.h"
 

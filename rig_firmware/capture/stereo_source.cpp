@@ -1,7 +1,7 @@
 #include "rig_firmware/capture/stereo_source.h"
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
 #include "common/config/rig_config.h"
 
 namespace vantage {

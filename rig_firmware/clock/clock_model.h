@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

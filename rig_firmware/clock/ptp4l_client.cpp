@@ -9,7 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "common/wire/random_id.h"
 
 namespace vantage {

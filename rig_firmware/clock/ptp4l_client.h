@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/kernel_clock.h"
+#include "common/base/time/kernel_clock.h"
 
 namespace vantage {
 

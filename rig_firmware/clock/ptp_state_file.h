@@ -5,8 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "common/base/kernel_clock.h"
-#include "common/base/time.h"
+#include "common/base/time/kernel_clock.h"
+#include "common/base/time/time.h"
 #include "rig_firmware/clock/ptp4l_client.h"
 
 namespace vantage {

@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
+#include "common/base/files/folder.h"
 #include "common/base/log.h"
-#include "common/base/print_result.h"
-#include "common/base/stop_signal.h"
 #include "common/config/rig_config.h"
 #include "common/image/image_file.h"
 #include "rig_firmware/capture/stereo_source.h"

@@ -1,6 +1,6 @@
 #include "common/wire/keys_command.h"
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 
 namespace vantage {
 

@@ -9,13 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/print_result.h"
 #include "common/base/error.h"
-#include "common/base/output_path.h"
-#include "common/base/print_result.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
+#include "common/base/files/output_path.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "common/image/colour_map.h"
 #include "common/image/disparity_file.h"
 #include "common/image/image_file.h"

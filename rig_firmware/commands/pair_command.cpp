@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/line_input.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/event_teller.h"
-#include "common/base/line_input.h"
-#include "common/base/stop_signal.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/endpoint.h"
 #include "common/pairing/pairing_place.h"
 #include "common/wire/zmq_helpers.h"

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
 #include "rig_firmware/probe/probe.h"
 
 namespace vantage {

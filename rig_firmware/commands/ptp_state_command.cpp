@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
-#include "common/base/stop_signal.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/stop_signal.h"
 #include "rig_firmware/clock/ptp_state_file.h"
 
 namespace vantage {

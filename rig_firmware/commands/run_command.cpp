@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/log.h"
-#include "common/base/stop_signal.h"
 #include "common/config/endpoint.h"
 #include "common/config/rig_config.h"
 #include "common/pairing/pairing_place.h"

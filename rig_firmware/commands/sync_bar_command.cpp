@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command.h"
+#include "common/base/cli/command.h"
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/stop_signal.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/wire/status_report.h"
 #include "rig_firmware/trigger/bar_driver.h"
 

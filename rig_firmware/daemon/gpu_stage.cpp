@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "common/base/error.h"
-#include "common/gl/driver_turn.h"
+#include "common/gl/context/driver_lock.h"
 
 namespace vantage {
 namespace {

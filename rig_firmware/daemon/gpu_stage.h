@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "common/config/rig_config.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
-#include "common/gl/readback.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
+#include "common/gl/objects/readback.h"
 #include "common/gl/shader_library.h"
 #include "common/rectification/rectify_pass.h"
 #include "common/wire/frame_codec.h"
 #include "rig_firmware/capture/camera_intake.h"
 #include "rig_firmware/capture/stereo_source.h"
+#include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "rig_firmware/stereo/matcher.h"
-#include "rig_firmware/stereo/passes/temporal_pass.h"
 
 namespace vantage {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/wire/link_message.h"
 
 namespace vantage {

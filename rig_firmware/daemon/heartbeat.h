@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "common/base/bounded_queue.h"
+#include "common/base/cli/version.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
-#include "common/base/version.h"
+#include "common/base/time/time.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/clock_model.h"

@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/child_process.h"
+#include "common/base/cli/version.h"
 #include "common/base/computer.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/secrets.h"
 #include "common/base/log.h"
-#include "common/base/secrets.h"
-#include "common/base/time.h"
-#include "common/base/version.h"
+#include "common/base/time/time.h"
 #include "common/wire/limits.h"
 
 namespace vantage {

@@ -4,10 +4,10 @@
 #include <ctime>
 #include <vector>
 
+#include "common/base/cli/version.h"
 #include "common/base/error.h"
+#include "common/base/files/output_path.h"
 #include "common/base/log.h"
-#include "common/base/output_path.h"
-#include "common/base/version.h"
 #include "common/take/kept_files.h"
 
 namespace vantage {

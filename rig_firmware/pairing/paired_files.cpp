@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 #include "common/config/endpoint.h"
 #include "common/config/toml_edit.h"
 #include "common/config/toml_text.h"

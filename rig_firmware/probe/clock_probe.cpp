@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "common/base/kernel_clock.h"
+#include "common/base/time/kernel_clock.h"
 #include "rig_firmware/clock/ptp_state_file.h"
 #include "rig_firmware/probe/probe.h"
 

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
 #include "rig_firmware/probe/probe.h"
 
 namespace vantage {

@@ -3,16 +3,16 @@
 #include <optional>
 #include <vector>
 
+#include "rig_firmware/stereo/disparity/left_right_pass.h"
+#include "rig_firmware/stereo/disparity/median_pass.h"
+#include "rig_firmware/stereo/disparity/path_fill_pass.h"
+#include "rig_firmware/stereo/disparity/result_pass.h"
+#include "rig_firmware/stereo/disparity/row_fill_pass.h"
+#include "rig_firmware/stereo/disparity/smooth_pass.h"
+#include "rig_firmware/stereo/features/feature_pass.h"
+#include "rig_firmware/stereo/features/luma_pass.h"
 #include "rig_firmware/stereo/match_limits.h"
 #include "rig_firmware/stereo/matcher.h"
-#include "rig_firmware/stereo/passes/feature_pass.h"
-#include "rig_firmware/stereo/passes/left_right_pass.h"
-#include "rig_firmware/stereo/passes/luma_pass.h"
-#include "rig_firmware/stereo/passes/median_pass.h"
-#include "rig_firmware/stereo/passes/path_fill_pass.h"
-#include "rig_firmware/stereo/passes/result_pass.h"
-#include "rig_firmware/stereo/passes/row_fill_pass.h"
-#include "rig_firmware/stereo/passes/smooth_pass.h"
 
 namespace vantage {
 

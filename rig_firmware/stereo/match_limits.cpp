@@ -1,7 +1,7 @@
 #include "rig_firmware/stereo/match_limits.h"
 
 #include "common/base/error.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/limits.h"
 
 namespace vantage {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/gl/limits.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/texture.h"
 #include "common/gl/shader_library.h"
-#include "common/gl/texture.h"
 
 namespace vantage {
 

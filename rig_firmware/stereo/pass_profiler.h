@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/gl/gpu_timer.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {

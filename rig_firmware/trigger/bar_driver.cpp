@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/realtime.h"
 

@@ -5,7 +5,7 @@
 #include <gpiod.hpp>
 #include <optional>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/rig_config.h"
 #include "rig_firmware/trigger/gpio_line.h"
 

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <vector>
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {

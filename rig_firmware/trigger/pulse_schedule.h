@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 
 namespace vantage {
 

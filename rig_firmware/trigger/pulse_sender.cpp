@@ -10,9 +10,9 @@
 #include <tuple>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 #include "rig_firmware/trigger/inheriting_mutex.h"
 #include "rig_firmware/trigger/pulse_line.h"
 #include "rig_firmware/trigger/pulse_schedule.h"

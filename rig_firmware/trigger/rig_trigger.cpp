@@ -8,9 +8,9 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
 #include "common/base/this_thread.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 #include "rig_firmware/clock/clock_pair.h"
 #include "rig_firmware/clock/frame_indexer.h"
 #include "rig_firmware/trigger/edge_watcher.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/base/percentiles.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/rig_config.h"
 
 namespace vantage {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
 namespace {

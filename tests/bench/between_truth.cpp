@@ -9,13 +9,13 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
-#include "host_app/instants/depth_views.h"
-#include "host_app/motion/frame_between.h"
-#include "host_app/motion/rig_agreement.h"
+#include "host_app/foreground/motion/frame_between.h"
+#include "host_app/foreground/motion/rig_agreement.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
+#include "host_app/views/depth_views.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/matching_rig.h"
 #include "tests/bench/size_option.h"

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "common/gl/egl_context.h"
-#include "common/wire/colour_codec.h"
+#include "common/gl/context/egl_context.h"
+#include "common/wire/codec/colour_codec.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/matching_rig.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "common/gl/shader_library.h"
 #include "common/image/colour_map.h"
 #include "common/virtual_stage/virtual_rig.h"

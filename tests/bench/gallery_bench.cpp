@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"

@@ -9,13 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/instants/depth_views.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "host_app/views/depth_views.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/run_bench.h"
 #include "tests/bench/size_option.h"

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/played_truth.h"

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 

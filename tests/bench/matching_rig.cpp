@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/codec/right_picture.h"
 #include "common/wire/frame_codec.h"
-#include "common/wire/right_picture.h"
 #include "rig_firmware/daemon/gpu_stage.h"
 
 namespace vantage {

@@ -7,11 +7,11 @@
 
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "common/wire/chroma.h"
-#include "host_app/instants/depth_view.h"
-#include "host_app/instants/virtual_view.h"
+#include "common/wire/codec/chroma.h"
+#include "host_app/views/depth_view.h"
+#include "host_app/views/virtual_view.h"
+#include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "rig_firmware/stereo/matcher.h"
-#include "rig_firmware/stereo/passes/temporal_pass.h"
 
 namespace vantage {
 

@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "rig_firmware/stereo/passes/row_fill_reference.h"
+#include "rig_firmware/stereo/disparity/row_fill_reference.h"
 
 namespace vantage {
 

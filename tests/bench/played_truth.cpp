@@ -11,16 +11,16 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/stop_signal.h"
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "common/config/stage_config.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/live/live_report.h"
-#include "host_app/live/live_show.h"
+#include "host_app/session/live_show.h"
+#include "host_app/session/report/live_report.h"
 #include "tests/bench/fidelity.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "common/wire/frame_codec.h"
-#include "host_app/sets/replay_buffer.h"
+#include "host_app/frames/replay_buffer.h"
 #include "tests/bench/full_size_frames.h"
 #include "tests/bench/run_bench.h"
 

@@ -14,7 +14,7 @@
 
 #include "common/base/child_process.h"
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "common/receive/stage_receiver.h"
 #include "common/take/take_recorder.h"
 #include "common/wire/curve_keys.h"

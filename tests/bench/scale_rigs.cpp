@@ -6,15 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/base/atomic_file.h"
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/time.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 #include "common/config/stage_config.h"
 #include "common/serve/frame_server.h"
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/take_reader.h"
-#include "common/wire/disparity_codec.h"
+#include "common/wire/codec/disparity_codec.h"
 #include "frame.pb.h"
 #include "host_app/relay/rig_relay.h"
 #include "tests/bench/cpu_time.h"

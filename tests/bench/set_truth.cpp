@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/image/image_file.h"
-#include "host_app/instants/staged_preparer.h"
+#include "host_app/fused/staged_preparer.h"
 #include "tests/bench/truth_regions.h"
 
 namespace vantage {

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "common/base/time.h"
-#include "common/gl/egl_context.h"
+#include "common/base/time/time.h"
+#include "common/gl/context/egl_context.h"
 #include "common/gl/shader_library.h"
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"

@@ -17,9 +17,9 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/gl/egl_context.h"
-#include "common/gl/gpu_timer.h"
-#include "common/gl/limits.h"
+#include "common/gl/context/egl_context.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
 #include "common/image/colour_map.h"
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/matcher.h"

@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/image/image_file.h"
-#include "rig_firmware/stereo/passes/temporal_pass.h"
+#include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "tests/bench/filmed_pair.h"
 #include "tests/bench/opencv_matchers.h"
 

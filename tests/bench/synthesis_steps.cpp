@@ -9,11 +9,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "common/gl/egl_context.h"
+#include "common/gl/context/egl_context.h"
 #include "common/image/colour_map.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/synthesis/gallery/performer_preparer.h"
-#include "host_app/synthesis/novelty_overlay.h"
+#include "host_app/gallery/foreground_preparer.h"
+#include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/bench/matching_rig.h"

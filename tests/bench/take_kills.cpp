@@ -17,7 +17,7 @@
 
 #include "common/base/error.h"
 #include "common/base/percentiles.h"
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/take/take_check.h"
 #include "common/take/take_recorder.h"
 #include "tests/bench/markdown_tables.h"

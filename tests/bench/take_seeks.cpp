@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/percentiles.h"
-#include "common/base/stop_signal.h"
-#include "common/base/time.h"
-#include "host_app/live/live_show.h"
-#include "host_app/takes/take_sets.h"
+#include "common/base/time/time.h"
+#include "host_app/session/live_show.h"
+#include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
 #include "tests/bench/run_bench.h"
 #include "tests/bench/size_option.h"

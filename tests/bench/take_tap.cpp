@@ -9,11 +9,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/stop_signal.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/take_reader.h"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 

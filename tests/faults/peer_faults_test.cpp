@@ -15,8 +15,8 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include "common/base/files/unique_fd.h"
 #include "common/base/log.h"
-#include "common/base/unique_fd.h"
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"

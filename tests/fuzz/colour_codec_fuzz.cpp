@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/wire/colour_codec.h"
+#include "common/wire/codec/colour_codec.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/input_picture.h"
 

@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/wire/disparity_codec.h"
+#include "common/wire/codec/disparity_codec.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/input_picture.h"
 

@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host_app/instants/set_file.h"
+#include "host_app/background/background_file.h"
 #include "tests/fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,18 +8,18 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/atomic_file.h"
+#include "common/base/files/atomic_file.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
 #include "common/image/png.h"
 #include "common/pairing/pair_code.h"
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/kept_frame.h"
-#include "common/wire/colour_codec.h"
+#include "common/wire/codec/colour_codec.h"
+#include "common/wire/codec/disparity_codec.h"
 #include "common/wire/curve_keys.h"
-#include "common/wire/disparity_codec.h"
 #include "common/wire/link_message.h"
-#include "host_app/instants/set_file.h"
+#include "host_app/background/background_file.h"
 #include "host_app/ltc/ltc_writer.h"
 #include "tests/fuzz/seed_frames.h"
 

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "host_app/control/ports/midi_map.h"
+#include "host_app/control/ports/messages/midi_map.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

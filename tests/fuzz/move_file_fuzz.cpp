@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host_app/flight/move.h"
+#include "host_app/flight/moves/move.h"
 #include "tests/fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "host_app/control/ports/osc_message.h"
+#include "host_app/control/ports/messages/osc_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto messages = vantage::decode_osc(std::as_bytes(std::span(data, size)));

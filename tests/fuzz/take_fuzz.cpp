@@ -7,7 +7,7 @@ extern "C" {
 #include <libavutil/log.h>
 }
 
-#include "common/take/frame_storage.h"
+#include "common/take/format/frame_storage.h"
 #include "common/take/take_reader.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/seed_frames.h"

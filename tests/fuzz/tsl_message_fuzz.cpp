@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "host_app/control/ports/tsl_message.h"
-#include "host_app/control/ports/tsl_stream.h"
+#include "host_app/control/ports/messages/tsl_message.h"
+#include "host_app/control/ports/messages/tsl_stream.h"
 
 namespace vantage {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/gl/texture.h"
+#include "common/gl/objects/texture.h"
 
 namespace vantage {
 

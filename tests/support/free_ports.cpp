@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 
 #include "common/base/error.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 namespace {

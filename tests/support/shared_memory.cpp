@@ -11,7 +11,7 @@
 #include <xf86drm.h>
 #include <xf86drmMode.h>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "common/base/embedded_text.h"
+#include "common/base/files/embedded_text.h"
 
 namespace vantage {
 

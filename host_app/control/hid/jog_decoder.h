@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "host_app/control/hid/jog_event.h"
 #include "host_app/control/hid/jog_port.h"
 

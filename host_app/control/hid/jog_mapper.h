@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "host_app/control/hid/jog_deck.h"
+#include "host_app/control/hid/jog_devices.h"
 #include "host_app/flight/flight_input.h"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "host_app/control/hid/jog_bus.h"
 
 namespace vantage {

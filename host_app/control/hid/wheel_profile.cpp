@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "common/base/atomic_file.h"
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/folder.h"
-#include "common/base/nearest_name.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/config/toml_reader.h"
 #include "host_app/control/hid/embedded_wheels.h"
 

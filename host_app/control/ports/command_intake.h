@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host_app/control/flight_controls.h"
-#include "host_app/control/ports/allowance.h"
+#include "host_app/control/ports/message_budget.h"
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {

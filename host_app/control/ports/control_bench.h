@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "common/base/time.h"
+#include "common/base/time/time.h"
 #include "host_app/control/flight_controls.h"
 #include "host_app/control/ports/ltc_board.h"
 #include "host_app/control/table/lamp.h"

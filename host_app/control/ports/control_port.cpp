@@ -1,8 +1,8 @@
 #include "host_app/control/ports/control_port.h"
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/nearest_name.h"
 
 namespace vantage {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host_app/control/ports/midi_message.h"
+#include "host_app/control/ports/messages/midi_message.h"
 
 struct _snd_seq;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/control/ports/midi_map.h"
+#include "host_app/control/ports/messages/midi_map.h"
 
 namespace vantage {
 

@@ -10,7 +10,7 @@
 
 #include <netinet/in.h>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "host_app/output/output_url.h"
 
 namespace vantage {

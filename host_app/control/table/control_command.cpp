@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/base/nearest_name.h"
 #include "common/config/toml_text.h"
 #include "host_app/control/table/command_parts.h"
 

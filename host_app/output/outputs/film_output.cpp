@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "common/base/error.h"
-#include "common/base/output_path.h"
+#include "common/base/files/output_path.h"
+#include "host_app/output/media/video_writer.h"
 #include "host_app/output/output_target.h"
-#include "host_app/output/video_writer.h"
 
 namespace vantage {
 namespace {

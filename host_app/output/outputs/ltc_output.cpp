@@ -3,13 +3,13 @@
 #include <variant>
 
 #include "common/base/error.h"
-#include "common/base/output_path.h"
-#include "common/base/pulse_grid.h"
+#include "common/base/files/output_path.h"
+#include "common/base/time/pulse_grid.h"
 #include "host_app/ltc/ltc_flywheel.h"
 #include "host_app/ltc/ltc_writer.h"
-#include "host_app/output/alsa_playback.h"
+#include "host_app/output/media/alsa_playback.h"
+#include "host_app/output/media/wav_file.h"
 #include "host_app/output/output_target.h"
-#include "host_app/output/wav_file.h"
 
 namespace vantage {
 namespace {

@@ -10,10 +10,10 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
+#include "common/base/time/pulse_grid.h"
+#include "host_app/output/media/picture_converter.h"
 #include "host_app/output/output_target.h"
-#include "host_app/output/picture_converter.h"
 
 namespace vantage {
 namespace {

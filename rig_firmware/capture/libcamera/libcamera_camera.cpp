@@ -21,8 +21,8 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/pulse_grid.h"
-#include "common/base/time.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/base/time/time.h"
 #include "common/wire/wake_event.h"
 #include "rig_firmware/capture/buffer_lender.h"
 #include "rig_firmware/capture/camera_access.h"

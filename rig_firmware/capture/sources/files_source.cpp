@@ -1,9 +1,9 @@
 #include "common/base/error.h"
 #include "common/config/rig_config.h"
-#include "rig_firmware/capture/pulse_pacer.h"
-#include "rig_firmware/capture/stereo_material.h"
+#include "rig_firmware/capture/material/pulse_pacer.h"
+#include "rig_firmware/capture/material/stereo_material.h"
+#include "rig_firmware/capture/material/virtual_skew.h"
 #include "rig_firmware/capture/stereo_source.h"
-#include "rig_firmware/capture/virtual_skew.h"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/config/rig_config.h"
 #include "rig_firmware/capture/camera_source.h"
 #include "rig_firmware/capture/v4l2/v4l2_camera.h"

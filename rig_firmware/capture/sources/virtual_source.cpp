@@ -1,17 +1,17 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/rig_config.h"
-#include "common/gl/driver_turn.h"
-#include "common/gl/egl_context.h"
+#include "common/gl/context/driver_lock.h"
+#include "common/gl/context/egl_context.h"
 #include "common/gl/shader_library.h"
 #include "common/virtual_stage/performer.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "rig_firmware/capture/material/pulse_pacer.h"
+#include "rig_firmware/capture/material/virtual_skew.h"
 #include "rig_firmware/capture/pair_loop.h"
-#include "rig_firmware/capture/pulse_pacer.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/capture/stereo_source.h"
-#include "rig_firmware/capture/virtual_skew.h"
 
 namespace vantage {
 namespace {

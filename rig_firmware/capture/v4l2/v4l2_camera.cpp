@@ -11,9 +11,9 @@
 #include <linux/videodev2.h>
 #include <sys/mman.h>
 
+#include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/nearest_name.h"
 
 namespace vantage {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/time.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
+#include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "rig_firmware/capture/buffer_lender.h"
 #include "rig_firmware/capture/pixel_conversion.h"

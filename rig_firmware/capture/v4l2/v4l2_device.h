@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "rig_firmware/capture/device_lost.h"
 
 namespace vantage {

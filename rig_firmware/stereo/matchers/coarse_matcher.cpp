@@ -1,12 +1,12 @@
 #include <algorithm>
 
+#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
+#include "rig_firmware/stereo/disparity/upsample_pass.h"
 #include "rig_firmware/stereo/engine_matcher.h"
-#include "rig_firmware/stereo/passes/halve_pass.h"
-#include "rig_firmware/stereo/passes/halved_cost_pass.h"
-#include "rig_firmware/stereo/passes/halved_cost_reference.h"
-#include "rig_firmware/stereo/passes/perm_pass.h"
-#include "rig_firmware/stereo/passes/sgm_pass.h"
-#include "rig_firmware/stereo/passes/upsample_pass.h"
+#include "rig_firmware/stereo/features/halve_pass.h"
+#include "rig_firmware/stereo/volume/halved_cost_pass.h"
+#include "rig_firmware/stereo/volume/perm_pass.h"
+#include "rig_firmware/stereo/volume/sgm_pass.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,5 @@
 #include "rig_firmware/stereo/engine_matcher.h"
-#include "rig_firmware/stereo/passes/perm_pass.h"
+#include "rig_firmware/stereo/volume/perm_pass.h"
 
 namespace vantage {
 namespace {

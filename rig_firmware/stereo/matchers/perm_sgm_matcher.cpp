@@ -1,7 +1,7 @@
+#include "rig_firmware/stereo/disparity/streak_pass.h"
 #include "rig_firmware/stereo/engine_matcher.h"
-#include "rig_firmware/stereo/passes/perm_pass.h"
-#include "rig_firmware/stereo/passes/sgm_pass.h"
-#include "rig_firmware/stereo/passes/streak_pass.h"
+#include "rig_firmware/stereo/volume/perm_pass.h"
+#include "rig_firmware/stereo/volume/sgm_pass.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,5 @@
 #include "rig_firmware/stereo/engine_matcher.h"
-#include "rig_firmware/stereo/passes/sgm_pass.h"
+#include "rig_firmware/stereo/volume/sgm_pass.h"
 
 namespace vantage {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/gl/framebuffer.h"
 #include "common/gl/fullscreen_pass.h"
-#include "common/gl/texture.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 #include "rig_firmware/stereo/thesis/storage_pass.h"
 
 namespace vantage::thesis {

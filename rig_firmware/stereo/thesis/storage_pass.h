@@ -4,8 +4,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/gl/buffer.h"
-#include "common/gl/program.h"
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 
 namespace vantage::thesis {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/base/pulse_grid.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/clock_pair.h"

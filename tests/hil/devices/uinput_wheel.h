@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace vantage {
 

@@ -15,7 +15,7 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
-#include "tests/unit/take/small_take.h"
+#include "tests/unit/common/take/small_take.h"
 
 namespace vantage {
 namespace {

@@ -20,7 +20,7 @@
 #include <usbredirparser.h>
 
 #include "common/base/error.h"
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "tests/hil/usb_camera/uvc_descriptors.h"
 #include "tests/hil/usb_camera/yuyv_picture.h"
 

@@ -3,9 +3,9 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
-#include "common/base/kernel_clock.h"
 #include "common/base/log.h"
-#include "common/base/timecode.h"
+#include "common/base/time/kernel_clock.h"
+#include "common/base/time/timecode.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/ltc/ltc_reader.h"
 #include "host_app/sound/sound_decoder.h"

@@ -8,7 +8,7 @@
 #include "common/base/log.h"
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/control/ports/osc_message.h"
+#include "host_app/control/ports/messages/osc_message.h"
 #include "host_app/control/ports/udp_socket.h"
 #include "host_app/control/table/control_command.h"
 

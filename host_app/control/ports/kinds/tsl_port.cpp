@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/messages/tsl_message.h"
+#include "host_app/control/ports/messages/tsl_stream.h"
 #include "host_app/control/ports/tcp_listener.h"
-#include "host_app/control/ports/tsl_message.h"
-#include "host_app/control/ports/tsl_stream.h"
 #include "host_app/control/ports/udp_socket.h"
 
 namespace vantage {

@@ -1,0 +1,145 @@
+#include "common/base/cli/command_documents.h"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/base/cli/command_tree.h"
+
+namespace vantage {
+namespace {
+
+/// The app and everything below it, with the words that lead there ("rigs status").
+void visit(const CLI::App& app, const std::string& words,
+           const std::function<void(const CLI::App&, const std::string&)>& action) {
+    action(app, words);
+    for (const CLI::App* command : commands_of(app))
+        visit(*command, words.empty() ? command->get_name() : words + " " + command->get_name(),
+              action);
+}
+
+/// Plain text as roff takes it: nothing of it is a request, '-' stays a hyphen that can be typed.
+std::string roff(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (escaped.empty() || escaped.back() == '\n') {
+            if (c == '.' || c == '\'') escaped += "\\&";
+        }
+        if (c == '\\')
+            escaped += "\\e";
+        else if (c == '-')
+            escaped += "\\-";
+        else
+            escaped += c;
+    }
+    return escaped;
+}
+
+std::string roff_option(const CLI::Option& option) {
+    std::string value = option.get_type_name();
+    if (!value.empty() && option.get_items_expected_max() > 0) value = " " + value;
+    const std::string names =
+        option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+    return fmt::format(".TP\n.B {}\n{}{}\n", roff(names + value), roff(option.get_description()),
+                       option.get_required() ? " (required)" : "");
+}
+
+std::string roff_options(const CLI::App& app) {
+    std::string text;
+    for (const CLI::Option* option : options_of(app))
+        if (!option->get_group().empty()) text += roff_option(*option);
+    return text;
+}
+
+/// The words that an option's type names in braces, "{auto,best}": what its value may be.
+std::vector<std::string> words_of(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    std::vector<std::string> words;
+    for (std::size_t open = type.find('{'); open != std::string::npos;
+         open = type.find('{', open)) {
+        const std::size_t close = std::min(type.find('}', open), type.size());
+        for (std::size_t at = ++open; at < close;) {
+            const std::size_t end = std::min(type.find(',', at), close);
+            words.push_back(type.substr(at, end - at));
+            at = end + 1;
+        }
+    }
+    return words;
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& program, std::string_view version) {
+    const std::string& name = program.get_name();
+    std::string title = name;
+    std::transform(title.begin(), title.end(), title.begin(), ::toupper);
+    std::string text = fmt::format(
+        ".TH {} 1 \"\" \"{} {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n"
+        "COMMAND [OPTIONS]\n",
+        roff(title), roff(name), roff(version), roff(name), roff(program.get_description()),
+        roff(name));
+    visit(program, "", [&](const CLI::App& app, const std::string& words) {
+        if (words.empty()) {
+            text += ".SH OPTIONS\n" + roff_options(app) + ".SH COMMANDS\n";
+            return;
+        }
+        text +=
+            fmt::format(".SS {} {}\n{}\n", roff(name), roff(words), roff(app.get_description()));
+        if (commands_of(app).empty()) text += roff_options(app);
+    });
+    return text +
+           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, or what was "
+           "checked is bad, said in a sentence. 2: words that do not fit. 3: what was asked cannot "
+           "be told from what there is. 130: ended by Ctrl\\-C.\n";
+}
+
+std::string bash_completion(const CLI::App& program) {
+    const std::string& name = program.get_name();
+    std::string function = "_" + name;
+    std::replace(function.begin(), function.end(), '-', '_');
+    std::string places, words_of_places, values_of_options;
+    visit(program, "", [&](const CLI::App& app, const std::string& words) {
+        if (!words.empty()) places += fmt::format("{}'{}'", places.empty() ? "" : " | ", words);
+        std::vector<std::string> commands, options;
+        for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
+        for (const CLI::Option* option : options_of(app))
+            for (const std::string& option_name : option->get_lnames()) {
+                options.push_back("--" + option_name);
+                if (const std::vector<std::string> values = words_of(*option); !values.empty())
+                    values_of_options += fmt::format("    '{} --{}') values='{}' ;;\n", words,
+                                                     option_name, fmt::join(values, " "));
+            }
+        words_of_places += fmt::format("    '{}') commands='{}' options='{}' ;;\n", words,
+                                       fmt::join(commands, " "), fmt::join(options, " "));
+    });
+    return fmt::format(
+        R"(# Completes {0} in bash: commands, options, and files elsewhere. Made by: {0} --bash-completion
+{1}() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} place= commands= options= values= i next
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    next=${{place:+$place }}${{COMP_WORDS[i]}}
+    case $next in
+      {2}) place=$next ;;
+    esac
+  done
+  case $place in
+{3}  esac
+  case "$place ${{COMP_WORDS[COMP_CWORD - 1]}}" in
+{4}    *) ;;
+  esac
+  case ${{values:+values}}$word in
+    values*) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word") ;;
+    -*) mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word") ;;
+    *) mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$word") ;;
+  esac
+}}
+complete -o default -F {1} {0}
+)",
+        name, function, places, words_of_places, values_of_options);
+}
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#include "common/base/time/kernel_clock.h"
+
+#include <sys/timex.h>
+#include <time.h>
+
+namespace vantage {
+
+namespace {
+
+int seconds_between_tai_and_utc() {
+    timespec utc{}, tai{};
+    ::clock_gettime(CLOCK_REALTIME, &utc);
+    ::clock_gettime(CLOCK_TAI, &tai);
+    // TAI is read a moment later, so that whole seconds are not cut to one less.
+    const auto ns = [](const timespec& t) { return t.tv_sec * 1'000'000'000LL + t.tv_nsec; };
+    return static_cast<int>((ns(tai) - ns(utc)) / 1'000'000'000LL);
+}
+
+}  // namespace
+
+KernelClock read_kernel_clock() {
+    // Whoever trims the clock resets its greatest error, which grows by 500 ppm until the next
+    // time.
+    constexpr long growth_us_per_s = 500, lately_s = 10;
+    timex state{};
+    // A sandbox may keep the question back; how far TAI is from UTC the clocks themselves show.
+    if (::adjtimex(&state) < 0) return {.tai_offset_s = seconds_between_tai_and_utc()};
+    return {.tai_offset_s = state.tai,
+            .is_synchronized = (state.status & STA_UNSYNC) == 0,
+            .was_set_lately = state.maxerror <= lately_s * growth_us_per_s};
+}
+
+}  // namespace vantage

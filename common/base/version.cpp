@@ -1,7 +1,0 @@
-#include "common/base/version.h"
-
-namespace vantage {
-
-std::string_view version() { return VANTAGE_VERSION; }
-
-}  // namespace vantage

@@ -1,0 +1,50 @@
+#include "common/gl/objects/fence.h"
+
+#include <optional>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/gl/context/context_loss.h"
+#include "common/gl/context/driver_lock.h"
+
+namespace vantage {
+
+Fence Fence::insert() {
+    Fence fence;
+    fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!fence.sync_) fail("the driver has no memory for a fence");
+    // Unsent, it would hold other contexts for ever.
+    glFlush();
+    return fence;
+}
+
+Fence::Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+
+Fence& Fence::operator=(Fence&& other) noexcept {
+    std::swap(sync_, other.sync_);
+    return *this;
+}
+
+Fence::~Fence() {
+    if (sync_) glDeleteSync(sync_);
+}
+
+bool Fence::reached_within(std::chrono::nanoseconds time) const {
+    if (!sync_) return true;
+    // Who only asks keeps its turn: to get it back it might wait.
+    std::optional<DriverTurn::Pause> pause;
+    if (time.count() > 0) pause.emplace();
+    const GLenum outcome = glClientWaitSync(sync_, 0, static_cast<GLuint64>(time.count()));
+    if (outcome == GL_WAIT_FAILED) fail("the GPU was lost while its work was waited for");
+    return outcome != GL_TIMEOUT_EXPIRED;
+}
+
+void Fence::wait(const char* doing) const {
+    while (!reached_within(std::chrono::seconds(1))) require_context(doing);
+}
+
+void Fence::hold_current_context() const {
+    if (sync_) glWaitSync(sync_, 0, GL_TIMEOUT_IGNORED);
+}
+
+}  // namespace vantage

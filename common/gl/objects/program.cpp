@@ -1,0 +1,141 @@
+#include "common/gl/objects/program.h"
+
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/gl/context/limits.h"
+#include "common/gl/sliced_drawing.h"
+
+namespace vantage {
+namespace {
+
+inline void delete_shader(GLuint name) { glDeleteShader(name); }
+using Shader = GlHandle<delete_shader>;
+
+std::string shader_log(GLuint shader) {
+    GLint length = 0;
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetShaderInfoLog(shader, length, nullptr, log.data());
+    return log;
+}
+
+Shader compile(GLenum stage, const std::string& file, const std::string& source) {
+    Shader shader(glCreateShader(stage));
+    const char* text = source.c_str();
+    glShaderSource(shader.name(), 1, &text, nullptr);
+    glCompileShader(shader.name());
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
+    if (!ok) fail("shader {} does not compile: {}", file, shader_log(shader.name()).c_str());
+    return shader;
+}
+
+}  // namespace
+
+Program Program::render(const ShaderLibrary& library, std::string vertex, std::string fragment,
+                        ShaderDefines defines) {
+    return Program(library, std::move(vertex), std::move(fragment), std::move(defines));
+}
+
+Program Program::compute(const ShaderLibrary& library, std::string file, ShaderDefines defines) {
+    return Program(library, std::move(file), "", std::move(defines));
+}
+
+Program::Program(const ShaderLibrary& library, std::string first, std::string second,
+                 ShaderDefines defines)
+    : library_(&library),
+      first_(std::move(first)),
+      second_(std::move(second)),
+      defines_(std::move(defines)) {
+    build();
+}
+
+void Program::build() {
+    const bool is_compute = second_.empty();
+    std::vector<Shader> shaders;
+    shaders.push_back(compile(is_compute ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, first_,
+                              library_->source(first_, defines_)));
+    if (!is_compute)
+        shaders.push_back(
+            compile(GL_FRAGMENT_SHADER, second_, library_->source(second_, defines_)));
+    GlHandle<delete_program> handle(glCreateProgram());
+    for (const Shader& shader : shaders) glAttachShader(handle.name(), shader.name());
+    glLinkProgram(handle.name());
+    GLint ok = GL_FALSE;
+    glGetProgramiv(handle.name(), GL_LINK_STATUS, &ok);
+    if (!ok) {
+        GLint length = 0;
+        glGetProgramiv(handle.name(), GL_INFO_LOG_LENGTH, &length);
+        std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+        glGetProgramInfoLog(handle.name(), length, nullptr, log.data());
+        fail("shaders {} {} do not link: {}", first_, second_, log.c_str());
+    }
+    if (is_compute) {
+        glGetProgramiv(handle.name(), GL_COMPUTE_WORK_GROUP_SIZE, workgroup_);
+        const int invocations = workgroup_[0] * workgroup_[1] * workgroup_[2];
+        if (invocations > PiLimits::max_workgroup_invocations)
+            fail("shader {} has workgroups of {} invocations; a Raspberry Pi takes {}", first_,
+                 invocations, PiLimits::max_workgroup_invocations);
+    }
+    handle_ = std::move(handle);
+    locations_.clear();
+    generation_ = library_->generation();
+}
+
+void Program::use() {
+    if (generation_ != library_->generation()) {
+        generation_ = library_->generation();
+        try {
+            build();
+            log_info("took up the edited shader {} {}", first_, second_);
+        } catch (const Error& error) {
+            log_error("{}; the last good one stays", error.what());
+        }
+    }
+    glUseProgram(handle_.name());
+}
+
+GLint Program::location(std::string_view name) {
+    const auto [at, is_new] = locations_.try_emplace(std::string(name), -1);
+    if (is_new) at->second = glGetUniformLocation(handle_.name(), at->first.c_str());
+    return at->second;
+}
+
+void Program::set(std::string_view name, int value) { glUniform1i(location(name), value); }
+void Program::set(std::string_view name, unsigned value) { glUniform1ui(location(name), value); }
+void Program::set(std::string_view name, float value) { glUniform1f(location(name), value); }
+void Program::set(std::string_view name, const Eigen::Vector2i& value) {
+    glUniform2iv(location(name), 1, value.data());
+}
+void Program::set(std::string_view name, const Eigen::Vector2f& value) {
+    glUniform2fv(location(name), 1, value.data());
+}
+void Program::set(std::string_view name, const Eigen::Vector3f& value) {
+    glUniform3fv(location(name), 1, value.data());
+}
+void Program::set(std::string_view name, const Eigen::Vector4f& value) {
+    glUniform4fv(location(name), 1, value.data());
+}
+void Program::set(std::string_view name, const Eigen::Matrix3f& value) {
+    glUniformMatrix3fv(location(name), 1, GL_FALSE, value.data());
+}
+void Program::set(std::string_view name, const Eigen::Matrix4f& value) {
+    glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
+}
+void Program::set(std::string_view name, std::span<const Eigen::Vector4f> values) {
+    if (values.empty()) return;
+    glUniform4fv(location(name), static_cast<GLsizei>(values.size()), values.front().data());
+}
+
+void Program::dispatch_over(int width, int height, int depth) const {
+    const auto groups = [](int invocations, int size) {
+        return static_cast<GLuint>((invocations + size - 1) / size);
+    };
+    if (const SlicedDrawing* slices = SlicedDrawing::current()) slices->give_way();
+    glDispatchCompute(groups(width, workgroup_[0]), groups(height, workgroup_[1]),
+                      groups(depth, workgroup_[2]));
+}
+
+}  // namespace vantage

@@ -1,0 +1,30 @@
+#include "host_app/background/background_stereo_task.h"
+
+#include <utility>
+
+#include "common/base/this_thread.h"
+
+namespace vantage {
+
+void SetMatching::begin(std::vector<SetPicture> sets, Manner manner) {
+    auto match = [sets = std::move(sets), stop = stop_.get_token()] {
+        return match_sets(sets, stop);
+    };
+    if (manner == Manner::when_waited_for)
+        result_ = std::async(std::launch::deferred, std::move(match));
+    else
+        result_ = std::async(std::launch::async, [match = std::move(match)] {
+            name_this_thread("set matching");
+            make_this_thread_idle();
+            return match();
+        });
+}
+
+std::optional<std::vector<DepthImage>> SetMatching::take(bool waits) {
+    if (!result_.valid()) return std::nullopt;
+    if (!waits && result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return std::nullopt;
+    return result_.get();
+}
+
+}  // namespace vantage

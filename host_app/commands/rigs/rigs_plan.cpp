@@ -1,0 +1,256 @@
+#include "host_app/commands/rigs/rigs_plan.h"
+
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/cli/stop_signal.h"
+#include "common/base/error.h"
+#include "common/base/time/time.h"
+#include "common/config/stage_config.h"
+#include "common/receive/link_budget.h"
+#include "common/receive/stage_receiver.h"
+#include "common/wire/codec/colour_codec.h"
+#include "common/wire/frame_codec.h"
+#include "host_app/pipeline/rig_demand.h"
+#include "host_app/session/options/help_words.h"
+
+namespace vantage {
+namespace {
+
+struct PlanOptions {
+    std::string stage;
+    double seconds = 3, wait_s = 10, rate_hz = 0;
+    LinkLimits limits{.programme_rigs = RigDemand::most_rigs};
+    bool start = false, json = false;
+};
+
+/// Qualities that are tried where it does not fit as it is.
+constexpr int ladder[] = {90, 85, 80, 75, 70, 65, 60, 50, 40};
+/// Likewise sizes, of width and height, at a usual quality.
+constexpr double smaller_by[] = {0.75, 0.5};
+constexpr int usual_quality = 85;
+
+/// Sums of what came, by rig.
+class Scales {
+  public:
+    explicit Scales(const StageConfig& stage) {
+        for (const StageConfig::Rig& rig : stage.rigs) weights_.push_back({.rig = rig.name});
+    }
+    void see(const ArrivedFrame& frame) {
+        const std::lock_guard lock(mutex_);
+        RigWeight& weight = weights_[frame.rig];
+        ++weight.frames;
+        weight.colour_bytes += static_cast<double>(frame.packed->colour.size());
+        weight.other_bytes +=
+            static_cast<double>(frame.packed->bytes() - frame.packed->colour.size());
+    }
+    /// The rigs that nothing came of.
+    std::vector<std::string> silent() const {
+        const std::lock_guard lock(mutex_);
+        std::vector<std::string> silent;
+        for (const RigWeight& weight : weights_)
+            if (weight.frames == 0) silent.push_back(weight.rig);
+        return silent;
+    }
+    std::vector<RigWeight> means() const {
+        const std::lock_guard lock(mutex_);
+        std::vector<RigWeight> means = weights_;
+        for (RigWeight& weight : means) {
+            weight.colour_bytes /= std::max(1, weight.frames);
+            weight.other_bytes /= std::max(1, weight.frames);
+        }
+        return means;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<RigWeight> weights_;
+};
+
+/// A rig's latest picture, packed anew at every quality and size with the chroma that it sends;
+/// what is sent without loss has that of a rig that is not told any.
+void weigh(const RigFrame& frame, RigWeight& weight) {
+    const bool is_jpeg = decode_frame_head(frame.packed->header).colour == FrameHead::Colour::jpeg;
+    const Chroma chroma = is_jpeg ? JpegDecoder().chroma_of(frame.packed->colour) : Chroma::quarter;
+    JpegEncoder encoder;
+    for (const int quality : ladder)
+        weight.ladder.push_back(
+            {quality, static_cast<double>(encoder.encode(frame.colour, quality, chroma).size())});
+    const auto whole = encoder.encode(frame.colour, usual_quality, chroma).size();
+    for (const double scale : smaller_by) {
+        cv::Mat smaller;
+        cv::resize(frame.colour, smaller, {}, scale, scale, cv::INTER_AREA);
+        const auto bytes = encoder.encode(smaller, usual_quality, chroma).size();
+        weight.smaller.push_back({scale, static_cast<double>(bytes) / static_cast<double>(whole)});
+    }
+}
+
+struct Measured {
+    std::vector<RigWeight> weights;
+    std::vector<std::shared_ptr<const RigFrame>> latest;  ///< of each; null: it has no colour
+};
+
+Measured measure(const PlanOptions& options, const StageConfig& stage) {
+    StopSignal stop;
+    Scales scales(stage);
+    StageReceiver receiver(
+        stage, options.start ? StageReceiver::Purpose::film : StageReceiver::Purpose::look_on,
+        [&](const ArrivedFrame& frame) { scales.see(frame); });
+    for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, true, 1);
+    std::vector<std::shared_ptr<const RigFrame>> latest(stage.rigs.size());
+    const MonotonicTime give_up = MonotonicClock::now() + from_s(options.wait_s);
+    std::optional<MonotonicTime> end;
+    while (!stop.requested()) {
+        const MonotonicTime now = MonotonicClock::now();
+        if (end ? now >= *end : now >= give_up) break;
+        const std::optional<FrameSet> set = receiver.next(std::chrono::milliseconds(100));
+        if (!set) continue;
+        // A rig that starts later than the others is weighed as long as they are.
+        if (!end && scales.silent().empty()) end = MonotonicClock::now() + from_s(options.seconds);
+        for (std::size_t i = 0; i < set->slots.size(); ++i)
+            if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
+                latest[i] = set->slots[i].frame;
+    }
+    if (const std::vector<std::string> silent = scales.silent(); !silent.empty())
+        fail("nothing came of {}: {}; vantage rigs status says how the rigs are",
+             fmt::join(silent, ", "),
+             options.start ? "a rig that sends nothing cannot be weighed"
+                           : "rigs film once a host runs the stage, or this is told --start");
+    return {scales.means(), std::move(latest)};
+}
+
+std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
+    constexpr double percent = 100;
+    if (proposal.scale < 1)
+        return fmt::format("pictures of {:.0f} % of the width and the height",
+                           percent * proposal.scale);
+    if (proposal.rigs > 0)
+        return fmt::format("{} rigs at a time, as a programme asks for that records no take",
+                           proposal.rigs);
+    std::string text;
+    if (proposal.jpeg_quality) text = fmt::format("jpeg_quality = {}", *proposal.jpeg_quality);
+    if (proposal.rate_divisor > 1)
+        text +=
+            fmt::format("{}{:.4g} pictures a second, every {}{} pulse", text.empty() ? "" : " and ",
+                        rate_hz / proposal.rate_divisor, proposal.rate_divisor,
+                        proposal.rate_divisor == 2   ? "nd"
+                        : proposal.rate_divisor == 3 ? "rd"
+                                                     : "th");
+    return text;
+}
+
+void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, double rate_hz) {
+    constexpr double bytes_a_kb = 1e3, percent = 100;
+    std::size_t width = 4;
+    for (const RigWeight& weight : weights) width = std::max(width, weight.rig.size());
+    std::cout << fmt::format("{:{}}  {:>9}  {:>8}  {:>8}  {:>22}\n", "", width, "colour kB",
+                             "other kB", "Mbit/s", "of what is planned for");
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        std::cout << fmt::format("{:{}}  {:9.1f}  {:8.1f}  {:8.1f}  {:20.0f} %\n", weights[i].rig,
+                                 width, weights[i].colour_bytes / bytes_a_kb,
+                                 weights[i].other_bytes / bytes_a_kb, budget.rigs[i].mbit_s,
+                                 percent * budget.rigs[i].share);
+    std::cout << fmt::format("{:{}}  {:9}  {:8}  {:8.1f}  {:20.0f} %\n", "host", width, "", "",
+                             budget.host_mbit_s, percent * budget.host_share);
+    if (budget.fits()) return;
+    for (const LinkBudget::Proposal& proposal : budget.proposals)
+        std::cout << fmt::format("it would fit with {}: {:.0f} Mbit/s at the host\n",
+                                 words_of(proposal, rate_hz), proposal.host_mbit_s);
+}
+
+nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const LinkBudget& budget,
+                               double rate_hz) {
+    nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), proposals = rigs;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        rigs.push_back({{"name", weights[i].rig},
+                        {"frames", weights[i].frames},
+                        {"colour_bytes", weights[i].colour_bytes},
+                        {"other_bytes", weights[i].other_bytes},
+                        {"mbit_s", budget.rigs[i].mbit_s},
+                        {"share", budget.rigs[i].share}});
+    for (const LinkBudget::Proposal& proposal : budget.proposals) {
+        nlohmann::ordered_json json{{"rate_divisor", proposal.rate_divisor},
+                                    {"host_mbit_s", proposal.host_mbit_s}};
+        if (proposal.jpeg_quality) json["jpeg_quality"] = *proposal.jpeg_quality;
+        if (proposal.scale < 1) json["scale"] = proposal.scale;
+        if (proposal.rigs > 0) json["rigs"] = proposal.rigs;
+        proposals.push_back(std::move(json));
+    }
+    return {{"rate_hz", rate_hz},
+            {"rigs", rigs},
+            {"host", {{"mbit_s", budget.host_mbit_s}, {"share", budget.host_share}}},
+            {"fits", budget.fits()},
+            {"proposals", proposals}};
+}
+
+void plan(const PlanOptions& options) {
+    const StageConfig stage = load_stage_config(options.stage);
+    auto [weights, latest] = measure(options, stage);
+    const double rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz;
+    LinkBudget budget = plan_links(weights, rate_hz, options.limits);
+    if (!budget.fits()) {
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            if (latest[i]) weigh(*latest[i], weights[i]);
+        budget = plan_links(weights, rate_hz, options.limits);
+    }
+    if (options.json)
+        std::cout << to_json(weights, budget, rate_hz).dump() << '\n';
+    else
+        print(weights, budget, rate_hz);
+    if (budget.fits()) return;
+    std::string full;
+    for (const LinkBudget::Rig& rig : budget.rigs)
+        if (rig.share > 1)
+            full +=
+                fmt::format("{}{} needs {:.0f} Mbit/s of a link of {:g}", full.empty() ? "" : "; ",
+                            rig.rig, rig.mbit_s, options.limits.rig_mbit_s);
+    if (budget.host_share > 1)
+        full +=
+            fmt::format("{}the host needs {:.0f} Mbit/s of a link of {:g}",
+                        full.empty() ? "" : "; ", budget.host_mbit_s, options.limits.host_mbit_s);
+    fail("{}, of which four fifths are planned for", full);
+}
+
+}  // namespace
+
+void add_rigs_plan(CLI::App& rigs) {
+    auto options = std::make_shared<PlanOptions>();
+    CLI::App* plans = rigs.add_subcommand(
+        "plan",
+        "Weighs what every rig sends and says whether the network carries it; ends with 1 if not, "
+        "and says what would fit");
+    plans->add_option("--stage", options->stage, stage_file_help)->required();
+    plans
+        ->add_option("--rig-link", options->limits.rig_mbit_s,
+                     "Mbit/s of each rig's network interface")
+        ->check(CLI::Range(1.0, 1e6))
+        ->capture_default_str();
+    plans
+        ->add_option("--host-link", options->limits.host_mbit_s,
+                     "Mbit/s of the host's network interface")
+        ->check(CLI::Range(1.0, 1e6))
+        ->capture_default_str();
+    plans
+        ->add_option("--rate", options->rate_hz,
+                     "Pictures a second to plan for (default: the stage's)")
+        ->check(CLI::Range(0.01, 1000.0));
+    plans->add_option("--seconds", options->seconds, "How long frames are weighed")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    plans->add_option("--wait", options->wait_s, "Seconds to wait for the first frames")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    plans->add_flag("--start", options->start,
+                    "Start the stage's pulses: no other host runs it now");
+    plans->add_flag("--json", options->json, "Print it as JSON");
+    plans->callback([options] { plan(*options); });
+}
+
+}  // namespace vantage

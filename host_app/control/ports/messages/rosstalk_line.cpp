@@ -1,0 +1,45 @@
+#include "host_app/control/ports/messages/rosstalk_line.h"
+
+#include <charconv>
+
+namespace vantage {
+namespace {
+
+/// Digits alone, from 0 on.
+std::optional<int> number_of(std::string_view text) {
+    constexpr int most = 99'999;
+    int number = 0;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, number);
+    if (error != std::errc() || end != last || number < 0 || number > most || text.front() == '-')
+        return std::nullopt;
+    return number;
+}
+
+}  // namespace
+
+RossTalkLine parse_rosstalk(std::string_view line) {
+    constexpr std::string_view gpi = "GPI ", xpt = "XPT ";
+    if (line.starts_with(gpi)) {
+        const auto number = number_of(line.substr(gpi.size()));
+        if (!number) return {{}, true};
+        return {RossTalkOrder{RossTalkOrder::Kind::gpi, *number, 0}, true};
+    }
+    if (!line.starts_with(xpt)) return {};
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos) return {{}, true};
+    const auto destination = number_of(line.substr(xpt.size(), colon - xpt.size()));
+    const auto source = number_of(line.substr(colon + 1));
+    if (!destination || !source) return {{}, true};
+    return {RossTalkOrder{RossTalkOrder::Kind::xpt, *destination, *source}, true};
+}
+
+std::optional<std::string> RossTalkLines::next() {
+    const std::size_t end = waiting_.find("\r\n");
+    if (end == std::string::npos) return std::nullopt;
+    std::string line = waiting_.substr(0, end);
+    waiting_.erase(0, end + 2);
+    return line;
+}
+
+}  // namespace vantage

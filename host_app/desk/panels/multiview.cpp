@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host_app/desk/panels/desk_parts.h"
+#include "host_app/desk/rig_look.h"
+
+namespace vantage {
+namespace {
+
+/// Of a set that counts as learnt.
+constexpr double mostly_known = 0.8;
+
+/// A picture as large as fits into the rectangle's height; returns its width.
+float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture, bool is_of_now) {
+    const float aspect =
+        picture ? static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())
+                : 0.75f;
+    const float width = std::min(rect.width, rect.height / aspect);
+    const DeskRect place{rect.left, rect.top, width, width * aspect};
+    if (picture) pen.image(place, *picture);
+    // What is not of now stays, as what it was.
+    if (picture && !is_of_now) pen.fill(place, palette::veil);
+    if (!picture) pen.outline(place, palette::line);
+    return width;
+}
+
+/// "lost 15 rig, 1 host  ": where, and how many; empty: none.
+std::string lost_words(const DeskRig& rig) {
+    std::string words;
+    const auto add = [&](std::uint64_t count, const char* place) {
+        if (count > 0) words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, place);
+    };
+    add(rig.lost_at_rig, "rig");
+    add(rig.lost_on_the_way, "net");
+    add(rig.lost_at_host, "host");
+    return words.empty() ? "" : fmt::format("lost {}  ", words);
+}
+
+/// Under depth and mask, the most important first.
+void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) {
+    const Clipping clipping(pen, rect);
+    float y = rect.top;
+    const auto row = [&](const ImVec4& colour, const std::string& words) {
+        if (words.empty() || y + pen.em() > rect.bottom()) return;
+        pen.text_until(rect.right(), rect.left, y, colour, words);
+        y += 1.1f * pen.em();
+    };
+    if (!rig.worries.empty()) row(palette::warn, rig.worries.front());
+    if (rig.set_known) {
+        const bool is_learning = *rig.set_known < mostly_known;
+        row(is_learning ? palette::warn : palette::dim,
+            fmt::format("set {:.0f} %", 100 * *rig.set_known));
+    }
+    if (rig.nearest_m > 0)
+        row(palette::dim, fmt::format("{:.1f} to {:.1f} m", rig.nearest_m, rig.farthest_m));
+    const std::string heat =
+        rig.temperature_c ? fmt::format("{:.0f}\u00b0C  ", *rig.temperature_c) : "";
+    row(palette::dim, heat + rig.clock);
+    row(palette::dim, rig.calibration);
+}
+
+void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_of_take) {
+    const float em = pen.em();
+    pen.fill(cell, palette::panel);
+    const RigLook look = is_of_take && rig.state != RigState::present
+                             ? RigLook{"not in the take", Mark::care}
+                             : look_of(rig.state);
+    const float y = cell.top + 0.25f * em;
+    float x = pen.mark(cell.left + 0.4f * em, y, look.mark);
+    const float right = cell.right() - 0.4f * em;
+    x = pen.text_until(right, x, y, palette::text, rig.name, true) + 0.5f * em;
+    if (rig.state != RigState::present)
+        x = pen.text_until(right, x, y, colour_of(look.mark), look.words, true) + 0.5f * em;
+    if (!is_of_take) {
+        const std::string numbers = fmt::format("{:.1f}/s  {:.0f} ms", rig.rate_hz, rig.latency_ms);
+        const std::string lost = lost_words(rig);
+        // What was lost is told, where there is room for one of them.
+        if (x + pen.width_of(lost + numbers) <= right) {
+            pen.text_right(right, y, palette::dim, numbers);
+            pen.text_right(right - pen.width_of(numbers), y, palette::warn, lost);
+        } else {
+            pen.text_until(right, x, y, lost.empty() ? palette::dim : palette::warn,
+                           lost.empty() ? numbers : lost);
+        }
+    }
+    const bool is_of_now = rig.state == RigState::present;
+    const DeskRect pictures{cell.left, cell.top + 1.6f * em, cell.width, cell.height - 1.6f * em};
+    // A high cell has room beside it too.
+    constexpr float most_of_width = 0.66f;
+    DeskRect large = pictures;
+    large.width *= most_of_width;
+    const float width = draw_picture(pen, large, rig.colour, is_of_now);
+    // Depth and mask side by side or, where that makes them larger, one over the other, with room
+    // for words under them.
+    constexpr float usual_aspect = 0.75f, lines_of_words = 3.6f;
+    const float gap = 0.15f * em, left = cell.left + width + gap;
+    const float room = cell.right() - left;
+    const float high = pictures.height - lines_of_words * pen.line() - gap;
+    const float beside = std::min(0.5f * (room - gap), high / usual_aspect);
+    const float below = std::min(room, 0.5f * (high - gap) / usual_aspect);
+    const bool is_beside = beside >= below;
+    DeskRect half{left, pictures.top, std::max(beside, below), 0};
+    half.height = usual_aspect * half.width;
+    if (half.is_empty()) return;
+    draw_picture(pen, half, rig.depth, is_of_now);
+    (is_beside ? half.left : half.top) += (is_beside ? half.width : half.height) + gap;
+    draw_picture(pen, half, rig.mask, is_of_now);
+    draw_small_print(pen,
+                     {left + 0.2f * em, half.bottom() + gap, room - 0.2f * em,
+                      pictures.bottom() - half.bottom() - gap},
+                     rig);
+}
+
+}  // namespace
+
+void draw_multiview(const Pen& pen, const DeskRect& rect, int rows, const DeskState& state) {
+    if (rect.is_empty() || state.rigs.empty()) return;
+    const int count = static_cast<int>(state.rigs.size());
+    const int columns = (count + rows - 1) / rows;
+    const float gap = 0.3f * pen.em();
+    const float width = rect.width / static_cast<float>(columns);
+    const float height = rect.height / static_cast<float>(rows);
+    for (int i = 0; i < count; ++i)
+        draw_rig(pen,
+                 {rect.left + static_cast<float>(i % columns) * width,
+                  rect.top + static_cast<float>(i / columns) * height, width - gap, height},
+                 state.rigs[static_cast<std::size_t>(i)], state.is_of_take());
+}
+
+}  // namespace vantage

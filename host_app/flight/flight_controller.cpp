@@ -1,0 +1,381 @@
+#include "host_app/flight/flight_controller.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "common/base/log.h"
+#include "host_app/flight/moves/move_edit.h"
+
+namespace vantage {
+namespace {
+
+constexpr double rad_per_step = std::numbers::pi / 180;
+constexpr double rad_per_shuttle_s = 30 * std::numbers::pi / 180;
+constexpr double move_s_per_step = 0.1;
+/// Time in which a wheel's step is travelled by 63 %.
+constexpr double wheel_follow_s = 0.08;
+constexpr double join_s = 0.8;
+/// Of the turn to another pivot.
+constexpr double look_s = 0.8;
+/// What a flight from rest to rest is faster at most than on the whole.
+constexpr double ease_peak = 1.5;
+
+OrbitView mixed(const OrbitView& a, OrbitView b, double share_of_b) {
+    b.azimuth_rad = nearest_turn(b.azimuth_rad, a.azimuth_rad);
+    const auto mix = [&](double from, double to) { return from + share_of_b * (to - from); };
+    OrbitView view;
+    view.pivot_m = a.pivot_m + share_of_b * (b.pivot_m - a.pivot_m);
+    view.azimuth_rad = mix(a.azimuth_rad, b.azimuth_rad);
+    view.elevation_rad = mix(a.elevation_rad, b.elevation_rad);
+    view.distance_m = mix(a.distance_m, b.distance_m);
+    view.field_of_view_rad = mix(a.field_of_view_rad, b.field_of_view_rad);
+    view.roll_rad = mix(a.roll_rad, nearest_turn(b.roll_rad, a.roll_rad));
+    return view;
+}
+
+/// The shortest flight between them from rest to rest within the limits of speed.
+double least_flight_s(const OrbitView& a, const OrbitView& b, const FlightLimits& limits) {
+    const double turn_rad =
+        std::max({std::abs(nearest_turn(b.azimuth_rad, a.azimuth_rad) - a.azimuth_rad),
+                  std::abs(b.elevation_rad - a.elevation_rad),
+                  std::abs(nearest_turn(b.roll_rad, a.roll_rad) - a.roll_rad)});
+    const double way_m =
+        std::max((b.pivot_m - a.pivot_m).norm(), std::abs(b.distance_m - a.distance_m));
+    const double zoom_rad = std::abs(b.field_of_view_rad - a.field_of_view_rad);
+    return ease_peak * std::max({turn_rad / limits.max_turn_rad_s, way_m / limits.max_speed_m_s,
+                                 zoom_rad / limits.max_zoom_rad_s});
+}
+
+}  // namespace
+
+const char* name_of(WheelMode mode) {
+    switch (mode) {
+        case WheelMode::orbit:
+            return "orbit";
+        case WheelMode::move:
+            return "move";
+        case WheelMode::past:
+            break;
+    }
+    return "past";
+}
+
+Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past,
+           const FlightHabits& habits)
+    : camera_(start, habits.applied_to({})),
+      start_(start),
+      limits_(habits.applied_to({})),
+      has_past_(has_past),
+      holds_horizon_(habits.holds_horizon),
+      habits_(habits),
+      move_(std::move(move)) {
+    if (!move_) return;
+    on_move_ = playing_ = true;
+    mode_ = WheelMode::move;
+}
+
+void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& start) {
+    limits_ = habits_.applied_to(limits);
+    if (start) start_ = *start;
+    camera_ = OrbitCamera(start ? *start : camera_.view(), limits_);
+    camera_.keep_within(corridor_);
+}
+
+void Helm::keep(const FlightBook& book) {
+    shots_ = book.shots;
+    if (!move_) move_ = book.move;
+}
+
+void Helm::keep_flight(Move move) {
+    leave_move();
+    set_move(std::move(move));
+    move_s_ = 0;
+}
+
+void Helm::set_move(std::optional<Move> move) {
+    const double place = move_ ? place_s() : 0;
+    if (on_move_ && move) {
+        // It goes on there, and glides over to what has become of the move.
+        joined_from_ = view();
+        joining_ = 1;
+    } else {
+        leave_move();
+    }
+    pending_s_ = 0;
+    move_ = std::move(move);
+    move_s_ = move_ ? std::min(place, move_->duration_s()) : 0;
+    if (!move_ && mode_ == WheelMode::move) mode_ = WheelMode::orbit;
+    is_changed_ = is_move_changed_ = true;
+}
+
+std::optional<Helm::Change> Helm::take_change() {
+    if (!std::exchange(is_changed_, false)) return std::nullopt;
+    return Change{{move_, shots_, limits_.min_eye_height_m},
+                  std::exchange(is_move_changed_, false)};
+}
+
+void Helm::stand_at(const CameraState& camera) {
+    leave_move();
+    shot_flight_.reset();
+    camera_.jump_to(taken_over(camera, limits_, camera_.view().azimuth_rad));
+}
+
+void Helm::fly_over_to(const Helm& other, double duration_s) {
+    leave_move();
+    shot_flight_.reset();
+    holds_horizon_ = other.holds_horizon_;
+    fly_to(other.view(), duration_s, Easing::ease);
+}
+
+void Helm::halt() {
+    leave_move();
+    shot_flight_.reset();
+    camera_.jump_to(camera_.view());
+}
+
+void Helm::share(const Change& change) {
+    shots_ = change.book.shots;
+    if (!change.is_of_move) return;
+    const bool was_changed = is_changed_, was_move_changed = is_move_changed_;
+    set_move(change.book.move);
+    is_changed_ = was_changed;
+    is_move_changed_ = was_move_changed;
+}
+
+std::optional<double> Helm::flight_progress() const {
+    if (!shot_flight_) return std::nullopt;
+    return shot_flight_->gone_s / shot_flight_->duration_s;
+}
+
+OrbitView Helm::view() const {
+    if (!on_move_) return camera_.view();
+    OrbitView on_move = move_->at(move_s_);
+    if (joining_ <= 0) return on_move;
+    const double gone = 1 - joining_;
+    const OrbitView view = mixed(joined_from_, on_move, eased(gone));
+    return move_->path() == MovePath::orbit ? constrained(view, limits_) : view;
+}
+
+std::optional<double> Helm::move_progress() const {
+    if (!on_move_) return std::nullopt;
+    if (move_->duration_s() == 0) return 0;
+    return place_s() / move_->duration_s();
+}
+
+std::optional<double> Helm::move_take_s() const {
+    return on_move_ ? move_->take_s_at(move_s_) : std::nullopt;
+}
+
+void Helm::leave_move() {
+    if (!on_move_) return;
+    camera_.jump_to(taken_over(view().camera(), limits_, view().azimuth_rad));
+    on_move_ = playing_ = false;
+    pending_s_ = joining_ = 0;
+}
+
+void Helm::toggle_pause() {
+    if (on_move_) playing_ = !playing_;
+}
+
+void Helm::join_move() {
+    playing_ = false;
+    if (on_move_) return;
+    shot_flight_.reset();
+    joined_from_ = camera_.view();
+    joining_ = 1;
+    on_move_ = true;
+}
+
+void Helm::travel(double seconds) {
+    move_s_ += seconds;
+    if (!move_->loops()) move_s_ = std::clamp(move_s_, 0.0, move_->duration_s());
+}
+
+void Helm::next_mode() {
+    switch (mode_) {
+        case WheelMode::orbit:
+            if (move_)
+                mode_ = WheelMode::move;
+            else if (has_past_)
+                mode_ = WheelMode::past;
+            break;
+        case WheelMode::move:
+            mode_ = has_past_ ? WheelMode::past : WheelMode::orbit;
+            break;
+        case WheelMode::past:
+            mode_ = WheelMode::orbit;
+            break;
+    }
+}
+
+void Helm::take_wheel(const FlightInput& input) {
+    if (mode_ == WheelMode::past) return;
+    if (mode_ == WheelMode::orbit) {
+        leave_move();
+        shot_flight_.reset();
+        camera_.orbit(input.wheel_steps * rad_per_step + input.shuttle_s * rad_per_shuttle_s, 0);
+        return;
+    }
+    join_move();
+    pending_s_ += input.wheel_steps * move_s_per_step;
+    travel(input.shuttle_s);
+}
+
+std::optional<Shot>& Helm::shot(int number) {
+    assert(number >= 1 && number <= static_cast<int>(shots_.size()));
+    return shots_[static_cast<std::size_t>(number - 1)];
+}
+
+void Helm::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
+    if (!on_move_ && !shot_flight_) camera_.carry_pivot_to(pivot_m);
+}
+
+void Helm::look_at(const Eigen::Vector3d& pivot_m) {
+    const OrbitView here = camera_.view();
+    const Eigen::Vector3d eye = here.eye_m();
+    if ((pivot_m - eye).norm() < limits_.min_distance_m) return;
+    OrbitView there = view_from_eye(eye, pivot_m, here.field_of_view_rad, here.azimuth_rad);
+    there.roll_rad = here.roll_rad;
+    fly_to(taken_over(there.camera(), limits_, there.azimuth_rad), look_s, Easing::ease);
+}
+
+void Helm::fly_to(const OrbitView& asked, double duration_s, Easing easing) {
+    OrbitView view = asked;
+    if (holds_horizon_) view.roll_rad = 0;
+    const bool is_held =
+        !corridor_ || corridor_->of(constrained(view, limits_).camera()).share >= Corridor::end;
+    // Towards what the corridor does not hold the camera goes as far as it does.
+    if (!is_held) {
+        camera_.fly_to(view);
+        return;
+    }
+    const OrbitView from = camera_.view(), to = constrained(view, limits_);
+    if (duration_s == 0) {
+        camera_.jump_to(to);
+        return;
+    }
+    shot_flight_ = {from, to, std::max(duration_s, least_flight_s(from, to, limits_)), 0, easing};
+}
+
+double Helm::place_s() const {
+    const double end_s = move_->duration_s();
+    if (move_->loops()) return move_s_ - end_s * std::floor(move_s_ / end_s);
+    return std::clamp(move_s_, 0.0, end_s);
+}
+
+void Helm::edit_move(const FlightInput& input, std::optional<double> take_s) {
+    if (move_ && move_->keyframes().size() >= most_keyframes &&
+        (input.add_keyframe || input.set_keyframe)) {
+        log_warning("the move has {} keyframes, the most that one may have: no more is put in",
+                    most_keyframes);
+        return;
+    }
+    if (input.add_keyframe || (input.set_keyframe && !move_)) {
+        set_move(appended(move_, view(), take_s, habits_.keyframe_gap_s, limits_));
+        move_s_ = move_->duration_s();
+    } else if (input.set_keyframe) {
+        set_move(with_view_at(*move_, place_s(), view(), take_s));
+    }
+    if (!move_) return;
+    const std::size_t nearest = nearest_keyframe(*move_, place_s());
+    if (input.remove_keyframe) {
+        set_move(without_keyframe(*move_, nearest));
+    } else if (input.retime_s != 0) {
+        set_move(retimed(*move_, nearest, input.retime_s));
+        move_s_ = move_->keyframes()[nearest].time_s;
+    }
+}
+
+void Helm::jump_keyframes(int count) {
+    const std::vector<MoveKeyframe>& keyframes = move_->keyframes();
+    // Where it is on its way to, which no wheel turns beyond the ends.
+    const double here_s = move_->loops()
+                              ? place_s() + pending_s_
+                              : std::clamp(place_s() + pending_s_, 0.0, move_->duration_s());
+    // Where it stands at one, that is where it comes from.
+    constexpr double same_s = 0.01;
+    const int step = count > 0 ? 1 : -1;
+    double there_s = here_s;
+    for (int i = 0; i != count; i += step) {
+        const double from_s = there_s;
+        for (const MoveKeyframe& keyframe : keyframes) {
+            if (step > 0 && keyframe.time_s > from_s + same_s) {
+                there_s = keyframe.time_s;
+                break;
+            }
+            if (step < 0 && keyframe.time_s < from_s - same_s) there_s = keyframe.time_s;
+        }
+    }
+    join_move();
+    pending_s_ = there_s - place_s();
+}
+
+void Helm::take(const FlightInput& input,
+                const std::function<std::optional<OrbitView>(int number)>& rig_view,
+                std::optional<double> take_s) {
+    if (input.next_wheel_mode) next_mode();
+    if (input.toggle_horizon) holds_horizon_ = !holds_horizon_;
+    if (input.toggle_move && move_) {
+        if (playing_) {
+            leave_move();
+        } else {
+            // From where the wheel holds it, else from the start.
+            if (!on_move_) move_s_ = 0;
+            shot_flight_.reset();
+            on_move_ = playing_ = true;
+        }
+    }
+    if (input.store_shot) {
+        std::optional<Shot>& place = shot(input.store_shot);
+        if (!place) place = Shot{fmt::format("shot {}", input.store_shot), {}, habits_.shot_s};
+        place->view = view();
+        is_changed_ = true;
+    }
+    if (input.edits_move()) edit_move(input, take_s);
+    if (input.keyframe_jump != 0 && move_) jump_keyframes(input.keyframe_jump);
+    if (input.turns_wheel()) take_wheel(input);
+    if (!input.steers()) return;
+    leave_move();
+    shot_flight_.reset();
+    camera_.orbit(input.orbit_azimuth_rad, input.orbit_elevation_rad);
+    camera_.pan(input.pan_right_widths, input.pan_up_widths);
+    camera_.dolly(input.dolly);
+    camera_.zoom(input.zoom);
+    camera_.crane(input.crane_up_widths);
+    camera_.look(input.look_right_rad, input.look_up_rad);
+    if (!holds_horizon_) camera_.roll(input.roll_rad);
+    if (input.pivot_m) look_at(*input.pivot_m);
+    if (input.reset) fly_to(start_, habits_.shot_s, Easing::ease);
+    if (input.recall_shot) {
+        if (const std::optional<Shot>& stored = shot(input.recall_shot))
+            fly_to(stored->view, stored->duration_s, stored->easing);
+        else if (const std::optional<OrbitView> to = rig_view(input.recall_shot))
+            fly_to(*to, habits_.shot_s, Easing::ease);
+    }
+}
+
+void Helm::advance(double dt_s) {
+    assert(dt_s >= 0);
+    if (shot_flight_) {
+        ShotFlight& flight = *shot_flight_;
+        flight.gone_s = std::min(flight.gone_s + dt_s, flight.duration_s);
+        const double s = flight.gone_s / flight.duration_s;
+        camera_.jump_to(
+            mixed(flight.from, flight.to, flight.easing == Easing::linear ? s : eased(s)));
+        if (s >= 1) shot_flight_.reset();
+    }
+    if (holds_horizon_) camera_.level();
+    camera_.advance(dt_s);
+    if (!on_move_) return;
+    if (playing_) travel(dt_s);
+    const double step_s = pending_s_ * (1 - std::exp(-dt_s / wheel_follow_s));
+    travel(step_s);
+    pending_s_ -= step_s;
+    joining_ = std::max(0.0, joining_ - dt_s / join_s);
+}
+
+}  // namespace vantage

@@ -1,0 +1,175 @@
+#include "host_app/flight/moves/move.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+using Channels = Eigen::Matrix<double, 8, 1>;
+
+Channels orbit_channels(const OrbitView& view) {
+    Channels c;
+    c << view.pivot_m, view.azimuth_rad, view.elevation_rad, view.roll_rad,
+        std::log(view.distance_m), view.field_of_view_rad;
+    return c;
+}
+
+OrbitView orbit_view(const Channels& c) {
+    OrbitView view;
+    view.pivot_m = c.head<3>();
+    view.azimuth_rad = c[3];
+    view.elevation_rad = c[4];
+    view.roll_rad = c[5];
+    view.distance_m = std::exp(c[6]);
+    view.field_of_view_rad = c[7];
+    return view;
+}
+
+/// The place of the three that turn is left free.
+Channels free_channels(const OrbitView& view) {
+    Channels c;
+    c << view.eye_m(), 0, 0, 0, std::log(view.distance_m), view.field_of_view_rad;
+    return c;
+}
+
+/// A turn about its own axis, as a vector: its direction and its angle.
+Eigen::Vector3d vector_of(const Eigen::Quaterniond& turn) {
+    const Eigen::AngleAxisd about(turn);
+    return about.angle() * about.axis();
+}
+
+Eigen::Quaterniond turn_by(const Eigen::Vector3d& vector) {
+    const double angle = vector.norm();
+    if (angle == 0) return Eigen::Quaterniond::Identity();
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+}  // namespace
+
+Move::Move(std::vector<MoveKeyframe> keyframes, bool loop, const FlightLimits& limits,
+           MovePath path)
+    : keyframes_(std::move(keyframes)), loop_(loop), limits_(limits), path_(path) {
+    assert(!keyframes_.empty() && keyframes_.front().time_s == 0);
+    assert(!loop_ || keyframes_.size() > 1);
+    for (const MoveKeyframe& keyframe : keyframes_) {
+        if (path_ == MovePath::orbit) {
+            values_.push_back(orbit_channels(keyframe.view));
+            continue;
+        }
+        values_.push_back(free_channels(keyframe.view));
+        Eigen::Quaterniond turn(keyframe.view.world_from_camera().linear());
+        if (!turns_.empty() && turn.dot(turns_.back()) < 0) turn.coeffs() *= -1;
+        turns_.push_back(turn);
+    }
+    if (keyframes_.size() == 1)
+        tangents_.emplace_back(Channels::Zero());
+    else
+        for (std::size_t i = 0; i < keyframes_.size(); ++i) tangents_.push_back(tangent(i));
+}
+
+double Move::duration_of(std::size_t segment) const {
+    return keyframes_[segment + 1].time_s - keyframes_[segment].time_s;
+}
+
+Move::Channels Move::slope(std::size_t segment) const {
+    Channels way = values_[segment + 1] - values_[segment];
+    if (path_ == MovePath::free)
+        way.segment<3>(rotation) = vector_of(turns_[segment].conjugate() * turns_[segment + 1]);
+    return way / duration_of(segment);
+}
+
+Move::Channels Move::tangent(std::size_t keyframe) const {
+    const std::size_t last = keyframes_.size() - 1;
+    const bool at_seam = keyframe == 0 || keyframe == last;
+    if (at_seam && !loop_) return Channels::Zero();
+    const std::size_t before = keyframe == 0 ? last - 1 : keyframe - 1;
+    const std::size_t after = keyframe == last ? 0 : keyframe;
+    const Easing arriving = keyframes_[before].easing, leaving = keyframes_[after].easing;
+    if (arriving == Easing::smooth && leaving == Easing::smooth) {
+        const double h0 = duration_of(before), h1 = duration_of(after);
+        return (h1 * slope(before) + h0 * slope(after)) / (h0 + h1);
+    }
+    // A smooth part takes up the speed of the straight part that it meets.
+    if (arriving == Easing::smooth && leaving == Easing::linear) return slope(after);
+    if (leaving == Easing::smooth && arriving == Easing::linear) return slope(before);
+    return Channels::Zero();
+}
+
+Move::Place Move::place_of(double time_s) const {
+    const double end_s = duration_s();
+    if (loop_) time_s -= end_s * std::floor(time_s / end_s);
+    time_s = std::clamp(time_s, 0.0, end_s);
+    const auto after = std::upper_bound(
+        keyframes_.begin() + 1, keyframes_.end() - 1, time_s,
+        [](double time, const MoveKeyframe& keyframe) { return time < keyframe.time_s; });
+    const auto i = static_cast<std::size_t>(after - keyframes_.begin()) - 1;
+    return {i, (time_s - keyframes_[i].time_s) / duration_of(i)};
+}
+
+Eigen::Quaterniond Move::turn_at(const Place& place) const {
+    const auto& [i, s] = place;
+    const Eigen::Quaterniond &a = turns_[i], &b = turns_[i + 1];
+    switch (keyframes_[i].easing) {
+        case Easing::smooth:
+            break;
+        case Easing::linear:
+            return a.slerp(s, b);
+        case Easing::ease:
+            return a.slerp(eased(s), b);
+        case Easing::cut:
+            return s < 1 ? a : b;
+    }
+    // Bezier's construction on the sphere.
+    const double third_s = duration_of(i) / 3;
+    const Eigen::Quaterniond from_a = a * turn_by(third_s * tangents_[i].segment<3>(rotation));
+    const Eigen::Quaterniond to_b = b * turn_by(-third_s * tangents_[i + 1].segment<3>(rotation));
+    const Eigen::Quaterniond middle = from_a.slerp(s, to_b);
+    const Eigen::Quaterniond first = a.slerp(s, from_a).slerp(s, middle);
+    return first.slerp(s, middle.slerp(s, to_b.slerp(s, b)));
+}
+
+OrbitView Move::at(double time_s) const {
+    if (keyframes_.size() == 1) return keyframes_.front().view;
+    const Place place = place_of(time_s);
+    const auto& [i, s] = place;
+    const double h = duration_of(i);
+    const Channels &a = values_[i], &b = values_[i + 1];
+    // Hermite's basis on [0, 1].
+    Channels value = a + eased(s) * (b - a);
+    switch (keyframes_[i].easing) {
+        case Easing::smooth:
+            value +=
+                h * (s * (1 - s) * (1 - s) * tangents_[i] - s * s * (1 - s) * tangents_[i + 1]);
+            break;
+        case Easing::linear:
+            value = a + s * (b - a);
+            break;
+        case Easing::ease:
+            break;
+        case Easing::cut:
+            value = s < 1 ? a : b;
+            break;
+    }
+    if (path_ == MovePath::orbit) return constrained(orbit_view(value), limits_);
+    CameraState camera;
+    camera.world_from_camera.linear() = turn_at(place).toRotationMatrix();
+    camera.world_from_camera.translation() = value.head<3>();
+    camera.world_from_camera.translation().y() =
+        std::max(value.y(), std::min(limits_.min_eye_height_m, std::min(a.y(), b.y())));
+    camera.focus_m = std::exp(value[6]);
+    camera.field_of_view_rad =
+        std::clamp(value[7], limits_.min_field_of_view_rad, limits_.max_field_of_view_rad);
+    return orbit_view_of(camera, keyframes_[i].view.azimuth_rad);
+}
+
+std::optional<double> Move::take_s_at(double time_s) const {
+    if (!keyframes_.front().take_s) return std::nullopt;
+    if (keyframes_.size() == 1) return keyframes_.front().take_s;
+    const auto& [i, s] = place_of(time_s);
+    const double from_s = *keyframes_[i].take_s, to_s = *keyframes_[i + 1].take_s;
+    return from_s + s * (to_s - from_s);
+}
+
+}  // namespace vantage

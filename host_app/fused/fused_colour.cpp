@@ -1,0 +1,71 @@
+#include "host_app/fused/fused_colour.h"
+
+#include "host_app/synthesis/synthesiser.h"
+
+namespace vantage {
+namespace {
+
+/// Depths that differ by more than this ratio lie on two surfaces.
+constexpr float edge_ratio = 1.03f;
+/// The kinds of pixels, as depths; below the first are those that are done.
+constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
+
+const char* const fragment = "fused_colour.frag";
+
+}  // namespace
+
+FusedColour::FusedColour(const ShaderLibrary& library)
+    : kinds_pass_(library, "fused_kinds.frag"),
+      first_rigs_(library, fragment, same_surface_share, {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}},
+                  1, 3),
+      inner_(library, fragment, same_surface_share, {{"EDGES", "0"}}),
+      edges_(library, fragment, same_surface_share, {{"EDGES", "1"}}),
+      plain_(library, "fused_plain.frag", same_surface_share) {}
+
+const Texture& FusedColour::sort(const Texture& fused_depth) {
+    kinds_.resize(fused_depth.size());
+    Program& program = kinds_pass_.use();
+    program.set("fused_depth", 0);
+    program.set("edge_ratio", edge_ratio);
+    program.set("inner_kind", inner_kind);
+    program.set("empty_kind", empty_kind);
+    program.set("edge_kind", edge_kind);
+    fused_depth.bind(0);
+    kinds_pass_.draw_depth(kinds_.target());
+    return kinds_.texture();
+}
+
+FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
+                                 const Texture& fused_depth, bool notes_origins) {
+    FullscreenPass& drawing = pass.use(layers, notes_origins);
+    Program& program = drawing.use();
+    const int unit = layers.first_free_unit();
+    program.set("fused_depth", unit);
+    program.set("edge_ratio", edge_ratio);
+    program.set("remembered_trust", RigSurface::remembered_trust);
+    program.set("remembered_alpha", remembered_alpha / 255.0f);
+    fused_depth.bind(unit);
+    return drawing;
+}
+
+void FusedColour::draw_plainly(const RigLayers& layers, const Texture& fused_depth,
+                               const DepthPicture& into, bool notes_origins) {
+    use(plain_, layers, fused_depth, notes_origins).draw(into.target());
+}
+
+void FusedColour::draw(const RigLayers& layers, const Texture& fused_depth,
+                       const DepthPicture& into, bool notes_origins) {
+    const auto ready = [&](LayerPass& pass) -> FullscreenPass& {
+        return use(pass, layers, fused_depth, notes_origins);
+    };
+    into.clear();
+    ready(edges_).draw_where(into.target(), GL_LESS, 0.5f * (empty_kind + edge_kind), false);
+    // What the first pass leaves out keeps its kind, what it draws is moved out of the second's
+    // way.
+    const float done = 0.5f * (inner_kind + empty_kind), left = 0.5f * (inner_kind + done);
+    if (layers.used().size() > 2)
+        ready(first_rigs_).draw_where(into.target(), GL_GREATER, done, true);
+    ready(inner_).draw_where(into.target(), GL_GREATER, left, false);
+}
+
+}  // namespace vantage

@@ -1,0 +1,100 @@
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/gl/two_stage_pass.h"
+#include "host_app/fused/foreground_layers.h"
+#include "host_app/fused/fused_colour.h"
+#include "host_app/fused/impulse_filter.h"
+#include "host_app/fused/staged_preparer.h"
+#include "host_app/synthesis/layer_blender.h"
+#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/synthesiser.h"
+
+namespace vantage {
+namespace {
+
+/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+constexpr float softness = 0.005f;
+
+/// The best that is done live: of rigs' surfaces that were bettered by each other, those that they
+/// agree on are found for every pixel, each rig that sees a surface gives its colour to it, and
+/// close to depth edges the rigs' colours decide which surface it is.
+class FusedRenderer final : public ViewRenderer {
+  public:
+    explicit FusedRenderer(const ShaderLibrary& library)
+        : colour_(library), blender_(library), impulses_(library), performers_(library) {
+        for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
+            depth_pass_.emplace_back(library, "fused_depth.frag",
+                                     ShaderDefines{{"LAYERS", std::to_string(layers)}});
+    }
+
+    const Texture& render(const Instant& instant, const VirtualView& view,
+                          const RenderLevel& level) override {
+        RigLayers& layers = blender_.layers();
+        const std::vector<const InstantRig*> rigs = ranked_rigs(instant, view, level.rigs);
+        layers.draw(layers_of(rigs), view, finely_drawn(instant, level));
+        fused_depth_.resize({view.width_px, view.height_px});
+        const Texture* kinds = nullptr;
+        if (!layers.used().empty()) {
+            find_depth();
+            if (!level.is_plain) kinds = &colour_.sort(fused_depth_.texture());
+        }
+        const Texture& set = blender_.blend(
+            view,
+            [&](const DepthPicture& into, bool notes_origins) {
+                if (level.is_plain)
+                    colour_.draw_plainly(layers, fused_depth_.texture(), into, notes_origins);
+                else
+                    colour_.draw(layers, fused_depth_.texture(), into, notes_origins);
+            },
+            {}, kinds);
+        origins_.reset();
+        depth_m_ = nullptr;
+        if (blender_.origins()) origins_ = *blender_.origins();
+        if (layers.used().empty()) return set;
+        const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
+        const DepthPicture& picture =
+            performers_.show(set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr,
+                             performers, view, level.is_plain);
+        if (origins_) origins_->shares = picture.shares();
+        depth_m_ = &picture.depth_m();
+        return impulses_.filter(picture.colour(), *depth_m_);
+    }
+
+    bool note_origins(bool noted) override {
+        blender_.note_origins(noted);
+        return true;
+    }
+    const PixelOrigins* origins() const override { return origins_ ? &*origins_ : nullptr; }
+    const Texture* depth_m() const override { return depth_m_; }
+
+  private:
+    void find_depth() {
+        const RigLayers& layers = blender_.layers();
+        depth_pass_[layers.used().size() - 1].draw(fused_depth_.target(), [&](Program& program) {
+            layers.bind(program);
+            program.set("softness", softness);
+        });
+    }
+
+    FusedColour colour_;
+    LayerBlender blender_;
+    ImpulseFilter impulses_;
+    PerformerLayers performers_;
+    std::optional<PixelOrigins> origins_;
+    const Texture* depth_m_ = nullptr;
+    std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers
+    DrawnTexture fused_depth_{TextureFormat::r32f, Filter::nearest, false, DrawnWith::depth_test};
+};
+
+}  // namespace
+
+SynthesiserEntry fused_synthesiser_entry() {
+    return {"fused",
+            "per-pixel visibility in all rigs, soft depth edges, colours trusted by their place",
+            [](const ShaderLibrary& library) { return std::make_unique<StagedPreparer>(library); },
+            [](const ShaderLibrary& library) { return std::make_unique<FusedRenderer>(library); }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,40 @@
+#include "host_app/gallery/layer_splitter.h"
+
+#include "host_app/views/depth_edges.h"
+
+namespace vantage {
+namespace {
+
+FullscreenPass pass(const ShaderLibrary& library, const char* boundary, const char* depth) {
+    return {library, "layer_split.frag", {{"BOUNDARY", boundary}, {"DEPTH", depth}}};
+}
+
+void draw(FullscreenPass& pass, const RigSurface& source, const Framebuffer& target) {
+    Program& program = pass.use();
+    program.set("picture", 0);
+    program.set("depth_map", 1);
+    program.set("edge_ratio", depth_edge_ratio);
+    source.colour().bind(0);
+    source.depth().bind(1);
+    pass.draw(target);
+}
+
+}  // namespace
+
+LayerSplitter::LayerSplitter(const ShaderLibrary& library)
+    : passes_{{{pass(library, "0", "1"), pass(library, "0", "0")},
+               {pass(library, "1", "1"), pass(library, "1", "0")}}} {}
+
+void LayerSplitter::split(const RigSurface& source, RigSurface& main, RigSurface& boundary) {
+    const std::array<RigSurface*, 2> layers{&main, &boundary};
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        // Before anything is bound: making a texture binds it.
+        layers[i]->begin(source.camera(), source.colour().size(), source.depth().size(),
+                         source.samples());
+        draw(passes_[i].depth, source, layers[i]->depth_target());
+        draw(passes_[i].colour, source, layers[i]->colour_target());
+        layers[i]->finish_colour();
+    }
+}
+
+}  // namespace vantage

@@ -1,0 +1,152 @@
+#include "host_app/output/media/film_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "common/av/av_log.h"
+#include "common/base/error.h"
+#include "host_app/output/media/mp4_fragments.h"
+
+extern "C" {
+#include <libavutil/opt.h>
+}
+
+namespace vantage {
+namespace {
+
+const char* container_of(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    if (extension == ".mkv") return "matroska";
+    if (extension == ".mp4") return "mp4";
+    fail("{} cannot be written: a film is a .mkv or .mp4 file, not '{}'", path.string(), extension);
+}
+
+/// Whether a file opens and has a picture.
+bool is_readable(const std::filesystem::path& path) {
+    AVFormatContext* input = nullptr;
+    if (avformat_open_input(&input, ("file:" + path.string()).c_str(), nullptr, nullptr) < 0)
+        return false;
+    const AvPacketPtr packet(av_packet_alloc());
+    const bool has_picture = av_read_frame(input, packet.get()) >= 0;
+    avformat_close_input(&input);
+    return has_picture;
+}
+
+}  // namespace
+
+void require_film_name(const std::filesystem::path& path) { (void)container_of(path); }
+
+FilmFile::FilmFile(std::filesystem::path path)
+    : path_(std::move(path)), partial_(path_.string() + fmt::format(".partial-{}", getpid())) {
+    keep_av_log();
+    AVFormatContext* output = nullptr;
+    if (const int code =
+            avformat_alloc_output_context2(&output, nullptr, container_of(path_), partial_.c_str());
+        code < 0)
+        fail_writing(code);
+    output_.reset(output);
+}
+
+FilmFile::~FilmFile() {
+    if (finished_) return;
+    output_.reset();
+    std::error_code ignored;
+    std::filesystem::remove(partial_, ignored);
+}
+
+bool FilmFile::has_head() const { return (output_->oformat->flags & AVFMT_GLOBALHEADER) != 0; }
+
+SoundEncoder::Codec FilmFile::sound_codec() const {
+    return path_.extension() == ".mp4" ? SoundEncoder::Codec::aac : SoundEncoder::Codec::pcm;
+}
+
+AVStream& FilmFile::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
+    AVStream* stream = avformat_new_stream(output_.get(), nullptr);
+    if (!stream || avcodec_parameters_copy(stream->codecpar, &parameters) < 0)
+        fail("{} cannot be written: memory is short", path_.string());
+    // Each container has its own.
+    stream->codecpar->codec_tag = 0;
+    stream->time_base = time_base;
+    return *stream;
+}
+
+void FilmFile::open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate,
+                    const AVCodecParameters* sound) {
+    stream_ = &add_stream(pictures, time_base);
+    time_base_ = time_base;
+    stream_->avg_frame_rate = rate;
+    if (sound) sound_ = &add_stream(*sound, {1, sound_rate_hz});
+    if (const int code =
+            avio_open(&output_->pb, ("file:" + partial_.string()).c_str(), AVIO_FLAG_WRITE);
+        code < 0)
+        fail_writing(code);
+    sync_.emplace(partial_);
+    output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    // What a failure may cost: a cluster of Matroska, a fragment of MP4.
+    av_opt_set_int(output_->priv_data, "cluster_time_limit", 1000, 0);
+    av_opt_set_int(output_->priv_data, "frag_duration", 1'000'000, 0);
+    // The head waits for the first fragment, which says when the film begins.
+    av_opt_set(output_->priv_data, "movflags", "delay_moov+default_base_moof", 0);
+}
+
+void FilmFile::begin(const std::string& timecode) {
+    if (!timecode.empty()) av_dict_set(&stream_->metadata, "timecode", timecode.c_str(), 0);
+    if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
+        fail_writing(code);
+    has_begun_ = true;
+}
+
+void FilmFile::write(AVPacket& packet) { write(packet, time_base_, *stream_); }
+
+void FilmFile::write_sound(AVPacket& packet) { write(packet, {1, sound_rate_hz}, *sound_); }
+
+void FilmFile::write(AVPacket& packet, AVRational time_base, const AVStream& stream) {
+    av_packet_rescale_ts(&packet, time_base, stream.time_base);
+    packet.stream_index = stream.index;
+    if (const int code = av_interleaved_write_frame(output_.get(), &packet); code < 0)
+        fail_writing(code);
+    require_disk();
+    bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));
+}
+
+void FilmFile::finish() {
+    is_ended_ = true;
+    if (const int code = av_write_trailer(output_.get()); code < 0) fail_writing(code);
+    if (const int code = avio_closep(&output_->pb); code < 0) fail_writing(code);
+    sync_->now();
+    require_disk();
+    std::error_code error;
+    std::filesystem::rename(partial_, path_, error);
+    if (error) fail("cannot write {}: {}", path_.string(), error.message());
+    finished_ = true;
+}
+
+bool FilmFile::keep_what_is_written() noexcept {
+    if (finished_) return true;
+    // Without the index that an end would write, the file still opens.
+    if (has_begun_ && !is_ended_) av_write_trailer(output_.get());
+    is_ended_ = true;
+    avio_closep(&output_->pb);
+    try {
+        if (path_.extension() == ".mp4") cut_to_whole_fragments(partial_);
+    } catch (const Error&) {
+        return false;
+    }
+    if (!is_readable(partial_)) return false;
+    std::error_code error;
+    std::filesystem::rename(partial_, path_, error);
+    finished_ = !error;
+    return finished_;
+}
+
+void FilmFile::require_disk() const {
+    if (const int reason = sync_->failure(); reason != 0) fail_writing(AVERROR(reason));
+}
+
+void FilmFile::fail_writing(int code) const {
+    fail("cannot write {}: {}", path_.string(), av_reason(code));
+}
+
+}  // namespace vantage

@@ -1,0 +1,93 @@
+#include "host_app/output/output_supervisor.h"
+
+#include <set>
+
+#include "common/base/error.h"
+#include "host_app/output/media/picture_encoder.h"
+
+namespace vantage {
+
+class OutputDesk::Fan final : public PictureSink {
+  public:
+    explicit Fan(const OutputDesk& desk) : desk_(desk) {}
+    std::string name() const override { return ""; }
+    void take(const ProgrammePicture& picture) override {
+        for (const std::shared_ptr<Output>& output : desk_.outputs()) output->take(picture);
+    }
+
+  private:
+    const OutputDesk& desk_;
+};
+
+OutputDesk::OutputDesk(Settings settings) : settings_(std::move(settings)) {
+    check(settings_);
+    for (const std::string& url : settings_.urls) add(url);
+}
+
+void OutputDesk::check(const Settings& settings) {
+    std::set<std::string> places;
+    for (const std::string& url : settings.urls) {
+        (void)plan_output(url, settings.format);
+        if (!places.insert(OutputUrl::parse(url).place).second)
+            fail("two outputs are to go to {}", OutputUrl::parse(url).shown);
+    }
+    if (!settings.format.encoder.empty()) require_known_encoder(settings.format.encoder);
+}
+
+std::unique_ptr<PictureSink> OutputDesk::sink() { return std::make_unique<Fan>(*this); }
+
+std::size_t OutputDesk::add(const std::string& url) {
+    const std::lock_guard adding(adding_);
+    OutputPlan plan = plan_output(url, settings_.format);
+    if (plan.is_encoded && !has_encoder_) {
+        settings_.format.encoder =
+            choose_encoder(settings_.format.encoder, {.width_px = settings_.format.width_px,
+                                                      .height_px = settings_.format.height_px,
+                                                      .rate_hz = settings_.format.rate_hz});
+        has_encoder_ = true;
+        plan = plan_output(url, settings_.format);
+    }
+    const bool takes_stdout = plan.takes_stdout, begins = plan.begins;
+    const std::shared_ptr<ScreenFeed> screen = plan.screen;
+    auto output =
+        std::make_shared<Output>(std::move(plan), settings_.format, settings_.pulse_rate_hz);
+    if (begins) output->start();
+    const std::lock_guard lock(mutex_);
+    takes_stdout_ = takes_stdout_ || takes_stdout;
+    if (screen) screens_.push_back(screen);
+    outputs_.push_back(std::move(output));
+    return outputs_.size() - 1;
+}
+
+void OutputDesk::start(std::size_t number) { outputs().at(number)->start(); }
+
+void OutputDesk::stop(std::size_t number) { outputs().at(number)->stop(); }
+
+bool OutputDesk::is_wanted(std::size_t number) const { return outputs().at(number)->is_wanted(); }
+
+void OutputDesk::finish() {
+    for (const std::shared_ptr<Output>& output : outputs()) output->finish();
+}
+
+std::vector<OutputState> OutputDesk::states() const {
+    std::vector<OutputState> states;
+    for (const std::shared_ptr<Output>& output : outputs()) states.push_back(output->state());
+    return states;
+}
+
+bool OutputDesk::takes_stdout() const {
+    const std::lock_guard lock(mutex_);
+    return takes_stdout_;
+}
+
+std::vector<std::shared_ptr<ScreenFeed>> OutputDesk::screens() const {
+    const std::lock_guard lock(mutex_);
+    return screens_;
+}
+
+std::vector<std::shared_ptr<Output>> OutputDesk::outputs() const {
+    const std::lock_guard lock(mutex_);
+    return outputs_;
+}
+
+}  // namespace vantage

@@ -1,0 +1,115 @@
+#include "host_app/session/control_room.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds timecode_period{250};
+
+}  // namespace
+
+ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
+    if (urls.empty()) return;
+    desk_.emplace(urls, ControlBench{show.controls().hands(), show.controls().tracked(), tally_,
+                                     lamps_, ltc_});
+}
+
+void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
+                             const std::string& saved_set, MonotonicTime now) {
+    if (!desk_) return;
+    const ProgrammeState state = show.state();
+    const FlightControls::Lines lines = show.controls().lines();
+    ShowLamps& lamps = shown_;
+    lamps.live = state.picture && !state.time.is_held && !state.time.pulse;
+    lamps.hold = state.time.is_held || (state.time.pulse && state.time.speed == 0);
+    lamps.speed = lamps.live ? 1 : state.time.speed;
+    lamps.behind_s = state.behind_s.value_or(0);
+    lamps.mark_in = state.time.in.has_value();
+    lamps.mark_out = state.time.out.has_value();
+    lamps.loops = state.time.loops;
+    lamps.take = take && take->phase == TakePhase::recording;
+    lamps.set = -1;
+    for (const RigSetState& set : show.instant_books().sets)
+        lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
+    lamps.saved_set = saved_set;
+    const Tally::State tally = tally_.state();
+    lamps.programme_tally = tally.programme;
+    lamps.preview_tally = tally.preview;
+    lamps.hands_preview = lines.preview.has_value();
+    lamps.fly_to_preview = lines.preview ? lines.preview->fly_progress.value_or(-1) : -1;
+    lamps.fly_to_preview_s = lines.fly_to_preview_s;
+    lamps.tracked = lines.is_tracked;
+    lamps.source_map = state.source_map;
+    lamps.move = lines.move_progress.value_or(-1);
+    lamps.keyframes = static_cast<double>(lines.keyframes);
+    lamps.record = lines.is_recording;
+    lamps.horizon = lines.holds_horizon;
+    lamps.follow = lines.is_following;
+    lamps.coverage = lines.corridor.now ? lines.corridor.now->share : -1;
+    lamps.wheel_mode = lines.wheel_mode;
+    lamps.synthesiser = state.synthesiser;
+    lamps.render_level = state.render_level();
+    lamps.prepare_level = state.prepare_level();
+    lamps.repeated_ticks = static_cast<double>(show.books().repeated);
+    show_replay(state);
+    lamps.film = false;
+    const std::vector<OutputState> outputs = show.outputs().states();
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (i < lamps.outputs.size()) lamps.outputs[i] = words_of(outputs[i].phase);
+        if (!outputs[i].film.empty() && outputs[i].phase == OutputPhase::on) lamps.film = true;
+    }
+    if (state.picture && now - timecode_shown_ >= timecode_period) {
+        timecode_shown_ = now;
+        if (!timecodes_)
+            timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
+        lamps.timecode = timecodes_->of(*state.picture->job.instant->set);
+    }
+    lamps_.show(lamps);
+}
+
+void ControlRoom::show_replay(const ProgrammeState& state) {
+    // As people read it, and not more often than that changes.
+    const auto tenths = [](const std::optional<double>& seconds) {
+        return seconds ? std::round(10 * *seconds) / 10 : -1;
+    };
+    const auto place = [](const std::optional<std::size_t>& at) {
+        return at ? static_cast<double>(*at + 1) : 0;
+    };
+    const ReplayState& replay = state.replay;
+    ShowLamps& lamps = shown_;
+    lamps.replay_mode = state.picture ? name_of(replay.mode) : "";
+    lamps.clip = replay.hand;
+    lamps.played_clip = replay.clip;
+    lamps.entry = place(replay.selected);
+    lamps.played_entry = place(replay.playing);
+    lamps.clip_left_s = tenths(replay.clip_left_s);
+    lamps.list_left_s = tenths(replay.list_left_s);
+    if (replay.book) {
+        lamps.clips = static_cast<double>(replay.book->clips.size());
+        lamps.entries = static_cast<double>(replay.book->list.size());
+        lamps.preset_percent = std::round(100 * replay.book->programme_speed);
+        lamps.list_loops = replay.book->list_loops;
+    }
+    lamps.programme_speed = replay.is_at_programme_speed;
+    lamps.fast_jog = replay.fast_jog;
+    lamps.notice = replay.notice;
+    lamps.question = replay.question;
+    if (!state.picture) return;
+    const std::uint64_t pulse = state.picture->job.instant->set->trigger_index;
+    lamps.pulse = std::to_string(pulse);
+    lamps.at_in = state.time.in == pulse;
+    lamps.at_out = state.time.out == pulse;
+}
+
+std::vector<PortState> ControlRoom::ports() const {
+    return desk_ ? desk_->states() : std::vector<PortState>();
+}
+
+std::vector<PortState> ControlRoom::close() {
+    if (desk_) desk_->close();
+    return ports();
+}
+
+}  // namespace vantage

@@ -1,0 +1,292 @@
+#include "host_app/session/live_show.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/counted.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/time/pulse_grid.h"
+#include "common/gl/context/limits.h"
+#include "host_app/output/contact_sheet_sink.h"
+#include "host_app/views/depth_views.h"
+#include "host_app/views/surface_samples.h"
+
+namespace vantage {
+namespace {
+
+/// Before the stage is framed by the rigs that are there.
+constexpr std::chrono::seconds patience_with_rigs{3};
+/// Between two lines that say which frames are waited for.
+constexpr std::chrono::seconds waiting_report_period{10};
+
+/// The states of the rigs that are not in the set; of all, without one.
+std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
+    std::string text;
+    for (const RigStatus& rig : status.rigs) {
+        if (set &&
+            std::any_of(set->slots.begin(), set->slots.end(), [&](const FrameSet::Slot& slot) {
+                return slot.frame && slot.rig == rig.rig;
+            }))
+            continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", rig.rig, full_state_of(rig));
+    }
+    return text;
+}
+
+double field_of_view_rad(const RigFrame& frame) {
+    return 2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
+}
+
+void name_assumed_places(const FrameSet& set) {
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame && slot.frame->place_is_assumed)
+            log_warning(
+                "rig {} has no stage calibration: it is taken to stand level, {:.1f} m above the "
+                "floor; vantage-calib stage finds where it stands",
+                slot.rig, slot.frame->world_from_camera.translation().y());
+}
+
+Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
+    Percentiles most;
+    for (const RigStatus& rig : status.rigs)
+        if ((rig.*times).count > 0 && (rig.*times).p95 >= most.p95) most = rig.*times;
+    return most;
+}
+
+std::string checked_renderer(ContextGroup& contexts) {
+    const ContextGroup::Member member = contexts.join();
+    const CurrentContext current(*member.context);
+    const GlInfo info = GlInfo::query();
+    info.require_vantage_minimum();
+    return info.renderer;
+}
+
+/// The pulse at which a take begins.
+std::optional<double> begin_of(const PastSets* take) {
+    if (!take) return std::nullopt;
+    const std::optional<PastSets::Span> span = take->span();
+    return span ? std::optional(static_cast<double>(span->oldest)) : std::nullopt;
+}
+
+const LiveSettings& checked(const LiveSettings& settings) {
+    const SynthesiserEntry entry = find_synthesiser(settings.synthesiser);
+    if (settings.source_map) NoveltyOverlay::require(entry.tells_origins, entry.name);
+    if (settings.format.stereoscopy)
+        (void)settings.format.stereoscopy->settled(
+            view_of(CameraState{}, {settings.format.width_px, settings.format.height_px}), 1);
+    return settings;
+}
+
+}  // namespace
+
+OutputDesk::Settings output_settings(const LiveSettings& settings) {
+    return {.format = {.width_px = settings.format.width_px,
+                       .height_px = settings.format.height_px,
+                       .rate_hz = settings.rate_hz,
+                       .encoder = settings.encoder,
+                       .overwrites = settings.overwrites,
+                       .has_sound = settings.sound != nullptr},
+            .pulse_rate_hz = settings.pulse_rate_hz,
+            .urls = settings.outputs};
+}
+
+LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
+                   JogDeck* deck)
+    : settings_(checked(settings)),
+      plan_(plan),
+      renderer_(checked_renderer(contexts_)),
+      instants_({.pulse_rate_hz = settings.pulse_rate_hz,
+                 .replay_bytes = settings.replay_bytes,
+                 .harmonise = settings.harmonise,
+                 .colours = settings.colours,
+                 .take = settings.take,
+                 .set = settings.set},
+                std::move(feed), contexts_),
+      stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
+      controls_(
+          {plan, settings.pulse_rate_hz, settings.replay_bytes > 0 || settings.take,
+           settings.free_flight, begin_of(settings.take.get())},
+          deck, [this](int number) { return rig_view(number); }, [this] { return framing(); },
+          [this] { return corridor_now(); }),
+      outputs_(output_settings(settings)),
+      programme_({.format = settings.format,
+                  .rate_hz = settings.rate_hz,
+                  .pulse_rate_hz = settings.pulse_rate_hz,
+                  .synthesiser = settings.synthesiser,
+                  .quality = settings.quality,
+                  .source_map = settings.source_map,
+                  .replay = settings.replay,
+                  .ends_with_past = settings.ends_with_take,
+                  .sound = settings.sound},
+                 instants_, controls_) {
+    programme_.add(outputs_.sink());
+    if (!settings.contact_sheet.empty())
+        programme_.add(std::make_unique<ContactSheetSink>(settings.contact_sheet));
+}
+
+bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
+    const MonotonicTime deadline = MonotonicClock::now() + limit;
+    const auto newest_set = [&]() -> const FrameSet* {
+        const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        return ready ? ready->set.get() : nullptr;
+    };
+    log_info("waiting for the first pictures of {}", counted(status().rigs.size(), "rig"));
+    MonotonicTime said = MonotonicClock::now();
+    while (MonotonicClock::now() < deadline) {
+        if (stop.wait_for(std::chrono::milliseconds(20))) {
+            log_info("interrupted while waiting for the rigs, before anything was flown: {}",
+                     states_of_missing(status(), newest_set()));
+            return false;
+        }
+        const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        if (ready && ready->set->present() == static_cast<int>(ready->set->slots.size()))
+            return true;
+        const ReceiverStatus now = status();
+        if (!now.rigs.empty() &&
+            std::all_of(now.rigs.begin(), now.rigs.end(),
+                        [](const RigStatus& rig) { return !rig.refused.empty(); }))
+            fail("every rig refuses this host: {}", states_of_missing(now, newest_set()));
+        if (MonotonicClock::now() - said >= waiting_report_period) {
+            log_info("still waiting for frames: {}", states_of_missing(now, newest_set()));
+            said = MonotonicClock::now();
+        }
+    }
+    const double limit_s = std::chrono::duration<double>(limit).count();
+    if (!instants_.newest())
+        fail("no frame of any rig came within {:g} s; are the rigs running? ({})", limit_s,
+             states_of_missing(status(), nullptr));
+    log_warning("after {:g} s these rigs are missing: {}", limit_s,
+                states_of_missing(status(), newest_set()));
+    return true;
+}
+
+bool LiveShow::wait_for_first_set(StopSignal& stop) {
+    while (!instants_.newest())
+        if (stop.wait_for(std::chrono::milliseconds(5))) return false;
+    return true;
+}
+
+void LiveShow::start() {
+    programme_.start(
+        [this](std::uint64_t pictures, double time_s) { return plan_.is_over(pictures, time_s); });
+}
+
+void LiveShow::finish() {
+    // Before the outputs are ended, which takes its time.
+    last_signal_ = signal();
+    programme_.stop();
+    outputs_.finish();
+    last_status_ = instants_.close();
+}
+
+std::optional<StageFraming> LiveShow::framing() {
+    const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+    if (!ready) return std::nullopt;
+    const MonotonicTime now = MonotonicClock::now();
+    if (!framing_since_) framing_since_ = now;
+    if (ready->set->present() < static_cast<int>(ready->set->slots.size()) &&
+        now - *framing_since_ < patience_with_rigs)
+        return std::nullopt;
+    std::vector<FramedRig> rigs;
+    for (const FrameSet::Slot& slot : ready->set->slots) {
+        if (!slot.frame) continue;
+        const RigFrame& frame = *slot.frame;
+        rigs.push_back({frame.rig, frame.world_from_camera, field_of_view_rad(frame),
+                        surface_samples(depth_view_of(frame)).median_depth_m});
+    }
+    std::optional<StageFraming> framing = frame_stage(rigs);
+    // Once, since nobody asks again after the answer.
+    if (framing) {
+        name_assumed_places(*ready->set);
+        stage_corridor_.begin(framing->extent);
+    }
+    return framing;
+}
+
+std::shared_ptr<const Corridor> LiveShow::corridor_now() {
+    if (const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+        ready && (ready->is_live || settings_.take))
+        stage_corridor_.look(*ready->set);
+    return stage_corridor_.now();
+}
+
+std::optional<OrbitView> LiveShow::rig_view(int number) const {
+    const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
+    const auto index = static_cast<std::size_t>(number - 1);
+    if (!ready || index >= ready->set->slots.size() || !ready->set->slots[index].frame)
+        return std::nullopt;
+    const RigFrame& frame = *ready->set->slots[index].frame;
+    // The point on the rig's axis that is nearest to the camera's pivot.
+    const Eigen::Vector3d eye = frame.world_from_camera.translation();
+    const Eigen::Vector3d axis = frame.world_from_camera.linear().col(2);
+    const double distance_m = std::max(0.5, axis.dot(state().view.pivot_m - eye));
+    return view_from_eye(eye, eye + distance_m * axis, field_of_view_rad(frame));
+}
+
+SignalState LiveShow::signal_of(const ReceiverStatus& status, const ProgrammeState& state) const {
+    return signal_state(status, state.time.is_held || state.time.pulse,
+                        PulseGrid(settings_.pulse_rate_hz).period(), MonotonicClock::now());
+}
+
+LiveReport LiveShow::report() const {
+    const ReceiverStatus status = last_status_.value_or(this->status());
+    const InstantThread::Books instants = instants_.books();
+    LiveReport report;
+    report.format = settings_.format;
+    report.rate_hz = settings_.rate_hz;
+    report.programme = programme_.books();
+    const ProgrammeState state = programme_.state();
+    report.synthesiser = state.synthesiser;
+    report.view = state.view;
+    report.renderer = renderer_;
+    report.signal = last_signal_.value_or(signal_of(status, state));
+    report.time = state.time;
+    report.replay = state.replay;
+    report.past = state.past;
+    report.pulse_rate_hz = settings_.pulse_rate_hz;
+    if (state.picture) report.shown_pulse = state.picture->job.instant->set->trigger_index;
+    report.corridor = controls_.lines().corridor;
+    report.free_flight = settings_.free_flight;
+    report.instants_prepared = instants.prepared;
+    report.instants_between = instants.between;
+    report.prepare_ms = instants.prepare_ms;
+    report.rig_steps = instants.rig_steps;
+    report.faults = instants.faults + report.programme.faults;
+    report.contexts_lost = contexts_.losses();
+    report.sets_closed = status.sets;
+    report.sets_complete = status.complete_sets;
+    report.sets_dropped = status.sets_dropped;
+    report.sets_superseded = instants.superseded.sets;
+    const auto count_of = [](const RigCounts& counts, const std::string& rig) {
+        const auto found = counts.find(rig);
+        return found == counts.end() ? 0 : found->second;
+    };
+    for (const RigStatus& rig : status.rigs) {
+        RigAccount account{rig, count_of(instants.frames, rig.rig),
+                           count_of(instants.superseded.frames, rig.rig)};
+        if (const auto harmony = instants.harmony.find(rig.rig); harmony != instants.harmony.end())
+            account.harmony = harmony->second;
+        for (const RigSetState& set : instants.sets)
+            if (set.rig == rig.rig) account.set = set;
+        report.rigs.push_back(std::move(account));
+    }
+    report.network_ms = worst(status, &RigStatus::network_ms);
+    report.decode_ms = worst(status, &RigStatus::decode_ms);
+    if (state.picture) {
+        if (settings_.format.stereoscopy)
+            report.stereoscopy = settings_.format.stereoscopy->settled(
+                view_of(state.picture->job.camera,
+                        {settings_.format.width_px, settings_.format.height_px}),
+                state.picture->job.camera.focus_m);
+        if (state.picture->sources) report.novelty = state.picture->sources->shares;
+    }
+    if (settings_.sound) report.sound = settings_.sound->state();
+    report.outputs = outputs_.states();
+    for (const OutputState& output : report.outputs)
+        if (output.write_ms.count > 0 && output.write_ms.p95 >= report.encode_ms.p95)
+            report.encode_ms = output.write_ms;
+    return report;
+}
+
+}  // namespace vantage

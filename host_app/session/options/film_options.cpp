@@ -1,0 +1,73 @@
+#include "host_app/session/options/film_options.h"
+
+#include "common/base/cli/stop_signal.h"
+#include "common/base/error.h"
+#include "common/base/time/pulse_grid.h"
+#include "host_app/flight/flight_book.h"
+#include "host_app/output/media/video_writer.h"
+#include "host_app/session/options/picture_options.h"
+#include "host_app/takes/take_show.h"
+
+namespace vantage {
+
+void FilmOptions::add_to(CLI::App& command) {
+    command
+        .add_option("--path", path,
+                    "Of a film: the flight file that it is filmed from (TOML); default: the "
+                    "camera that the take was flown with")
+        ->group("Film");
+    command
+        .add_option("--rate", rate,
+                    "Pictures a second, such as 50, 29.97 or 30000/1001 (default: the stage's "
+                    "rate)")
+        ->group("Film");
+    command.add_option("--size", size, "Of the picture, WIDTHxHEIGHT (default: the stage's)")
+        ->group("Film");
+    command
+        .add_option("--synth", synthesiser, "Synthesiser (default: the stage's; see render --help)")
+        ->type_name(synthesisers_type_name())
+        ->group("Film");
+    stereoscopic.add_to(command, "the camera's distance from its pivot")->group("Film");
+}
+
+bool FilmOptions::is_any() const {
+    return !path.empty() || !rate.empty() || !size.empty() || !synthesiser.empty() ||
+           stereoscopic.stereoscopy();
+}
+
+ExportBooks FilmOptions::write(const std::filesystem::path& take_file, const TakePart& part,
+                               bool has_part, const std::filesystem::path& file,
+                               const std::function<void(double)>& progress) const {
+    // Before any other thread, so that they leave the signals to it.
+    StopSignal stop;
+    require_film_name(file);
+    const auto take = std::make_shared<const TakeReader>(take_file);
+    const TakeShow show = take_show_from(take->facts().show);
+    const double rate_hz =
+        PulseGrid(rate.empty() ? take->facts().pulse_rate_hz : parse_rate(rate)).rate_hz();
+    std::vector<FilmPicture> pictures;
+    if (path.empty()) {
+        pictures = film_of_cameras(*take, part, rate_hz);
+    } else {
+        const Move move = Move::load(path);
+        if (move.take_s_at(0) && has_part)
+            fail("{} says where in the take it is: leave out --from and --to", path);
+        pictures = film_of(move, *take, part, rate_hz);
+    }
+    FilmSettings settings{{show.view.width_px, show.view.height_px, stereoscopic.stereoscopy()},
+                          rate_hz,
+                          synthesiser.empty() ? show.view.synthesiser : synthesiser};
+    if (!size.empty()) {
+        const cv::Size wanted = parse_size(size);
+        settings.format.width_px = wanted.width;
+        settings.format.height_px = wanted.height;
+    }
+    const auto is_wanted = [&] { return !stop.requested(); };
+    const ExportBooks books = export_film(take, pictures, settings, file, is_wanted, progress);
+    if (books.written + books.there < pictures.size())
+        fail("{} is not there yet: {} of its {} pictures are; the same command goes on with them",
+             file.string(), books.written + books.there, pictures.size());
+    return books;
+}
+
+}  // namespace vantage

@@ -1,0 +1,121 @@
+#include "host_app/session/report/live_report.h"
+
+#include <fmt/format.h>
+
+#include "common/base/counted.h"
+
+namespace vantage {
+
+/// Nothing of a rig that is away, for what it said last may not hold any more.
+std::vector<std::string> computer_worries_of(const RigStatus& status) {
+    // A Raspberry Pi's processors slow down from here on.
+    constexpr float hot_c = 80;
+    std::vector<std::string> worries;
+    if (!status.connected) return worries;
+    if (status.health.temperature_c.value_or(0) >= hot_c)
+        worries.push_back(fmt::format("{:.0f} C, it slows down from {:.0f}",
+                                      *status.health.temperature_c, hot_c));
+    if (status.health.under_voltage) worries.emplace_back("its supply sags");
+    return worries;
+}
+
+std::vector<CounterGroup> counters_of(const RigAccount& rig) {
+    const RigStatus& s = rig.status;
+    const RigCounters& r = s.rig_counters;
+    return {{"rig",
+             "at the rig, since this host came",
+             {{"captured", "captured", r.captured},
+              {"missed", "missed", r.missed},
+              {"late", "late", r.late},
+              {"published", "published", r.published}}},
+            {"link",
+             "on the way to this host",
+             {{"offered", "offered", s.link.offered},
+              {"send_dropped", "pushed out", s.link.send_dropped},
+              {"thinned", "thinned", s.link.thinned},
+              {"sent", "sent", s.link.sent},
+              {"lost", "lost", s.lost}}},
+            {"host",
+             "at this host",
+             {{"received", "received", s.received},
+              {"undecodable", "damaged", s.undecodable},
+              {"queue_dropped", "host busy", s.queue_dropped},
+              {"late", "late", s.late},
+              {"duplicate", "duplicate", s.duplicate},
+              {"unsynchronized", "unsynced", s.unsynchronized},
+              {"out_of_step", "out of step", s.out_of_step},
+              {"in_sets", "in sets", s.in_sets},
+              {"fused", "fused", rig.fused},
+              {"superseded", "superseded", rig.superseded},
+              {"in_dropped_sets", "set dropped", s.in_dropped_sets}}}};
+}
+
+std::string state_of(const RigStatus& status) {
+    if (!status.refused.empty()) return "refused: " + status.refused;
+    return status.connected ? "connected" : "disconnected";
+}
+
+std::string full_state_of(const RigStatus& status) {
+    if (!status.refused.empty()) return state_of(status);
+    const std::string trouble = trouble_of(status);
+    return trouble.empty() ? state_of(status) : state_of(status) + ": " + trouble;
+}
+
+std::string outages_of(const RigStatus& status) {
+    std::string text;
+    if (status.outages > 0)
+        text = fmt::format("was away {}, {:.1f} s in all", counted_times(status.outages),
+                           status.outage_s);
+    if (status.restarts > 0)
+        text += fmt::format("{}its daemon was started anew {}", text.empty() ? "" : "; ",
+                            counted_times(status.restarts));
+    return text;
+}
+
+std::vector<std::string> worries_of(const RigStatus& status) {
+    std::vector<std::string> worries = computer_worries_of(status);
+    if (status.connected)
+        if (std::string worry = rate_worry(status); !worry.empty())
+            worries.push_back(std::move(worry));
+    if (status.connected && !status.same_clock && !status.sync.disciplined)
+        worries.emplace_back(clocks_not_disciplined);
+    if (status.connected)
+        if (std::string worry = tai_worry(status); !worry.empty())
+            worries.push_back(std::move(worry));
+    return worries;
+}
+
+std::vector<std::string> failures_of(const LiveReport& report) {
+    std::vector<std::string> failures;
+    const auto add = [&](const auto& of) {
+        if (!of.failure.empty())
+            failures.push_back(fmt::format("{} failed after {}: {}", of.name,
+                                           counted(of.pictures, "picture"), of.failure));
+    };
+    for (const OutputState& output : report.outputs) add(output);
+    for (const SinkState& sink : report.programme.sinks) add(sink);
+    return failures;
+}
+
+double pictures_a_second(const ProgrammeBooks& programme) {
+    return programme.duration_s > 0 ? static_cast<double>(programme.pictures) / programme.duration_s
+                                    : 0;
+}
+
+std::vector<StepTime> step_times(const LiveReport& report) {
+    std::vector<StepTime> steps;
+    for (const auto& [name, ms] : {std::pair("capture", &report.rig_steps.capture_ms),
+                                   {"rectify", &report.rig_steps.rectify_ms},
+                                   {"match", &report.rig_steps.match_ms},
+                                   {"pack", &report.rig_steps.pack_ms},
+                                   {"network", &report.network_ms},
+                                   {"decode", &report.decode_ms},
+                                   {"prepare", &report.prepare_ms},
+                                   {"render", &report.programme.render_ms},
+                                   {"readback", &report.programme.readback_ms},
+                                   {"encode", &report.encode_ms}})
+        if (ms->count > 0) steps.push_back({name, *ms});
+    return steps;
+}
+
+}  // namespace vantage

@@ -1,0 +1,252 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/base/counted.h"
+#include "host_app/session/report/live_report.h"
+
+namespace vantage {
+namespace {
+
+std::string rig_tables(const LiveReport& report) {
+    if (report.rigs.empty()) return "";
+    std::size_t name_width = 4;
+    for (const RigAccount& rig : report.rigs)
+        name_width = std::max(name_width, rig.status.rig.size());
+    const auto width = [](const Counter& counter) {
+        return std::max<std::size_t>(8, std::string_view(counter.heading).size());
+    };
+    std::string text;
+    const std::vector<CounterGroup> groups = counters_of(report.rigs.front());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        text += fmt::format("frames {}\n{:{}}", groups[g].title, "", name_width);
+        for (const Counter& counter : groups[g].counters)
+            text += fmt::format("  {:>{}}", counter.heading, width(counter));
+        text += '\n';
+        for (const RigAccount& rig : report.rigs) {
+            text += fmt::format("{:<{}}", rig.status.rig, name_width);
+            const std::vector<CounterGroup> of_rig = counters_of(rig);
+            for (const Counter& counter : of_rig[g].counters)
+                text += fmt::format("  {:>{}}", counter.value, width(counter));
+            text += '\n';
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// What a person must know of a rig beyond its numbers.
+std::string rig_remarks(const LiveReport& report) {
+    std::string text;
+    for (const RigAccount& rig : report.rigs) {
+        const RigStatus& status = rig.status;
+        if (!status.connected)
+            text += fmt::format("{} is {}\n", status.rig, full_state_of(status));
+        else if (!status.same_clock)
+            text += fmt::format("{}: {}\n", status.rig, clock_text(status));
+        if (const std::string trouble = trouble_of(status); status.connected && !trouble.empty())
+            text += fmt::format("{}: {}\n", status.rig, trouble);
+        if (const std::string outages = outages_of(status); !outages.empty())
+            text += fmt::format("{}: {}\n", status.rig, outages);
+        for (const std::string& worry : computer_worries_of(rig.status))
+            text += fmt::format("{}: {}\n", rig.status.rig, worry);
+        if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
+            text += fmt::format("{}: {}\n", rig.status.rig, pulses);
+        if (!rig.status.last_error.empty())
+            text +=
+                fmt::format("{}: the last fault was: {}\n", rig.status.rig, rig.status.last_error);
+    }
+    return text;
+}
+
+std::string corridor_text(const LiveReport& report) {
+    const CorridorBooks& books = report.corridor;
+    if (!books.now) return "";
+    std::string text =
+        fmt::format("the rigs cover {:.0f} % of the last picture, {:.0f} % at the least",
+                    100 * books.now->share, 100 * books.least_share);
+    if (books.edge_s > 0 || books.beyond_s > 0)
+        text += fmt::format(
+            "; the camera was {:.1f} s at the edge of their corridor and {:.1f} s "
+            "beyond its end",
+            books.edge_s, books.beyond_s);
+    return text + '\n';
+}
+
+std::string take_text(const TakeState& take) {
+    std::string text = fmt::format(
+        "take: {}, {:.1f} s, {} frames and {} missing, {:.1f} MB, {:.1f} MB a second, written "
+        "{:.0f} ms after they came at most\n",
+        take.path, take.duration_s, take.frames, take.gaps, static_cast<double>(take.bytes) / 1e6,
+        take.mb_s, take.longest_unwritten_ms);
+    for (const TakeState::Rig& rig : take.rigs)
+        if (rig.dropped + rig.refused > 0)
+            text += fmt::format(
+                "take: of rig {} are {} frames left out since they came faster than they could be "
+                "written, and {} that did not fit\n",
+                rig.name, rig.dropped, rig.refused);
+    if (take.has_sound)
+        text += fmt::format(
+            "take: {:.1f} s of sound, {} samples left out since they came faster than they could "
+            "be written\n",
+            take.sound_s, take.sound_dropped);
+    if (!take.failure.empty()) text += fmt::format("take: {}\n", take.failure);
+    return text;
+}
+
+std::string sound_text(const SoundState& sound) {
+    const auto ms = [](std::uint64_t samples) {
+        return 1000 * static_cast<double>(samples) / sound_rate_hz;
+    };
+    std::string text = fmt::format(
+        "sound: {}, {}, {:.1f} s, {:.0f} ms after it was heard; {:.0f} ms of it were not there, "
+        "{:.0f} ms came too fast, {} over what could not be slid over; its clock is {:.0f} "
+        "millionths ahead",
+        sound.name, key_of(sound.phase), ms(sound.played) / 1000, sound.delay_ms, ms(sound.missing),
+        ms(sound.dropped), counted(sound.jumps, "jump"), sound.drift_ppm);
+    if (sound.failures > 0) text += fmt::format("; failed {}", counted_times(sound.failures));
+    if (!sound.failure.empty()) text += ": " + sound.failure;
+    return text + '\n';
+}
+
+std::string output_text(const OutputState& output) {
+    std::string text = fmt::format("output: {}{}{}, {}, {:.1f} MB, {} left out because it was busy",
+                                   output.name, output.encoder.empty() ? "" : " by ",
+                                   output.encoder, counted(output.pictures, "picture"),
+                                   static_cast<double>(output.bytes) / 1e6, output.dropped);
+    if (output.unheard > 0)
+        text += fmt::format(", {} while nobody took it", counted(output.unheard, "picture"));
+    if (output.silenced > 0)
+        text += fmt::format(", the sound of {}", counted(output.silenced, "picture"));
+    if (output.failures > 0) text += fmt::format(", failed {}", counted_times(output.failures));
+    return text + '\n';
+}
+
+std::string line_of(const char* what, const Percentiles& ms) {
+    return fmt::format("{}: p50 {:.0f} ms, p95 {:.0f}, p99 {:.0f}, max {:.0f}\n", what, ms.p50,
+                       ms.p95, ms.p99, ms.max);
+}
+
+std::string steps_text(const LiveReport& report) {
+    std::string text;
+    text += fmt::format("{:<10}  {:>8}  {:>8}\n", "step", "p50 ms", "p95 ms");
+    for (const StepTime& step : step_times(report))
+        text += fmt::format("{:<10}  {:>8.2f}  {:>8.2f}\n", step.name, step.ms.p50, step.ms.p95);
+    return text;
+}
+
+std::string results_text(const LiveReport& report) {
+    std::string text;
+    if (report.faults > 0)
+        text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
+                            report.faults);
+    if (report.contexts_lost > 0)
+        text += fmt::format("resets of the GPU, after which all of it was set up anew: {}\n",
+                            report.contexts_lost);
+    for (const std::string& failure : failures_of(report)) text += failure + '\n';
+    if (report.stereoscopy)
+        text +=
+            fmt::format("{}: eyes {:.1f} mm apart, converging at {:.2f} m\n",
+                        to_json(*report.stereoscopy)["layout"].get<std::string>(),
+                        1000 * report.stereoscopy->interaxial_m, report.stereoscopy->convergence_m);
+    if (report.novelty) {
+        text += "pixels of the last picture by rig:";
+        for (const auto& [rig, share] : report.novelty->rigs)
+            text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
+        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.novelty->filled,
+                            100 * report.novelty->remembered);
+    }
+    for (const DeckDevice& wheel : report.wheels)
+        text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
+                            wheel.model, wheel.place.path, wheel.reports, wheel.unread,
+                            wheel.fault.empty() ? "" : "; ", wheel.fault);
+    for (const PortState& port : report.ports)
+        text += fmt::format(
+            "control: {}, {} obeyed, {} unknown, {} malformed, {} more than may come{}{}\n",
+            port.name, counted(port.books.obeyed, "message"), port.books.unknown,
+            port.books.malformed, port.books.dropped,
+            port.failure.empty() ? "" : "; failed: ", port.failure);
+    for (const PortState& port : report.ports)
+        if (!port.books.told.empty())
+            text += fmt::format("control: {}: {}\n", port.name, port.books.told);
+    if (report.take) text += take_text(*report.take);
+    if (!report.saved_set.empty()) text += fmt::format("set saved to {}\n", report.saved_set);
+    if (report.sound) text += sound_text(*report.sound);
+    for (const OutputState& output : report.outputs) text += output_text(output);
+    return text;
+}
+
+}  // namespace
+
+std::string counters_legend() {
+    return R"(Every frame since this host came ends in one place. At the rig: missed (a pulse without a picture),
+late (a step was still busy), published. On the way: thinned (this host asked for fewer or none),
+pushed out (this host or its network was slow), sent; lost (sent, and the connection broke). At this
+host: damaged (not readable), host busy, late (its set was closed), duplicate, unsynced (names no pulse
+of the stage), out of step (counts pulses differently from the other rigs), in sets; of those: fused (in a
+picture), superseded (a newer set came before a picture was due), set dropped
+(before anything took sets).
+)";
+}
+
+std::string shares_text(const std::vector<double>& shares) {
+    std::string text;
+    for (std::size_t level = 0; level < shares.size(); ++level)
+        if (shares[level] > 0.005)
+            text +=
+                fmt::format("{}{}: {:.0f} %", text.empty() ? "" : ", ", level, 100 * shares[level]);
+    return text.empty() ? "none" : text;
+}
+
+std::string to_text(const LiveReport& report) {
+    const ProgrammeBooks& programme = report.programme;
+    std::string text = fmt::format(
+        "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, of {} "
+        "ticks {} reprojected and {} repeated the last one, {} missed, {} pictures superseded "
+        "(synthesiser {}, on {})\n",
+        report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
+        report.format.height_px, programme.duration_s, programme.ticks, programme.reprojected,
+        programme.repeated, programme.missed, programme.superseded, report.synthesiser,
+        report.renderer);
+    text += line_of("after the tick", programme.late_ms);
+    text += line_of("between two pictures", programme.interval_ms);
+    if (programme.latency_ms.count > 0)
+        text += line_of("exposure to picture", programme.latency_ms);
+    if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    if (programme.rest_ms.count > 0)
+        text += line_of("held until the best picture", programme.rest_ms);
+    if (programme.seek_ms.count > 0) {
+        text += line_of("seek to picture", programme.seek_ms);
+        text += line_of("  waiting for the instant before", programme.seek_steps_ms.wait);
+        text += line_of("  reading and decoding", programme.seek_steps_ms.fetch);
+        text += line_of("  preparing", programme.seek_steps_ms.prepare);
+        text += line_of("  rendering, until its tick", programme.seek_steps_ms.picture);
+    }
+    if (programme.preview_pictures > 0)
+        text += line_of(
+            fmt::format("{} of the preview, each", counted(programme.preview_pictures, "picture"))
+                .c_str(),
+            programme.preview_ms);
+    text +=
+        fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
+                    shares_text(programme.render_shares), shares_text(programme.prepare_shares));
+    if (!report.played.empty()) {
+        text += fmt::format(
+            "{} was played: {} instants, {} more between pulses, the last of pulse {}\n",
+            report.played, report.instants_prepared, report.instants_between, report.shown_pulse);
+        text += corridor_text(report) + steps_text(report) + results_text(report);
+        return text;
+    }
+    text += fmt::format(
+        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
+        "newer one, {} dropped\n",
+        report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
+        report.instants_prepared, report.sets_superseded, report.sets_dropped);
+    text += corridor_text(report) + '\n' + rig_tables(report);
+    if (!report.rigs.empty()) text += counters_legend() + '\n';
+    text += fmt::format("signal at the end: {}\n", title_of(report.signal));
+    text += rig_remarks(report);
+    return text + steps_text(report) + results_text(report);
+}
+
+}  // namespace vantage

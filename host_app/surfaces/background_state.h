@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
+#include "host_app/surfaces/drawn_texture.h"
+
+namespace vantage {
+
+/// What a rig has learnt of the depth of its set, rgba32f in two copies, of which the one before is
+/// read while the next is drawn, and what the newest instant shows against it, rgba8 (see
+/// set_see.frag). The first channel of the former is the set's depth in metres.
+class SetState {
+  public:
+    /// Whether state() and seen() hold anything.
+    bool is_drawn() const { return is_drawn_; }
+    const Texture& state() const { return sized_->states[sized_->now]; }
+    const Texture& seen() const { return seen_.texture(); }
+
+    /// Another size begins anew.
+    void resize(cv::Size size) {
+        if (sized_ && seen().size() == size) return;
+        seen_.resize(size);
+        sized_.emplace(size);
+        is_drawn_ = false;
+    }
+    const Framebuffer& seen_target() const { return seen_.target(); }
+    const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
+    /// Goes on from a state, rgba32f of the size, that was read back before.
+    void restore(const cv::Mat4f& state) {
+        sized_->states[sized_->now].upload(state);
+        is_drawn_ = true;
+    }
+    void finish() {
+        sized_->now = 1 - sized_->now;
+        is_drawn_ = true;
+    }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    struct Sized {
+        std::array<Texture, 2> states;
+        std::array<Framebuffer, 2> targets;
+        std::size_t now = 0;
+
+        explicit Sized(cv::Size size)
+            : states{state_of(size), state_of(size)},
+              targets{Framebuffer{&states[0]}, Framebuffer{&states[1]}} {}
+        static Texture state_of(cv::Size size) {
+            return {TextureFormat::rgba32f, size.width, size.height};
+        }
+    };
+
+    DrawnTexture seen_{TextureFormat::rgba8, Filter::nearest, false, DrawnWith::depth_test};
+    std::optional<Sized> sized_;
+    bool is_drawn_ = false;
+};
+
+}  // namespace vantage

@@ -1,0 +1,53 @@
+#include "host_app/surfaces/depth_uploader.h"
+
+#include <algorithm>
+
+namespace vantage {
+namespace {
+
+constexpr int table_side = 256;
+/// More geometries than a stage has rigs were left behind by rigs that were calibrated anew.
+constexpr std::size_t most_tables = 64;
+
+}  // namespace
+
+const Texture& DepthUploader::table_of(const DisparityScale& scale) {
+    const auto known = std::find_if(tables_.begin(), tables_.end(),
+                                    [&](const auto& table) { return table.first == scale; });
+    if (known != tables_.end()) return known->second;
+    if (tables_.size() >= most_tables) tables_.clear();
+    DepthImage depths_m(table_side, table_side);
+    for (int steps = 0; steps < table_side * table_side; ++steps)
+        depths_m(steps / table_side, steps % table_side) =
+            scale.depth_m(static_cast<std::uint16_t>(steps));
+    Texture table(TextureFormat::r32f, table_side, table_side);
+    table.upload(depths_m);
+    return tables_.emplace_back(scale, std::move(table)).second;
+}
+
+void DepthUploader::upload(const DepthView& view, DrawnTexture& into) {
+    into.resize(view.depth_size());
+    if (!steps_ || steps_->size() != view.disparity.size())
+        steps_.emplace(TextureFormat::r16ui, view.disparity.cols, view.disparity.rows);
+    steps_->upload(view.disparity);
+    const Texture& table = table_of(view.disparity_scale);
+    Program& program = pass_.use();
+    program.set("steps", 0);
+    program.set("table", 1);
+    steps_->bind(0);
+    table.bind(1);
+    pass_.draw(into.target());
+}
+
+void upload_depth(const DepthView& view, std::unique_ptr<DepthUploader>& uploader,
+                  DrawnTexture& into) {
+    if (!view.disparity.empty()) {
+        if (!uploader) uploader = std::make_unique<DepthUploader>();
+        uploader->upload(view, into);
+    } else {
+        into.resize(view.depth_m.size());
+        into.texture().upload(view.depth_m);
+    }
+}
+
+}  // namespace vantage

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
+
+namespace vantage {
+
+/// What else the target of a DrawnTexture has.
+enum class DrawnWith { nothing, depth_test };
+
+/// A texture to draw into, allocated anew only when the size changes.
+class DrawnTexture {
+  public:
+    explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest,
+                          bool mipmapped = false, DrawnWith with = DrawnWith::nothing)
+        : format_(format), filter_(filter), mipmapped_(mipmapped), with_(with) {}
+
+    void resize(cv::Size size) {
+        if (texture_ && texture_->size() == size) return;
+        target_.reset();
+        texture_.emplace(format_, size.width, size.height, filter_, mipmapped_);
+        if (with_ == DrawnWith::depth_test)
+            depth_test_.emplace(TextureFormat::depth24, size.width, size.height);
+        target_.emplace(std::initializer_list<const Texture*>{&*texture_},
+                        depth_test_ ? &*depth_test_ : nullptr);
+    }
+    bool empty() const { return !texture_; }
+    const Texture& texture() const { return *texture_; }
+    /// To be uploaded to.
+    Texture& texture() { return *texture_; }
+    const Framebuffer& target() const { return *target_; }
+    /// Precondition: mipmapped.
+    void generate_mipmaps() { texture_->generate_mipmaps(); }
+
+  private:
+    TextureFormat format_;
+    Filter filter_;
+    bool mipmapped_;
+    DrawnWith with_;
+    std::optional<Texture> texture_, depth_test_;
+    std::optional<Framebuffer> target_;
+};
+
+/// Two textures in turn: what was drawn last is read while the other one is drawn.
+class DrawnInTurn {
+  public:
+    explicit DrawnInTurn(TextureFormat format)
+        : textures_{DrawnTexture(format), DrawnTexture(format)} {}
+
+    /// Whether texture() holds anything.
+    bool is_drawn() const { return is_drawn_; }
+    /// What was drawn when finish() was last called.
+    const Texture& texture() const { return textures_[now_].texture(); }
+    const Framebuffer& next_target(cv::Size size) {
+        textures_[1 - now_].resize(size);
+        return textures_[1 - now_].target();
+    }
+    void finish() {
+        now_ = 1 - now_;
+        is_drawn_ = true;
+    }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    std::array<DrawnTexture, 2> textures_;
+    std::size_t now_ = 0;
+    bool is_drawn_ = false;
+};
+
+/// The same as DrawnTexture for depth alone: depth24.
+class DrawnDepth {
+  public:
+    void resize(cv::Size size) {
+        if (texture_ && texture_->size() == size) return;
+        target_.reset();
+        texture_.emplace(TextureFormat::depth24, size.width, size.height);
+        target_.emplace(std::initializer_list<const Texture*>{}, &*texture_);
+    }
+    const Texture& texture() const { return *texture_; }
+    const Framebuffer& target() const { return *target_; }
+
+  private:
+    std::optional<Texture> texture_;
+    std::optional<Framebuffer> target_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,26 @@
+#include "rig_firmware/stereo/disparity/result_pass.h"
+
+namespace vantage {
+
+ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
+                       bool with_confidence)
+    : layout_(layout),
+      pass_(library, "stereo_result.frag", {{"CONFIDENCE", with_confidence ? "1" : "0"}}),
+      result_(TextureFormat::r16ui, layout.width_px, layout.height_px),
+      confidence_(with_confidence ? std::optional<Texture>(std::in_place, TextureFormat::r8ui,
+                                                           layout.width_px, layout.height_px)
+                                  : std::nullopt),
+      target_(confidence_ ? Framebuffer({&result_, &*confidence_}) : Framebuffer({&result_})) {}
+
+const Texture& ResultPass::run(PassProfiler& profiler, const Buffer& disparity) {
+    const std::size_t pixels = layout_.pixels();
+    profiler.run("result", {pixels * 6, static_cast<double>(pixels) * 2}, [&] {
+        Program& program = pass_.use();
+        program.set("stride", layout_.stride_px());
+        disparity.bind_storage(0);
+        pass_.draw(target_);
+    });
+    return result_;
+}
+
+}  // namespace vantage

@@ -1,0 +1,24 @@
+#include "rig_firmware/stereo/disparity/row_fill_pass.h"
+
+namespace vantage {
+
+RowFillPass::RowFillPass(const ShaderLibrary& library, const StereoLayout& layout)
+    : layout_(layout),
+      support_(library, layout),
+      program_(Program::compute(library, "row_fill.comp")) {}
+
+void RowFillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
+    support_.run(profiler, disparity, filled);
+    const std::size_t pixels = layout_.pixels();
+    profiler.run("fill", {pixels * 20, static_cast<double>(pixels) * 16}, [&] {
+        program_.use();
+        program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+        program_.set("stride", layout_.stride_px());
+        disparity.bind_storage(0);
+        filled.bind_storage(1);
+        program_.dispatch_over(layout_.height_px, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    });
+}
+
+}  // namespace vantage

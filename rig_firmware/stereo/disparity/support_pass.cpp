@@ -1,0 +1,24 @@
+#include "rig_firmware/stereo/disparity/support_pass.h"
+
+#include <string>
+
+#include "rig_firmware/stereo/disparity/support_reference.h"
+#include "rig_firmware/stereo/volume/four_by_eight.h"
+
+namespace vantage {
+
+SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layout)
+    : layout_(layout),
+      program_(four_by_eight::program(library, "supported_disparity.comp",
+                                      {{"LEAST_VOTES", std::to_string(least_support_votes)}})) {}
+
+void SupportPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported) {
+    const std::size_t pixels = layout_.pixels();
+    profiler.run("support", {pixels * 28, static_cast<double>(pixels) * 25 * 5}, [&] {
+        disparity.bind_storage(0);
+        supported.bind_storage(1);
+        four_by_eight::run(program_, layout_);
+    });
+}
+
+}  // namespace vantage

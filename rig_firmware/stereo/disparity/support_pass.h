@@ -1,0 +1,24 @@
+#pragma once
+
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/stereo_layout.h"
+
+namespace vantage {
+
+/// Leaves only the disparities that enough pixels around them share, so that FillPass does not
+/// spread what an occluded stripe matched by chance.
+class SupportPass {
+  public:
+    SupportPass(const ShaderLibrary& library, const StereoLayout& layout);
+
+    /// Both in LeftRightPass's form.
+    void run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported);
+
+  private:
+    StereoLayout layout_;
+    Program program_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,41 @@
+#include "rig_firmware/stereo/disparity/temporal_pass.h"
+
+#include <string>
+
+#include "rig_firmware/stereo/disparity/temporal_reference.h"
+
+namespace vantage {
+
+TemporalPass::TemporalPass(const ShaderLibrary& library, int width_px, int height_px)
+    : exposure_(library),
+      pass_(library, "temporal_disparity.frag",
+            {{"MOST_CHANGE", std::to_string(most_still_change)},
+             {"MOST_HOLDING_CHANGE", std::to_string(most_holding_change)},
+             {"MOST_STEP", std::to_string(most_agreeing_step)},
+             {"VOTES", std::to_string(agreeing_votes)},
+             {"FIRST_VOTES", std::to_string(first_votes)},
+             {"MOST_VOTES", std::to_string(most_votes)}}),
+      steadied_(TextureFormat::r16ui, width_px, height_px),
+      states_{Texture(TextureFormat::r32ui, width_px, height_px),
+              Texture(TextureFormat::r32ui, width_px, height_px)},
+      targets_{Framebuffer({&steadied_, &states_[0]}), Framebuffer({&steadied_, &states_[1]})} {}
+
+const Texture& TemporalPass::run(const Texture& disparity, const Texture& picture) {
+    exposure_.run(picture);
+    const std::size_t next = 1 - newest_;
+    Program& program = pass_.use();
+    program.set("disparity", 0);
+    program.set("picture", 1);
+    program.set("state", 2);
+    program.set("has_state", has_state_ ? 1 : 0);
+    disparity.bind(0);
+    picture.bind(1);
+    states_[newest_].bind(2);
+    exposure_.gain().bind_storage(0);
+    pass_.draw(targets_[next]);
+    newest_ = next;
+    has_state_ = true;
+    return steadied_;
+}
+
+}  // namespace vantage

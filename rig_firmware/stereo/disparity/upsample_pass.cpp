@@ -1,0 +1,32 @@
+#include "rig_firmware/stereo/disparity/upsample_pass.h"
+
+namespace vantage {
+
+UpsamplePass::UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse,
+                           const StereoLayout& fine)
+    : coarse_(coarse),
+      fine_(fine),
+      program_(Program::compute(library, "stereo_upsample.comp")),
+      disparity_(fine.pixels() * 4, GL_DYNAMIC_COPY) {}
+
+void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
+                       const Buffer& coarse_luma, const Buffer& fine_luma) {
+    const std::size_t pixels = fine_.pixels();
+    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 40}, [&] {
+        program_.use();
+        program_.set("coarse_size", Eigen::Vector2i(coarse_.width_px, coarse_.height_px));
+        program_.set("coarse_stride", coarse_.stride_px());
+        program_.set("coarse_row_words", coarse_.luma_row_words());
+        program_.set("fine_size", Eigen::Vector2i(fine_.width_px, fine_.height_px));
+        program_.set("fine_stride", fine_.stride_px());
+        program_.set("fine_row_words", fine_.luma_row_words());
+        coarse_disparity.bind_storage(0);
+        coarse_luma.bind_storage(1);
+        fine_luma.bind_storage(2);
+        disparity_.bind_storage(3);
+        program_.dispatch_over((coarse_.width_px + 3) / 4, coarse_.height_px);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    });
+}
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/stereo_layout.h"
+
+namespace vantage {
+
+/// Disparity of the half-size pair to full size: on the plane through the neighbours where they are
+/// all near; else each pixel takes that of the one neighbour that is near and looks like it, so
+/// that depth edges move to where they are. After J. Kopf et al., "Joint bilateral upsampling",
+/// SIGGRAPH 2007, with one neighbour in place of the mean, because a mean of two surfaces is on
+/// neither.
+class UpsamplePass {
+  public:
+    UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse,
+                 const StereoLayout& fine);
+
+    /// Disparity in LeftRightPass's form, lumas in LumaPass's.
+    void run(PassProfiler& profiler, const Buffer& coarse_disparity, const Buffer& coarse_luma,
+             const Buffer& fine_luma);
+
+    const Buffer& disparity() const { return disparity_; }
+    std::size_t gpu_bytes() const { return disparity_.bytes(); }
+
+  private:
+    StereoLayout coarse_, fine_;
+    Program program_;
+    Buffer disparity_;
+};
+
+}  // namespace vantage

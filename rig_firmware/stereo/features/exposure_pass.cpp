@@ -1,0 +1,34 @@
+#include "rig_firmware/stereo/features/exposure_pass.h"
+
+#include <string>
+
+namespace vantage {
+namespace {
+
+constexpr int group_lanes = 64;
+
+}  // namespace
+
+ExposurePass::ExposurePass(const ShaderLibrary& library)
+    : program_(
+          Program::compute(library, "exposure_gain.comp",
+                           {{"LANES", std::to_string(group_lanes)},
+                            {"COLUMNS", std::to_string(ExposureReference::columns)},
+                            {"ROWS", std::to_string(ExposureReference::rows)},
+                            {"MOST_FIRST_STEP", std::to_string(ExposureReference::most_first_step)},
+                            {"MOST_STEP", std::to_string(ExposureReference::most_step)},
+                            {"LEAST_CHANGE", std::to_string(ExposureReference::least_change)}})),
+      exposure_((1 + ExposureReference::columns * ExposureReference::rows) * 4, GL_DYNAMIC_COPY) {}
+
+void ExposurePass::run(const Texture& picture) {
+    program_.use();
+    program_.set("picture", 0);
+    program_.set("has_luma", has_luma_ ? 1 : 0);
+    picture.bind(0);
+    exposure_.bind_storage(0);
+    program_.dispatch_over(group_lanes, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    has_luma_ = true;
+}
+
+}  // namespace vantage

@@ -1,0 +1,72 @@
+#include "rig_firmware/stereo/features/feature_pass.h"
+
+#include <string>
+
+namespace vantage {
+namespace {
+
+/// Of the census, which slides its neighbourhood down the picture.
+constexpr int rows_an_invocation = 16;
+
+}  // namespace
+
+FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities)
+    : layout_(layout),
+      disparities_(disparities),
+      features_program_(Program::compute(library, "stereo_features.comp",
+                                         {{"ROWS", std::to_string(rows_an_invocation)}})),
+      shifted_program_(
+          Program::compute(library, "stereo_features.comp",
+                           {{"ROWS", std::to_string(rows_an_invocation)}, {"SHIFTED", "1"}})),
+      clear_program_(Program::compute(library, "stereo_clear.comp")),
+      votes_program_(Program::compute(library, "row_shift_votes.comp")),
+      left_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
+      right_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
+      votes_(8 * 4, GL_DYNAMIC_COPY) {}
+
+void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& words) {
+    program.use();
+    program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+    program.set("row_words", layout_.luma_row_words());
+    program.set("stride", layout_.stride_px());
+    luma.bind_storage(0);
+    words.bind_storage(1);
+    program.dispatch_over(layout_.stride_px() / 4,
+                          (layout_.height_px + rows_an_invocation - 1) / rows_an_invocation);
+}
+
+void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
+    const std::size_t pixels = layout_.pixels();
+    profiler.run("census and gradient", {pixels * 12, static_cast<double>(pixels) * 180}, [&] {
+        features(features_program_, luma.left(), left_features_);
+        features(features_program_, luma.right(), right_features_);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    });
+    constexpr std::size_t sampling = 8 * 16;
+    const std::size_t compared = pixels / sampling * static_cast<std::size_t>(disparities_) * 5;
+    profiler.run("row shift", {compared * 4, static_cast<double>(compared) * 4}, [&] {
+        clear_program_.use();
+        clear_program_.set("count", 2);
+        votes_.bind_storage(0);
+        clear_program_.dispatch_over(2, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        votes_program_.use();
+        votes_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+        votes_program_.set("stride", layout_.stride_px());
+        votes_program_.set("disparities", disparities_);
+        left_features_.bind_storage(0);
+        right_features_.bind_storage(1);
+        votes_.bind_storage(2);
+        votes_program_.dispatch_over((layout_.width_px + 7) / 8, (layout_.height_px + 15) / 16);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        votes_.bind_storage(2);
+        features(shifted_program_, luma.right(), right_features_);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    });
+}
+
+std::size_t FeaturePass::gpu_bytes() const {
+    return left_features_.bytes() + right_features_.bytes() + votes_.bytes();
+}
+
+}  // namespace vantage

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/texture.h"
+#include "rig_firmware/stereo/disparity/feature_reference.h"
+#include "rig_firmware/stereo/features/luma_pass.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/stereo_layout.h"
+
+namespace vantage {
+
+/// What the matching passes compare: feature words of both pictures.
+/// If the right picture lies up to two whole rows too low or too high, its words are those of the
+/// picture put right: a knock to a camera must not cost the depth until it is calibrated again.
+class FeaturePass {
+  public:
+    /// disparities: the search range, in which rows are compared.
+    FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities);
+
+    void run(PassProfiler& profiler, const LumaPass& luma);
+
+    const Buffer& left_features() const { return left_features_; }
+    const Buffer& right_features() const { return right_features_; }
+    const StereoLayout& layout() const { return layout_; }
+    std::size_t gpu_bytes() const;
+
+  private:
+    void features(Program& program, const Buffer& luma, const Buffer& words);
+
+    StereoLayout layout_;
+    int disparities_;
+    Program features_program_, shifted_program_, clear_program_, votes_program_;
+    Buffer left_features_, right_features_, votes_;
+};
+
+}  // namespace vantage

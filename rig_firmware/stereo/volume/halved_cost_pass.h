@@ -1,0 +1,30 @@
+#pragma once
+
+#include "common/gl/objects/program.h"
+#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
+#include "rig_firmware/stereo/features/feature_pass.h"
+#include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/stereo_layout.h"
+
+namespace vantage {
+
+/// Matching costs on a grid of half the size (a quarter of the pixels, half of the disparities)
+/// from the full-size pictures' words: what halving the pictures first would lose, thin things and
+/// the places of edges above all, stays.
+class HalvedCostPass {
+  public:
+    /// disparities: of the full size.
+    HalvedCostPass(const ShaderLibrary& library, const StereoLayout& fine, int disparities,
+                   HalvedCostSamples samples);
+
+    /// Leaves in `costs` what PermPass takes as PermCosts::given.
+    void run(PassProfiler& profiler, const FeaturePass& fine_features, const Buffer& costs);
+
+  private:
+    StereoLayout fine_;
+    int disparities_;
+    HalvedCostSamples samples_;
+    Program program_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,128 @@
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/image/image_file.h"
+#include "host_app/commands/demo/demo_stage.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+
+namespace vantage {
+namespace {
+
+/// Whether a rig with a key answers there.
+bool serves(const std::string& stage) {
+    return run_to_end(VANTAGE_PROGRAM, {"rigs", "status", "--stage", stage, "--wait", "1"})
+               .status == 0;
+}
+
+class Demo : public testing::Test {
+  protected:
+    Demo() {
+        // A wall of noise that stands 8 px deep.
+        std::mt19937 random(1);
+        ColourImage right(96, 128);
+        for (auto& texel : right)
+            texel = cv::Vec4b(static_cast<unsigned char>(random()),
+                              static_cast<unsigned char>(random()),
+                              static_cast<unsigned char>(random()), 255);
+        ColourImage left = right.clone();
+        right.colRange(0, 120).copyTo(left.colRange(8, 128));
+        write_colour_image(file("left.png"), left);
+        write_colour_image(file("right.png"), right);
+    }
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    TemporaryFolder folder_;
+};
+
+TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
+    std::vector<int> tried;
+    const auto size_where_a_megapixel_takes = [&](double ms) {
+        tried.clear();
+        return gpu_demo_size(4, [&](const DemoSize& size) {
+            tried.push_back(size.rig[0]);
+            return ms * size.rig[0] * size.rig[1] * 1e-6;
+        });
+    };
+    EXPECT_EQ(size_where_a_megapixel_takes(7).rig[0], 960) << "100 pairs a second of 4.8 ms";
+    EXPECT_EQ(tried, std::vector<int>{960});
+    EXPECT_EQ(size_where_a_megapixel_takes(15).rig[0], 640);
+    EXPECT_EQ(size_where_a_megapixel_takes(15).rate_hz, 25);
+    const DemoSize slowest = size_where_a_megapixel_takes(1000);
+    EXPECT_LT(slowest.rate_hz, 25);
+    EXPECT_FALSE(slowest.is_software);
+    EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
+}
+
+TEST(DemoSize, OfAProcessorThatDrawsEverythingHasFewerPulsesWhereItIsSlow) {
+    EXPECT_EQ(software_rate_hz(4, 5), software_demo_size().rate_hz);
+    EXPECT_EQ(software_rate_hz(4, 15), 3.5) << "3.7 of them take 220 ms";
+    EXPECT_EQ(software_rate_hz(4, 20), 2.5);
+    EXPECT_EQ(software_rate_hz(4, 500), 2) << "the fewest";
+}
+
+TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
+    // Of a demo before.
+    std::filesystem::create_directory(file("out"));
+    write_colour_image(file("out/contact_sheet.png"), ColourImage(1, 1));
+    const ProgramResult result = run_to_end(
+        VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("right.png"), "--headless",
+                          "--seconds", "2", "--folder", file("out"), "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    EXPECT_GE(summary["new_pictures"], 5);
+    EXPECT_EQ(summary["signal"], "live");
+    EXPECT_TRUE(std::filesystem::exists(file("out/flight.mkv")));
+    EXPECT_GT(read_colour_image(file("out/contact_sheet.png")).cols, 1);
+    EXPECT_NE(result.err.find("this flight replaces contact_sheet.png; "), std::string::npos)
+        << result.err;
+}
+
+TEST_F(Demo, RigsEndWithItHoweverItEnds) {
+    ChildProgram demo(VANTAGE_PROGRAM,
+                      {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
+                       "--folder", file("out")},
+                      folder_.path());
+    for (int tries = 0; tries < 600 && demo.out().empty(); ++tries) ::usleep(100'000);
+    ASSERT_TRUE(demo.out().starts_with("ready: ")) << demo.err();
+    const std::string stage = file("out/demo/stage.toml");
+    bool served = false;
+    for (int tries = 0; tries < 60 && !served; ++tries) served = serves(stage);
+    EXPECT_TRUE(served) << demo.err();
+    demo.send_signal(SIGKILL);
+    (void)demo.wait();
+    bool is_gone = false;
+    for (int tries = 0; tries < 20 && !is_gone; ++tries) is_gone = !serves(stage);
+    EXPECT_TRUE(is_gone);
+}
+
+TEST_F(Demo, SaysWhatIsWrongWithAPair) {
+    const ProgramResult missing =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("none.png"),
+                                     "--headless", "--folder", file("out")});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_EQ(missing.err.find("vantage-rig"), std::string::npos)
+        << "one sentence: " << missing.err;
+    EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
+    const ProgramResult unmeasured =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--rig", file("none.yaml"), file("left.png"),
+                                     file("right.png"), "--headless", "--folder", file("out/new")});
+    EXPECT_EQ(unmeasured.status, 1);
+    EXPECT_EQ(unmeasured.err.find("vantage: error: "), 0u) << unmeasured.err;
+    EXPECT_NE(unmeasured.err.find("none.yaml"), std::string::npos) << unmeasured.err;
+    EXPECT_FALSE(std::filesystem::exists(file("out/new"))) << "nothing was begun";
+    const ProgramResult alone =
+        run_to_end(VANTAGE_PROGRAM, {"demo", "--disparities", "64", "--folder", file("out")});
+    EXPECT_EQ(alone.status, 2);
+    EXPECT_NE(alone.err.find("--rig"), std::string::npos) << alone.err;
+}
+
+}  // namespace
+}  // namespace vantage

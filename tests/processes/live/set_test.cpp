@@ -1,0 +1,74 @@
+#include <csignal>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/processes/live/steered_show.h"
+#include "tests/support/child_program.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
+
+namespace vantage {
+namespace {
+
+/// Shows of a take, each a process, that save what they learn of its set and begin with it.
+class Sets : public testing::Test {
+  protected:
+    std::vector<std::string> played(std::vector<std::string> more) const {
+        std::vector<std::string> words{
+            "play",    (source_folder() / "tests/takes/version_1.mkv").string(),
+            "--json",  "--headless",
+            "--size",  "96x72",
+            "--synth", "fused"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    ProgramResult play(std::vector<std::string> more) const {
+        return ChildProgram(VANTAGE_PROGRAM, played(std::move(more)), folder_.path()).wait();
+    }
+
+    std::string at(const char* name) const { return (folder_.path() / name).string(); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Sets, AreSavedAtTheEndAndBegunWith) {
+    const ProgramResult first = play({"--save-set", at("studio.vset")});
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_EQ(nlohmann::json::parse(first.out)["saved_set"], at("studio.vset"));
+    ASSERT_TRUE(std::filesystem::exists(at("studio.vset")));
+    for (const auto& rig : nlohmann::json::parse(first.out)["rigs"])
+        EXPECT_FALSE(rig["set"]["loaded"].get<bool>());
+
+    const ProgramResult second = play({"--set", at("studio.vset")});
+    ASSERT_EQ(second.status, 0) << second.err;
+    for (const auto& rig : nlohmann::json::parse(second.out)["rigs"]) {
+        EXPECT_TRUE(rig["set"]["loaded"].get<bool>()) << rig["set"];
+        EXPECT_FALSE(rig["set"].contains("misfit")) << rig["set"];
+    }
+
+    const ProgramResult again = play({"--save-set", at("studio.vset")});
+    EXPECT_EQ(again.status, 1);
+    EXPECT_NE(again.err.find("there is such a file"), std::string::npos) << again.err;
+    const ProgramResult none = play({"--set", (source_folder() / "README.md").string()});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("no learnt set"), std::string::npos) << none.err;
+}
+
+TEST_F(Sets, AreSavedWhileAShowRunsByACommandThatADeskSees) {
+    SteeredShow steered(played({"--loop", "--seconds", "300", "--save-set", at("by_hand.vset")}),
+                        folder_);
+    ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/save_set"));
+    EXPECT_TRUE(steered.is_told("by_hand.vset")) << steered.told() << steered.show().err();
+    ASSERT_TRUE(steered.send("/vantage/learn_set"));
+    steered.show().send_signal(SIGINT);
+    const ProgramResult end = steered.show().wait();
+    EXPECT_EQ(nlohmann::json::parse(end.out)["saved_set"], at("by_hand.vset"));
+    EXPECT_TRUE(std::filesystem::exists(at("by_hand.vset")));
+    EXPECT_FALSE(std::filesystem::exists(at("by_hand-2.vset")));
+}
+
+}  // namespace
+}  // namespace vantage

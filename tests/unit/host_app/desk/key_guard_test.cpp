@@ -1,0 +1,33 @@
+#include "host_app/desk/windows/key_guard.h"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+TEST(KeyGuardTest, ObeysTheSecondPressWithinItsTime) {
+    KeyGuard guard;
+    EXPECT_FALSE(guard.confirms("end?", 10));
+    EXPECT_EQ(guard.question(11), "end?");
+    EXPECT_TRUE(guard.confirms("end?", 12));
+    EXPECT_EQ(guard.question(12), "") << "it is answered";
+    EXPECT_FALSE(guard.confirms("end?", 12.1)) << "and asked anew the next time";
+}
+
+TEST(KeyGuardTest, ForgetsWhatNobodyAnswers) {
+    KeyGuard guard;
+    EXPECT_FALSE(guard.confirms("end?", 10));
+    EXPECT_EQ(guard.question(10 + KeyGuard::asks_for_s), "");
+    EXPECT_FALSE(guard.confirms("end?", 10 + KeyGuard::asks_for_s));
+}
+
+TEST(KeyGuardTest, AnotherQuestionTakesThePlaceOfTheFirst) {
+    KeyGuard guard;
+    EXPECT_FALSE(guard.confirms("end?", 10));
+    EXPECT_FALSE(guard.confirms("replace?", 11));
+    EXPECT_FALSE(guard.confirms("end?", 12));
+    EXPECT_TRUE(guard.confirms("end?", 13));
+}
+
+}  // namespace
+}  // namespace vantage

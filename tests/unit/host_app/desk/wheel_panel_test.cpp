@@ -1,0 +1,106 @@
+#include "host_app/desk/panels/wheel_panel.h"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+using Key = WheelPanel::Key;
+using Kind = DeskWheel::Kind;
+using What = WheelCall::What;
+
+class WheelPanelTest : public testing::Test {
+  protected:
+    WheelPanelTest() {
+        wheel_.controls = {{Kind::turns, "jog", "wheel"}, {Kind::button, "b1", "shot 1"}};
+        follow();
+    }
+    /// As the desk shows it next.
+    DeskWheel follow() {
+        std::optional<DeskWheel> shown = wheel_;
+        shown->feel =
+            wheel_.selected == 0 ? std::optional<DeskWheel::Feel>(DeskWheel::Feel()) : std::nullopt;
+        panel_.follow(shown);
+        return *shown;
+    }
+    void type(const char* letters) {
+        for (const char* letter = letters; *letter; ++letter)
+            panel_.type(static_cast<unsigned>(*letter));
+    }
+
+    DeskWheel wheel_;
+    WheelPanel panel_;
+};
+
+TEST_F(WheelPanelTest, TakesControlsInHand) {
+    EXPECT_EQ(panel_.press(Key::down), (WheelCall{What::select_by, 1}));
+    EXPECT_EQ(panel_.press(Key::up), (WheelCall{What::select_by, -1}));
+    EXPECT_EQ(panel_.press_control(2), (WheelCall{What::select, 0, "b1"}));
+    EXPECT_EQ(panel_.press(Key::escape), WheelCall{What::close});
+}
+
+TEST_F(WheelPanelTest, PutsAChosenCommandIntoTheMap) {
+    wheel_.selected = 1;
+    follow();
+    type("mark_");
+    const DeskWheel shown = follow();
+    ASSERT_TRUE(shown.is_choosing);
+    ASSERT_GE(shown.choices.size(), 2u);
+    EXPECT_EQ(shown.choices[0].action, "mark_in");
+    EXPECT_EQ(panel_.press(Key::down), std::nullopt);
+    EXPECT_EQ(panel_.press(Key::enter), (WheelCall{What::assign, 0, "mark_out"}));
+    EXPECT_FALSE(follow().is_choosing);
+}
+
+TEST_F(WheelPanelTest, OffersAWheelWhatTakesStepsAndAButtonWhatTakesNone) {
+    const auto has = [](Kind kind, const std::string& action) {
+        for (const DeskWheel::Choice& choice : wheel_choices(kind))
+            if (choice.action == action) return true;
+        return false;
+    };
+    EXPECT_TRUE(has(Kind::turns, "orbit"));
+    EXPECT_FALSE(has(Kind::turns, "shuttle"));
+    EXPECT_TRUE(has(Kind::axis, "shuttle"));
+    EXPECT_FALSE(has(Kind::axis, "shot 1"));
+    EXPECT_TRUE(has(Kind::button, "shot 1"));
+    EXPECT_FALSE(has(Kind::button, "orbit"));
+    for (const Kind kind : {Kind::turns, Kind::axis, Kind::button})
+        EXPECT_TRUE(has(kind, "nothing"));
+}
+
+TEST_F(WheelPanelTest, LeavesTheMapWhereNothingIsChosen) {
+    type("no such command");
+    EXPECT_TRUE(follow().choices.empty());
+    EXPECT_EQ(panel_.press(Key::enter), std::nullopt);
+    EXPECT_EQ(panel_.press(Key::escape), std::nullopt) << "of the list, not of the map";
+    EXPECT_FALSE(follow().is_choosing);
+}
+
+TEST_F(WheelPanelTest, ForgetsAChoiceForAnotherControl) {
+    type("orb");
+    wheel_.selected = 1;
+    EXPECT_FALSE(follow().is_choosing);
+    EXPECT_EQ(panel_.press(Key::enter), std::nullopt) << "it opens the list";
+}
+
+TEST_F(WheelPanelTest, ChangesTheFeelInHand) {
+    EXPECT_EQ(panel_.press(Key::right), (WheelCall{What::steps, 1}));
+    panel_.press(Key::tab);
+    panel_.press(Key::tab);
+    EXPECT_EQ(follow().feel_in_hand, 2u);
+    EXPECT_EQ(panel_.press(Key::left), (WheelCall{What::curve, -1}));
+    wheel_.selected = 1;
+    follow();
+    EXPECT_EQ(panel_.press(Key::left), std::nullopt) << "a button has none";
+}
+
+TEST_F(WheelPanelTest, TakesNoLettersWhileTheMapIsClosed) {
+    std::optional<DeskWheel> closed;
+    panel_.follow(closed);
+    type("orb");
+    EXPECT_FALSE(panel_.is_open());
+    EXPECT_FALSE(follow().is_choosing);
+}
+
+}  // namespace
+}  // namespace vantage

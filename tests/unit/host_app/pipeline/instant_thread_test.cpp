@@ -1,0 +1,446 @@
+#include "host_app/pipeline/instant_thread.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/gl/context/context_group.h"
+#include "common/gl/sliced_drawing.h"
+#include "host_app/pipeline/rig_demand.h"
+#include "tests/support/eventually.h"
+#include "tests/support/gpu_reset.h"
+#include "tests/unit/host_app/frames/scripted_feed.h"
+
+namespace vantage {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What the preparers of a test are asked, and what they do.
+struct Orders {
+    std::atomic<bool> fails_to_take = false;
+    std::atomic<bool> fails_to_prepare = false;
+    std::atomic<bool> draws_next_until_released = false, is_released = false;
+    std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
+    std::atomic<int> rehearsals = 0, taken_at_rehearsal = 0;
+    std::atomic<std::size_t> rehearsed_rigs = 0;
+    std::atomic<double> rehearsed_apart_m = 0;  ///< the first two of them
+    std::function<void()> at_rehearsal;         ///< set before the first set is pushed
+    std::atomic<double> dt_s = 0;
+};
+
+class OrderedPreparer final : public InstantPreparer {
+  public:
+    explicit OrderedPreparer(std::shared_ptr<Orders> orders) : orders_(std::move(orders)) {
+        ++orders_->made;
+    }
+    void take(std::span<const DepthView> views, double dt_s) override {
+        if (orders_->fails_to_take) fail("the driver is lost");
+        // A picture that is marked cannot be prepared.
+        // With an end, so that a test that fails ends too.
+        if (orders_->draws_next_until_released.exchange(false))
+            for (int i = 0; i < 5000 && !orders_->is_released; ++i) {
+                SlicedDrawing::current()->give_way();
+                std::this_thread::sleep_for(2ms);
+            }
+        is_marked_ = !views.empty() && views.front().colour(0, 0)[3] == 7;
+        orders_->dt_s = dt_s;
+        ++orders_->taken;
+    }
+    std::shared_ptr<const Instant> prepare(const VirtualView&, const PrepareLevel& level) override {
+        if (orders_->fails_to_prepare || is_marked_) fail("the driver is lost");
+        orders_->rank = level.rank;
+        ++orders_->prepared;
+        return std::make_shared<Instant>();
+    }
+    void rehearse(std::span<const DepthView> views, const VirtualView&) override {
+        ++orders_->rehearsals;
+        if (orders_->at_rehearsal) orders_->at_rehearsal();
+        orders_->rehearsed_rigs = views.size();
+        orders_->rehearsed_apart_m =
+            (views[1].world_from_camera.translation() - views[0].world_from_camera.translation())
+                .norm();
+        orders_->taken_at_rehearsal = orders_->taken.load();
+    }
+    void cut() override { ++orders_->cuts; }
+
+  private:
+    std::shared_ptr<Orders> orders_;
+    bool is_marked_ = false;
+};
+
+class InstantThreadTest : public testing::Test {
+  protected:
+    InstantThreadTest() { make_thread(feed_.feed()); }
+    void make_thread(StageFeed feed) {
+        thread_ = std::make_unique<InstantThread>(
+            InstantThread::Settings{.pulse_rate_hz = 10, .replay_bytes = 100'000'000},
+            std::move(feed), contexts_);
+        thread_->prepare_for("ordered", [orders = orders_](const ShaderLibrary&) {
+            return std::make_unique<OrderedPreparer>(orders);
+        });
+    }
+    void push(std::uint64_t pulse) { feed_.push(feed_.set(pulse, {"north", "south"})); }
+    void push_marked(std::uint64_t pulse) {
+        FrameSet set = feed_.set(pulse, {"north", "south"});
+        for (FrameSet::Slot& slot : set.slots) {
+            auto frame = std::make_shared<RigFrame>(*slot.frame);
+            frame->colour = frame->colour.clone();
+            frame->colour(0, 0)[3] = 7;
+            slot.frame = frame;
+        }
+        feed_.push(set);
+    }
+    void go_to(std::optional<double> pulse, std::uint64_t jumps) {
+        thread_->wish({.pulse = pulse, .target = {}, .level = {}, .jumps = jumps});
+    }
+    bool wait_for_pulse(std::uint64_t pulse) {
+        return eventually([&] {
+            const auto newest = thread_->newest();
+            return newest && newest->set->trigger_index == pulse;
+        });
+    }
+
+    ContextGroup contexts_;
+    ScriptedFeed feed_{{"north", "south"}}, feed_of_six_{{"a", "b", "c", "d", "e", "f"}};
+    std::shared_ptr<Orders> orders_ = std::make_shared<Orders>();
+    std::unique_ptr<InstantThread> thread_;
+};
+
+TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const auto first = thread_->newest();
+    EXPECT_TRUE(first->is_live);
+    EXPECT_EQ(first->synthesiser, "ordered");
+    ASSERT_TRUE(first->exposure);
+    for (const FrameSet::Slot& slot : first->set->slots)
+        EXPECT_LE(*first->exposure, slot.frame->exposure);
+    push(5);
+    ASSERT_TRUE(wait_for_pulse(5));
+    EXPECT_GT(thread_->newest()->number, first->number);
+}
+
+/// A rehearsal takes seconds, and forgets what was learnt: it has to be over before the show.
+TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
+    feed_.push(feed_.set(4, {"south"}));
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(orders_->rehearsals, 1);
+    EXPECT_EQ(orders_->taken_at_rehearsal, 0);
+    EXPECT_EQ(orders_->rehearsed_rigs, 2u) << "what rigs do for each other is rehearsed too";
+    EXPECT_GT(orders_->rehearsed_apart_m, 0) << "from one place they would tell nothing new";
+    push(5);
+    ASSERT_TRUE(wait_for_pulse(5));
+    EXPECT_EQ(orders_->rehearsals, 1);
+}
+
+/// Shaders differ by how many rigs are compared with one, but there is a most.
+TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
+    thread_.reset();
+    make_thread(feed_of_six_.feed());
+    feed_of_six_.push(feed_of_six_.set(4, {"b", "c"}));
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(orders_->rehearsed_rigs, 4u);
+}
+
+TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
+    orders_->at_rehearsal = [&] {
+        for (const std::uint64_t pulse : {5, 6}) push(pulse);
+        ASSERT_TRUE(eventually([&] { return thread_->books().superseded.sets == 1; }));
+    };
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(6));
+    EXPECT_EQ(orders_->prepared, 1);
+    EXPECT_EQ(thread_->books().superseded.sets, 2u);
+    EXPECT_EQ(thread_->books().superseded.frames.at("north"), 2u);
+}
+
+TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
+    for (const std::uint64_t pulse : {4, 5, 6}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const auto shows = [&](double pulse, int moments, std::uint64_t wanted, double share) {
+        thread_->wish({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
+        return eventually([&] {
+            const auto newest = thread_->newest();
+            return newest->set->trigger_index == wanted && newest->share == share;
+        });
+    };
+    EXPECT_TRUE(shows(4.05, 4, 4, 0)) << "what was filmed comes before what is made";
+    EXPECT_TRUE(shows(4.375, 4, 4, 0.375));
+    EXPECT_NEAR(orders_->dt_s, 0.0375, 1e-9);
+    EXPECT_TRUE(shows(4.75, 4, 4, 0.75));
+    EXPECT_TRUE(shows(5.0, 4, 5, 0));
+    EXPECT_NEAR(orders_->dt_s, 0.025, 1e-9);
+    const std::uint64_t shown = thread_->newest()->number;
+    EXPECT_TRUE(shows(5.125, 4, 5, 0)) << "half a moment on";
+    EXPECT_TRUE(shows(5.5, 1, 5, 0));
+    EXPECT_EQ(thread_->newest()->number, shown);
+    EXPECT_TRUE(shows(6.5, 4, 6, 0.5)) << "there is no next one";
+    EXPECT_EQ(thread_->books().between, 3u);
+    EXPECT_EQ(thread_->books().prepared, 3u) << "of a stage's past all was counted when it came";
+}
+
+TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const int cuts = orders_->cuts;
+    push(7);
+    ASSERT_TRUE(wait_for_pulse(7));
+    EXPECT_NEAR(orders_->dt_s, 0.3, 1e-9);
+    EXPECT_EQ(orders_->cuts, cuts);
+    push(100);
+    ASSERT_TRUE(wait_for_pulse(100));
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "after nine seconds nothing follows";
+    push(2);
+    ASSERT_TRUE(wait_for_pulse(2));
+    EXPECT_EQ(orders_->cuts, cuts + 2) << "the stage began anew";
+}
+
+TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const auto draw_until_the_jump = [&](std::optional<double> pulse, std::uint64_t jumps) {
+        orders_->draws_next_until_released = true;
+        go_to(pulse, jumps);
+        if (!pulse) push(4);
+        return eventually([&] { return !orders_->draws_next_until_released; });
+    };
+    go_to(1, 1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    ASSERT_TRUE(draw_until_the_jump(2, 1));
+    int prepared = orders_->prepared;
+    go_to(3, 2);
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(orders_->prepared, prepared + 1);
+    // Of what was given up the preparer has a part: what is shown is not bettered with that.
+    const int taken = orders_->taken;
+    ASSERT_TRUE(draw_until_the_jump(2, 2));
+    go_to(3, 3);
+    ASSERT_TRUE(eventually([&] { return orders_->taken == taken + 1; }));
+    // A live one that is given up is counted.
+    const std::uint64_t superseded = thread_->books().superseded.sets;
+    ASSERT_TRUE(draw_until_the_jump(std::nullopt, 3));
+    prepared = orders_->prepared;
+    go_to(1, 4);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->prepared, prepared + 1);
+    EXPECT_EQ(thread_->books().superseded.sets, superseded + 1);
+    EXPECT_EQ(thread_->books().faults, 0);
+}
+
+TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    const int prepared = orders_->prepared;
+    orders_->draws_next_until_released = true;
+    go_to(2, 1);
+    ASSERT_TRUE(eventually([&] { return !orders_->draws_next_until_released; }));
+    go_to(1, 2);
+    std::this_thread::sleep_for(50ms);
+    orders_->is_released = true;
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->prepared, prepared + 2);
+}
+
+TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
+    thread_->wish({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
+    push(1);
+    ASSERT_TRUE(eventually([&] { return orders_->prepared > 0; }));
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto before = thread_->newest();
+    thread_->wish({.pulse = {}, .is_held = true, .target = {}, .level = prepare_levels()[0]});
+    ASSERT_TRUE(eventually([&] { return thread_->newest()->number > before->number; }));
+    EXPECT_EQ(orders_->rank, 0);
+    EXPECT_EQ(thread_->newest()->set, before->set);
+    const int prepared = orders_->prepared;
+    push(2);
+    ASSERT_TRUE(eventually([&] { return feed_.drained(); }));
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(thread_->newest()->set, before->set);
+    EXPECT_EQ(orders_->prepared, prepared) << "nothing better is wished for";
+    thread_->wish({.pulse = {}, .target = {}, .level = {}});
+    EXPECT_TRUE(wait_for_pulse(2));
+}
+
+TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
+    for (const std::uint64_t pulse : {1, 2, 3}) {
+        push(pulse);
+        ASSERT_TRUE(wait_for_pulse(pulse));
+    }
+    thread_->wish({.pulse = 1.7, .target = {}, .level = {}});
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_FALSE(thread_->newest()->is_live);
+    EXPECT_EQ(thread_->books().prepared, 3u);
+}
+
+TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
+    ScriptedFeed many{{"1", "2", "3", "4", "5", "6"}};
+    StageFeed feed = many.feed();
+    std::atomic<int> asks = 0;
+    feed.ask = [&](const std::string&, bool) { ++asks; };
+    InstantThread thread({.pulse_rate_hz = 10, .replay_bytes = 100'000'000}, feed, contexts_);
+    thread.prepare_for("ordered", [this](const ShaderLibrary&) {
+        return std::make_unique<OrderedPreparer>(orders_);
+    });
+    InstantWish wish;
+    wish.target.width_px = 64;
+    wish.target.height_px = 48;
+    wish.target.K << 40, 0, 31.5, 0, 40, 23.5, 0, 0, 1;
+    wish.target.world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
+    const auto shows = [&](std::uint64_t pulse) {
+        return eventually([&] {
+            const auto newest = thread.newest();
+            return newest && newest->set->trigger_index == pulse;
+        });
+    };
+    const auto push_all = [&](std::uint64_t pulse) {
+        many.push(many.set(pulse, {"1", "2", "3", "4", "5", "6"}));
+    };
+    thread.wish(wish);
+    for (const std::uint64_t pulse : {1, 2}) {
+        push_all(pulse);
+        ASSERT_TRUE(shows(pulse));
+    }
+    // The sixth is one more than the camera needs, and would be asked to stop a while later.
+    static_assert(RigDemand::most_rigs == 5);
+    wish.is_held = true;
+    thread.wish(wish);
+    push_all(3);
+    std::this_thread::sleep_for(RigDemand::hold + 100ms);
+    wish.is_held = false;
+    for (const double pulse : {1, 2, 1}) {
+        wish.pulse = pulse;
+        thread.wish(wish);
+        ASSERT_TRUE(shows(static_cast<std::uint64_t>(pulse)));
+    }
+    EXPECT_EQ(asks, 0);
+    wish.pulse.reset();
+    thread.wish(wish);
+    push_all(4);
+    EXPECT_TRUE(eventually([&] { return asks == 1; })) << "live it is";
+}
+
+TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    orders_->fails_to_take = true;
+    push(2);
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 2; })) << "it tries again";
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "what was ready stays";
+    orders_->fails_to_take = false;
+    push(3);
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_GE(orders_->made, 3);
+}
+
+TEST_F(InstantThreadTest, KeepsThePreparerOfASynthesiserThatAnotherTookOverFrom) {
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    const auto change_to = [&](const std::string& synthesiser, std::shared_ptr<Orders> orders) {
+        thread_->prepare_for(synthesiser, [orders](const ShaderLibrary&) {
+            return std::make_unique<OrderedPreparer>(orders);
+        });
+        return eventually([&] { return thread_->newest()->synthesiser == synthesiser; });
+    };
+    const auto others = std::make_shared<Orders>();
+    ASSERT_TRUE(change_to("other", others));
+    const int cuts = orders_->cuts;
+    ASSERT_TRUE(change_to("ordered", orders_));
+    ASSERT_TRUE(change_to("other", others));
+    EXPECT_EQ(orders_->made, 1);
+    EXPECT_EQ(others->made, 1);
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "what moved meanwhile was not seen";
+}
+
+TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto before = thread_->newest();
+    reset_gpu();
+    // What was lost shows at the next set, and this one counts as one that could not be prepared.
+    push(2);
+    ASSERT_TRUE(eventually([&] { return thread_->newest()->generation > before->generation; }));
+    EXPECT_EQ(contexts_.losses(), 1);
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "of what was shown, at once";
+    push(3);
+    ASSERT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(contexts_.losses(), 1);
+    EXPECT_EQ(thread_->books().faults, 1);
+    EXPECT_EQ(thread_->close().sets, 3u);
+    EXPECT_EQ(thread_->books().prepared + thread_->books().superseded.sets, 3u);
+}
+
+TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    push(3);
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(thread_->books().faults, 1) << "it is not tried again";
+}
+
+TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    orders_->draws_next_until_released = true;
+    go_to(std::nullopt, 1);
+    push(3);
+    ASSERT_TRUE(eventually([&] { return !orders_->draws_next_until_released; }));
+    orders_->is_released = true;
+    EXPECT_TRUE(wait_for_pulse(3));
+    EXPECT_EQ(thread_->books().faults, 1);
+}
+
+TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    push_marked(2);
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    orders_->fails_to_take = true;
+    push(3);
+    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 3; }));
+    orders_->fails_to_take = false;
+    push(4);
+    ASSERT_TRUE(wait_for_pulse(4));
+    EXPECT_EQ(thread_->close().sets, 4u);
+    const InstantThread::Books books = thread_->books();
+    EXPECT_EQ(books.prepared + books.superseded.sets, 4u);
+    for (const char* rig : {"north", "south"})
+        EXPECT_EQ(books.frames.at(rig) + books.superseded.frames.at(rig), 4u);
+}
+
+TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {
+    feed_.fail_with("the receiver broke");
+    EXPECT_TRUE(eventually([&] {
+        try {
+            thread_->newest();
+            return false;
+        } catch (const Error& error) {
+            return std::string(error.what()) == "the receiver broke";
+        }
+    }));
+}
+
+TEST_F(InstantThreadTest, WhatIsReadyOutlivesIt) {
+    push(1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    const auto kept = thread_->newest();
+    thread_.reset();
+    EXPECT_EQ(kept->set->trigger_index, 1u);
+}
+
+}  // namespace
+}  // namespace vantage

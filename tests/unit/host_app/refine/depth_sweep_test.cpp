@@ -1,0 +1,62 @@
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/context/egl_context.h"
+#include "host_app/refine/multi_view_refinement.h"
+#include "host_app/surfaces/rig_roster.h"
+#include "tests/unit/host_app/fused/wall_and_square.h"
+
+namespace vantage {
+namespace {
+
+constexpr int sweep_width_px = 129, sweep_height_px = 95;
+constexpr float wall_m = 4;
+/// Seen by all rigs, away from the pictures' borders.
+const cv::Rect middle(35, 25, 60, 45);
+
+/// A rig between two others before a wall, whose matcher errs all over by as much.
+class DepthSweepTest : public testing::Test {
+  protected:
+    static DepthView film(double x_m, bool is_patterned) {
+        DepthView view = wall_and_square(x_m, sweep_width_px, sweep_height_px,
+                                         {.square_x_m = 100, .waves = is_patterned});
+        view.baseline_m = 0.05;
+        if (!is_patterned) view.colour.setTo(cv::Scalar(90, 120, 150, 255));
+        return view;
+    }
+    DepthImage swept(float error, bool is_patterned) {
+        std::vector<DepthView> rigs{film(0, is_patterned), film(-1, is_patterned),
+                                    film(1, is_patterned)};
+        rigs[0].depth_m *= 1 + error;
+        RigRoster views;
+        views.upload(rigs, nominal_dt_s);
+        return DepthImage(
+            consensus_.better(compared(*views.shown()[0]), compared(views.shown())).download())(
+            middle);
+    }
+    /// Mean, relative.
+    static double off(const DepthImage& depth_m) {
+        return cv::mean(cv::Mat(cv::abs(depth_m - wall_m)))[0] / wall_m;
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    RigConsensus consensus_{shaders_};
+};
+
+/// The others stand 1 m aside: 4 % of depth is a pixel of their 26 px of parallax.
+TEST_F(DepthSweepTest, FindsTheDepthAtWhichThePicturesAgree) {
+    for (const float error : {-0.04f, 0.04f}) EXPECT_LT(off(swept(error, true)), 0.01) << error;
+}
+
+TEST_F(DepthSweepTest, MovesNothingWhereThePicturesTellNothing) {
+    EXPECT_NEAR(off(swept(0.04f, false)), 0.04, 1e-6);
+}
+
+TEST_F(DepthSweepTest, MovesNothingThatAgreesToAPixel) {
+    EXPECT_NEAR(off(swept(0.02f, true)), 0.02, 1e-6);
+}
+
+}  // namespace
+}  // namespace vantage

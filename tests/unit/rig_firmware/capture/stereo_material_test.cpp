@@ -1,0 +1,208 @@
+#include "rig_firmware/capture/material/stereo_material.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <opencv2/videoio.hpp>
+
+#include "common/image/image_file.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+class StereoMaterialTest : public testing::Test {
+  protected:
+    std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
+    /// A picture that is grey of this value.
+    void write(const std::string& name, int grey, cv::Size size = {31, 17}) const {
+        write_colour_image(at(name), ColourImage(size, cv::Vec4b::all(static_cast<uchar>(grey))));
+    }
+    static int grey(const ColourImage& picture) { return picture(3, 3)[1]; }
+    std::string fault(const RigConfig::Source& source) const {
+        return thrown_sentence([&] {
+            const auto material = open_material(source);
+            while (material->pair_of(pulse_++ % 1000)) {
+            }
+        });
+    }
+
+    TemporaryFolder folder_;
+    mutable std::uint64_t pulse_ = 0;
+};
+
+TEST_F(StereoMaterialTest, PlaysASinglePairOnceOrForEver) {
+    write("l.png", 10);
+    write("r.png", 20);
+    const auto looping = open_material({.left = at("l.png"), .right = at("r.png")});
+    EXPECT_EQ(looping->size(), cv::Size(31, 17));
+    for (std::uint64_t pulse = 100; pulse < 103; ++pulse) {
+        const auto pair = looping->pair_of(pulse);
+        ASSERT_TRUE(pair);
+        EXPECT_EQ(grey(pair->left), 10);
+        EXPECT_EQ(grey(pair->right), 20);
+    }
+    const auto once = open_material({.left = at("l.png"), .right = at("r.png"), .loop = false});
+    EXPECT_TRUE(once->pair_of(7));
+    EXPECT_FALSE(once->pair_of(8));
+}
+
+TEST_F(StereoMaterialTest, CutsSideBySidePictures) {
+    ColourImage both(17, 62, cv::Vec4b(1, 1, 1, 255));
+    both.colRange(31, 62).setTo(cv::Vec4b(2, 2, 2, 255));
+    write_colour_image(at("b.png"), both);
+    const auto pair = open_material({.left = at("b.png")})->pair_of(0);
+    EXPECT_EQ(grey(pair->left), 1);
+    EXPECT_EQ(grey(pair->right), 2);
+    EXPECT_EQ(pair->right.size(), cv::Size(31, 17));
+    write("odd.png", 0, {61, 17});
+    EXPECT_NE(fault({.left = at("odd.png")}).find("even width"), std::string::npos);
+}
+
+TEST_F(StereoMaterialTest, BindsLoopingPicturesToThePulse) {
+    for (int i = 5; i < 8; ++i) {
+        write("l" + std::to_string(i) + ".png", i);
+        write("r" + std::to_string(i) + ".png", 10 * i);
+    }
+    RigConfig::Source source = {.left = at("l%d.png"), .right = at("r%d.png"), .first = 5};
+    const auto one = open_material(source), other = open_material(source);
+    EXPECT_EQ(grey(one->pair_of(3001)->left), 6);
+    EXPECT_EQ(grey(one->pair_of(3003)->left), 5);
+    EXPECT_EQ(grey(other->pair_of(3004)->right), 60);
+}
+
+TEST_F(StereoMaterialTest, LeavesOutPicturesOfMissedPulsesAndEnds) {
+    for (int i = 0; i < 4; ++i) write("b" + std::to_string(i) + ".png", i, {62, 17});
+    const auto material = open_material({.left = at("b%d.png"), .loop = false});
+    EXPECT_EQ(grey(material->pair_of(1000)->left), 0);
+    EXPECT_EQ(grey(material->pair_of(1003)->right), 3);
+    EXPECT_FALSE(material->pair_of(1004));
+}
+
+TEST_F(StereoMaterialTest, NamesTheFileThatIsMissingDamagedOrOfAnotherSize) {
+    write("l.png", 1);
+    write("wide.png", 1, {33, 17});
+    std::ofstream(at("torn.png")) << "\x89PNG\r\n\x1a\n and no more";
+    std::ofstream(at("text.txt")) << "no picture";
+    const auto names = [&](const RigConfig::Source& source, const std::string& name) {
+        const std::string sentence = fault(source);
+        EXPECT_NE(sentence.find(name), std::string::npos) << sentence;
+        EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    };
+    names({}, "'left'");
+    names({.left = at("none.png"), .right = at("l.png")}, "none.png");
+    names({.left = at("l.png"), .right = at("none.png")}, "none.png");
+    names({.left = at("l.png"), .right = at("wide.png")}, "31x17");
+    names({.left = at("l.png"), .right = at("torn.png")}, "torn.png");
+    names({.left = at("torn.png")}, "torn.png");
+    names({.left = at("text.txt")}, "text.txt");
+    names({.left = at("none.mkv")}, "none.mkv");
+    names({.left = folder_.path().string()}, folder_.path().string());
+    names({.left = at("l%d.png"), .right = at("l.png")}, "l0.png");
+    names({.left = at("l.png"), .right = at("l%d.png")}, "l.png");
+}
+
+TEST_F(StereoMaterialTest, RefusesNumberedPicturesThatDoNotFitTogether) {
+    for (int i = 0; i < 3; ++i) write("l" + std::to_string(i) + ".png", i);
+    for (int i = 0; i < 2; ++i) write("r" + std::to_string(i) + ".png", i);
+    const RigConfig::Source source = {.left = at("l%d.png"), .right = at("r%d.png")};
+    EXPECT_NE(fault(source).find("3 left pictures"), std::string::npos);
+    EXPECT_NE(fault({.left = at("l%d.png"), .right = at("r0.png")}).find("single one"),
+              std::string::npos);
+    write("r2.png", 2, {29, 17});
+    EXPECT_NE(fault(source).find("29x17"), std::string::npos);
+    write("l2.png", 2, {29, 17});
+    EXPECT_NE(fault(source).find("one size"), std::string::npos);
+}
+
+TEST_F(StereoMaterialTest, PlaysAVideoPictureByPicture) {
+    {
+        cv::VideoWriter writer(at("v.avi"), cv::CAP_OPENCV_MJPEG,
+                               cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25, {64, 32});
+        ASSERT_TRUE(writer.isOpened());
+        for (int i = 0; i < 3; ++i) {
+            cv::Mat3b picture(32, 64, cv::Vec3b::all(static_cast<uchar>(40 + 50 * i)));
+            picture.colRange(32, 64).setTo(cv::Vec3b(0, 0, 200));
+            writer.write(picture);
+        }
+    }
+    const auto once = open_material({.left = at("v.avi"), .loop = false});
+    EXPECT_EQ(once->size(), cv::Size(32, 32));
+    for (int i = 0; i < 3; ++i) {
+        const auto pair = once->pair_of(static_cast<std::uint64_t>(50 + 7 * i));
+        ASSERT_TRUE(pair) << i;
+        EXPECT_NEAR(grey(pair->left), 40 + 50 * i, 4);
+        EXPECT_NEAR(pair->right(3, 20)[0], 200, 12) << "red comes first";
+        EXPECT_NEAR(pair->right(3, 20)[2], 0, 12);
+        EXPECT_EQ(pair->right(3, 20)[3], 255);
+    }
+    EXPECT_FALSE(once->pair_of(99));
+    const auto looping = open_material({.left = at("v.avi")});
+    for (std::uint64_t i = 0; i < 7; ++i)
+        EXPECT_NEAR(grey(looping->pair_of(i)->left), 40 + 50 * static_cast<int>(i % 3), 4);
+}
+
+TEST_F(StereoMaterialTest, PlaysTwoVideosSideBySideAndEndsARoundWithTheShorterOne) {
+    const auto film = [&](const std::string& name, int pictures, int base, cv::Size size) {
+        cv::VideoWriter writer(at(name), cv::CAP_OPENCV_MJPEG,
+                               cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25, size);
+        for (int i = 0; i < pictures; ++i)
+            writer.write(cv::Mat3b(size, cv::Vec3b::all(static_cast<uchar>(base + 50 * i))));
+    };
+    film("l.avi", 3, 40, {64, 32});
+    film("r.avi", 4, 20, {64, 32});
+    film("small.avi", 3, 20, {32, 32});
+    const auto material = open_material({.left = at("l.avi"), .right = at("r.avi")});
+    EXPECT_EQ(material->size(), cv::Size(64, 32));
+    EXPECT_DOUBLE_EQ(material->rate_hz(), 25);
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        const auto pair = material->pair_of(i);
+        ASSERT_TRUE(pair) << i;
+        EXPECT_NEAR(grey(pair->left), 40 + 50 * static_cast<int>(i % 3), 4);
+        EXPECT_NEAR(grey(pair->right), 20 + 50 * static_cast<int>(i % 3), 4);
+    }
+    const auto once = open_material({.left = at("r.avi"), .right = at("l.avi"), .loop = false});
+    for (std::uint64_t i = 0; i < 3; ++i) EXPECT_TRUE(once->pair_of(i));
+    EXPECT_FALSE(once->pair_of(3));
+    EXPECT_NE(fault({.left = at("l.avi"), .right = at("small.avi")}).find("must have one size"),
+              std::string::npos);
+    EXPECT_NE(fault({.left = at("l.avi"), .right = at("none.avi")}).find("is no file"),
+              std::string::npos);
+}
+
+TEST_F(StereoMaterialTest, PlaysWhatShellPatternsAndFoldersName) {
+    std::filesystem::create_directory(at("left"));
+    std::filesystem::create_directory(at("right"));
+    for (const int number : {2, 9, 10}) {
+        write("left/l_" + std::to_string(number) + ".png", number);
+        write("right/r_" + std::to_string(number) + ".png", 100 + number);
+    }
+    for (const char* pattern : {"", "/*.png", "/?_*"}) {
+        const auto material = open_material({.left = at(std::string("left") + pattern),
+                                             .right = at(std::string("right") + pattern)});
+        const int numbers[] = {2, 9, 10};
+        for (std::uint64_t pulse = 0; pulse < 5; ++pulse) {
+            const auto pair = material->pair_of(pulse);
+            EXPECT_EQ(grey(pair->left), numbers[pulse % 3]) << pattern;
+            EXPECT_EQ(grey(pair->right), 100 + numbers[pulse % 3]) << pattern;
+        }
+    }
+    write("left/l_11.png", 1);
+    EXPECT_NE(fault({.left = at("left"), .right = at("right")}).find("l_11.png has no partner"),
+              std::string::npos);
+    EXPECT_NE(fault({.left = at("none*.png"), .right = at("right")}).find("no file matches"),
+              std::string::npos);
+}
+
+TEST_F(StereoMaterialTest, PlaysARealPairBitByBit) {
+    VANTAGE_REQUIRE_DATA(data);
+    const auto left = data / "middlebury2003/teddy/im2.png";
+    const auto material =
+        open_material({.left = left, .right = data / "middlebury2003/teddy/im6.png"});
+    EXPECT_EQ(material->size(), cv::Size(450, 375));
+    EXPECT_EQ(cv::norm(material->pair_of(1)->left, read_colour_image(left), cv::NORM_INF), 0);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,323 @@
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "common/gl/context/egl_context.h"
+#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
+#include "rig_firmware/stereo/disparity/left_right_pass.h"
+#include "rig_firmware/stereo/disparity/left_right_reference.h"
+#include "rig_firmware/stereo/disparity/median_pass.h"
+#include "rig_firmware/stereo/disparity/median_reference.h"
+#include "rig_firmware/stereo/disparity/path_fill_pass.h"
+#include "rig_firmware/stereo/disparity/path_fill_reference.h"
+#include "rig_firmware/stereo/disparity/perm_reference.h"
+#include "rig_firmware/stereo/disparity/result_pass.h"
+#include "rig_firmware/stereo/disparity/row_fill_pass.h"
+#include "rig_firmware/stereo/disparity/row_fill_reference.h"
+#include "rig_firmware/stereo/disparity/smooth_pass.h"
+#include "rig_firmware/stereo/disparity/support_pass.h"
+#include "rig_firmware/stereo/disparity/support_reference.h"
+#include "rig_firmware/stereo/disparity/upsample_pass.h"
+#include "rig_firmware/stereo/disparity/upsample_reference.h"
+#include "rig_firmware/stereo/features/feature_pass.h"
+#include "rig_firmware/stereo/features/halve_pass.h"
+#include "rig_firmware/stereo/volume/halved_cost_pass.h"
+#include "rig_firmware/stereo/volume/perm_pass.h"
+#include "tests/unit/rig_firmware/stereo/engine_buffers.h"
+
+namespace vantage {
+namespace {
+
+class EnginePassesTest : public EnginePassTest {
+  protected:
+    void expect_permeabilities(const PermeabilityPass& pass, const cv::Mat1b& permeability) const {
+        std::vector<unsigned char> along(pass.along().bytes()), down(pass.down().bytes());
+        pass.along().read(0, std::as_writable_bytes(std::span(along)));
+        pass.down().read(0, std::as_writable_bytes(std::span(down)));
+        for (int y = 0; y < permeability.rows; ++y)
+            for (int x = 0; x < permeability.cols; ++x) {
+                const int row_at = y * layout_.stride_px() + x,
+                          column_at = (y / 4 * layout_.stride_px() + x) * 4 + y % 4;
+                ASSERT_EQ(along[static_cast<std::size_t>(row_at)], permeability(y, x) & 15);
+                ASSERT_EQ(down[static_cast<std::size_t>(column_at)], permeability(y, x) >> 4);
+            }
+    }
+};
+
+TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    constexpr double sigma = 20;
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    PermeabilityPass permeabilities(library_, layout_, sigma);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    features.run(profiler_, luma);
+    permeabilities.run(profiler_, luma.left());
+    const cv::Mat1i left_words = feature_words(left_);
+    const StereoPlanes right_rows =
+        rows_shifted(right_, row_shift(left_words, feature_words(right_), GetParam().disparities));
+    const cv::Mat1i right_words = feature_words(right_rows);
+    expect_equal(channel_of(features.left_features(), layout_, 1, 0), left_words, "left feature");
+    expect_equal(channel_of(features.right_features(), layout_, 1, 0), right_words,
+                 "right feature");
+    const cv::Mat1b permeability = permeability_of(guide_of(left_), permeability_table(sigma));
+    expect_permeabilities(permeabilities, permeability);
+
+    PermPass perm(library_, layout_, GetParam().disparities);
+    perm.run(profiler_, features, permeabilities);
+    const Winners winners =
+        perm_winners(left_words, right_words, permeability, GetParam().disparities);
+    expect_equal(channel_of(perm.weight(), layout_, 1, 0), winners.weight, "weight");
+    const cv::Mat1i best = winners_channel(perm.winners(), layout_, 0),
+                    beside = winners_channel(perm.winners(), layout_, 1);
+    expect_equal(bits_of(best, 12, 8), winners.disparity, "disparity");
+    expect_equal(bits_of(best, 20, 12), winners.cost, "cost");
+    expect_equal(bits_of(beside, 12, 12), winners.cost_before, "cost before");
+    expect_equal(bits_of(beside, 0, 12), winners.cost_after, "cost after");
+
+    PermPass other_lanes(library_, layout_, GetParam().disparities, PermOutput::winners,
+                         PermCosts::found, most_perm_code, LaneMapping::disparities);
+    other_lanes.run(profiler_, features, permeabilities);
+    for (const int word : {0, 1})
+        expect_equal(winners_channel(other_lanes.winners(), layout_, word),
+                     winners_channel(perm.winners(), layout_, word), "lanes along disparities");
+
+    LeftRightPass check(library_, layout_);
+    check.run(profiler_, perm.winners(), &perm.weight());
+    const CheckedDisparity checked = left_right_checked(winners);
+    const cv::Mat1i words = channel_of(check.disparity(), layout_, 1, 0);
+    expect_equal(lower_half(words), as_int(checked.disparity), "checked disparity");
+    expect_equal(upper_half(words), as_int(checked.confidence), "confidence");
+    LeftRightPass flat_check(library_, layout_, Valley::flat);
+    flat_check.run(profiler_, perm.winners(), &perm.weight());
+    expect_equal(lower_half(channel_of(flat_check.disparity(), layout_, 1, 0)),
+                 as_int(left_right_checked(winners, Valley::flat).disparity),
+                 "checked disparity of flat valleys");
+
+    const DisparityImage supported = supported_disparity(checked.disparity);
+    SupportPass support(library_, layout_);
+    support.run(profiler_, check.disparity(), check.scratch());
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(supported),
+                 "supported");
+
+    RowFillPass row_fill(library_, layout_);
+    row_fill.run(profiler_, check.disparity(), check.scratch());
+    const DisparityImage filled_rows = filled_from_background(checked.disparity, supported);
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled_rows),
+                 "filled along rows");
+
+    PathFillPass path_fill(library_, layout_, FillCell::two_px);
+    path_fill.run(profiler_, luma.left(), check.disparity(), check.scratch());
+    const DisparityImage filled = filled_along_paths(checked.disparity, left_, FillCell::two_px);
+    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled),
+                 "filled along paths");
+
+    SmoothPass smooth(library_, layout_);
+    smooth.run(profiler_, check.scratch());
+    const cv::Mat1i smooth_words = channel_of(check.scratch(), layout_, 1, 0);
+    const DisparityImage smoothed = smoothed_where_near(filled);
+    expect_equal(lower_half(smooth_words), as_int(smoothed), "smoothed");
+    EXPECT_GT(cv::norm(smoothed, filled, cv::NORM_L1), 0) << "nothing was there to be smoothed";
+
+    MedianPass median(library_, layout_);
+    const Buffer medians(check.disparity().bytes(), GL_DYNAMIC_COPY);
+    median.run(profiler_, check.scratch(), medians);
+    expect_equal(lower_half(channel_of(medians, layout_, 1, 0)), as_int(median_of_known(smoothed)),
+                 "dense median");
+    median.run(profiler_, check.disparity(), medians);
+    const cv::Mat1i median_words = channel_of(medians, layout_, 1, 0);
+    expect_equal(lower_half(median_words), as_int(median_of_known(checked.disparity)),
+                 "median of what is known");
+    expect_equal(upper_half(median_words), as_int(checked.confidence), "confidence of the median");
+
+    ResultPass result(library_, layout_);
+    expect_equal(as_int(result.run(profiler_, check.disparity()).download()),
+                 as_int(checked.disparity), "result");
+    ResultPass with_confidence(library_, layout_, true);
+    with_confidence.run(profiler_, check.disparity());
+    expect_equal(as_int(with_confidence.confidence()->download()), as_int(checked.confidence),
+                 "confidence of the result");
+}
+
+TEST(FillFromBackground, DoesNotSpreadWhatStandsAlone) {
+    DisparityImage disparity(31, 41, static_cast<unsigned short>(320));
+    disparity.colRange(10, 20) = 640;
+    disparity.colRange(20, 27) = 0;
+    disparity(cv::Rect(22, 15, 2, 2)) = 32;
+    const DisparityImage filled = filled_from_background(disparity, supported_disparity(disparity));
+    EXPECT_EQ(filled(15, 20), 320);
+    EXPECT_EQ(filled(15, 26), 320);
+    EXPECT_EQ(filled(15, 22), 32) << "what is known stays";
+}
+
+TEST(FillFromBackground, TakesWhatThereIsInARowThatHasNothingBetter) {
+    DisparityImage disparity(9, 41, static_cast<unsigned short>(0));
+    disparity(4, 7) = 64;
+    const DisparityImage filled = filled_from_background(disparity, supported_disparity(disparity));
+    EXPECT_EQ(cv::countNonZero(filled.row(4) == 64), 41);
+    EXPECT_EQ(cv::countNonZero(filled), 41);
+}
+
+TEST_P(EnginePassesTest, ARightPictureThatLiesLowerIsPutRight) {
+    for (const int shift : {-2, -1, 0, 1}) {
+        const StereoPlanes lower = rows_shifted(right_, -shift);
+        const cv::Mat1i left_words = feature_words(left_), words = feature_words(lower);
+        if (layout_.width_px > 100) {
+            EXPECT_EQ(row_shift(left_words, words, GetParam().disparities), shift);
+        }
+        const int found = row_shift(left_words, words, GetParam().disparities);
+        Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+        Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+        left.upload(pair_.left);
+        ColourImage right_picture(pair_.right.size());
+        for (int y = 0; y < right_picture.rows; ++y)
+            pair_.right.row(std::clamp(y - shift, 0, right_picture.rows - 1))
+                .copyTo(right_picture.row(y));
+        right.upload(right_picture);
+        LumaPass luma(library_, layout_);
+        luma.run(profiler_, left, right);
+        FeaturePass features(library_, layout_, GetParam().disparities);
+        features.run(profiler_, luma);
+        expect_equal(channel_of(features.right_features(), layout_, 1, 0),
+                     feature_words(rows_shifted(lower, found)), "right feature");
+    }
+}
+
+TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    LumaPass fine(library_, layout_);
+    fine.run(profiler_, left, left);
+    HalvePass halve(library_, layout_);
+    halve.run(profiler_, fine.left());
+    const StereoLayout half = halved(layout_);
+    const StereoPlanes half_left = halved(left_);
+    std::vector<unsigned char> bytes(halve.luma().bytes());
+    halve.luma().read(0, std::as_writable_bytes(std::span(bytes)));
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = -4; x < half.width_px + 4; ++x) {
+            const int nearest = std::clamp(x, 0, half.width_px - 1);
+            const auto at = static_cast<std::size_t>(4 * y * half.luma_row_words() + 4 + x);
+            ASSERT_EQ(bytes[at], half_left.luma(y, nearest)) << x << ", " << y;
+            ASSERT_EQ(bytes[half.luma_words() * 4 + at], half_left.colour(y, nearest))
+                << x << ", " << y;
+        }
+
+    DisparityImage disparity(half.height_px, half.width_px);
+    cv::RNG random(11);
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = 0; x < half.width_px; ++x) {
+            const int surface = (x / 8 + y / 8) % 2 ? 300 : random.uniform(0, 1000);
+            disparity(y, x) = static_cast<unsigned short>(surface + x + random.uniform(0, 8));
+        }
+    UpsamplePass upsample(library_, half, layout_);
+    upsample.run(profiler_, buffer_of(disparity, half, 77), halve.luma(), fine.left());
+    const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
+    expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_left.luma, left_.luma)),
+                 "upsampled");
+    expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
+}
+
+TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBitForBit) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    features.run(profiler_, luma);
+    HalvePass halve(library_, layout_);
+    halve.run(profiler_, luma.left());
+    const StereoLayout half = halved(layout_);
+    constexpr double sigma = 5;
+    PermeabilityPass permeabilities(library_, half, sigma, PermeabilityGuide::plain);
+    permeabilities.run(profiler_, halve.luma());
+    const auto words_of_even_width = [](const StereoPlanes& picture) {
+        StereoPlanes even;
+        const int more = picture.luma.cols % 2;
+        cv::copyMakeBorder(picture.luma, even.luma, 0, 0, 0, more, cv::BORDER_REPLICATE);
+        cv::copyMakeBorder(picture.colour, even.colour, 0, 0, 0, more, cv::BORDER_REPLICATE);
+        return feature_words(even);
+    };
+    for (const HalvedCostSamples samples : {HalvedCostSamples::one, HalvedCostSamples::two})
+        for (const int most_code : {most_perm_code, 69}) {
+            const std::vector<cv::Mat1b> costs =
+                halved_costs(words_of_even_width(left_), words_of_even_width(right_),
+                             GetParam().disparities, samples);
+            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples);
+            PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
+                          PermCosts::given, most_code);
+            cost.run(profiler_, features, perm.costs());
+            expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
+            perm.run(profiler_, permeabilities);
+            expect_equal_costs(
+                perm.costs(), half,
+                perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma)),
+                           most_code));
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
+                         testing::Values(PassCase{61, 47, 13}, PassCase{16, 16, 16},
+                                         PassCase{131, 38, 37}, PassCase{311, 239, 21}));
+
+class PermRows : public testing::TestWithParam<PermCosts> {};
+
+TEST_P(PermRows, GivesTheSameSlabWhicheverWayItsLanesLie) {
+    const bool given = GetParam() == PermCosts::given;
+    const EglContext context;
+    const ShaderLibrary library;
+    const StereoLayout layout{53, 21};
+    cv::RNG random(3);
+    std::vector<std::uint32_t> left(layout.pixels()), right(layout.pixels());
+    std::vector<unsigned char> mu(layout.pixels());
+    for (std::size_t i = 0; i < layout.pixels(); ++i) {
+        left[i] = random.next();
+        right[i] = random.next();
+        mu[i] = static_cast<unsigned char>(random.next() & 15U);
+        if (i % static_cast<std::size_t>(layout.stride_px()) == 0) mu[i] = 0;
+    }
+    const auto left_buffer = Buffer::of<std::uint32_t>(left),
+               right_buffer = Buffer::of<std::uint32_t>(right),
+               mu_buffer = Buffer::of<unsigned char>(mu);
+    std::vector<unsigned char> costs(layout.block_pixels() * 32);
+    for (unsigned char& cost : costs) cost = static_cast<unsigned char>(random.uniform(0, 27));
+    const auto cost_buffer = Buffer::of<unsigned char>(costs);
+    std::vector<std::vector<std::uint32_t>> slabs;
+    for (const int lanes : {0, 1}) {
+        const Buffer volume(layout.block_pixels() * 16, GL_DYNAMIC_COPY);
+        Program program = Program::compute(
+            library, "perm_rows.comp",
+            {{"LANE_MAPPING", std::to_string(lanes)}, {"GIVEN", given ? "1" : "0"}});
+        program.use();
+        if (given) program.set("plane", static_cast<int>(layout.block_pixels()));
+        program.set("size", Eigen::Vector2i(layout.width_px, layout.height_px));
+        program.set("stride", layout.stride_px());
+        program.set("first_disparity", 16);
+        (given ? cost_buffer : left_buffer).bind_storage(0);
+        right_buffer.bind_storage(1);
+        mu_buffer.bind_storage(2);
+        const Buffer marks(layout.pixels() * 8, GL_DYNAMIC_COPY);
+        volume.bind_storage(3);
+        marks.bind_storage(4);
+        program.dispatch_over(lanes == 1 ? 2 * layout.height_px : layout.height_px, 1);
+        glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        std::vector<std::uint32_t>& slab = slabs.emplace_back(volume.bytes() / 4);
+        volume.read(0, std::as_writable_bytes(std::span(slab)));
+    }
+    for (int y = 0; y < layout.height_px; ++y)
+        for (int x = 0; x < layout.width_px; ++x)
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::size_t at = layout.block_at(x, y) * 4 + i;
+                ASSERT_EQ(slabs[0][at], slabs[1][at]) << "word " << i << " of " << x << ", " << y;
+            }
+}
+
+INSTANTIATE_TEST_SUITE_P(Costs, PermRows, testing::Values(PermCosts::found, PermCosts::given));
+
+}  // namespace
+}  // namespace vantage
