@@ -19,7 +19,7 @@ namespace {
 
 /// All ChArUco boards of the set; `exposure` as find_charuco takes it.
 BoardSighting find_charuco_boards(const GreyImage& picture, const GreyImage& exposure,
-                                  const BoardSet& set) {
+                                  const CalibrationBoards& set) {
     std::map<std::string, std::vector<FoundMarker>> markers;
     BoardSighting all;
     std::vector<double> squares, blurs, contrasts;
@@ -55,7 +55,7 @@ BoardSighting find_charuco_boards(const GreyImage& picture, const GreyImage& exp
 
 }  // namespace
 
-BoardSighting find_board(const GreyImage& picture, const BoardSet& set) {
+BoardSighting find_board(const GreyImage& picture, const CalibrationBoards& set) {
     if (set.boards.front().kind == BoardKind::chessboard)
         return find_chessboard(picture, set.boards.front());
     BoardSighting sighting = find_charuco_boards(picture, picture, set);

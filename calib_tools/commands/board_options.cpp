@@ -45,9 +45,9 @@ BoardPattern BoardOptions::chessboard() const {
     return chessboard_pattern(size, square_m);
 }
 
-BoardSet BoardOptions::boards() const {
+CalibrationBoards BoardOptions::boards() const {
     if (files.empty()) return chessboard();
-    BoardSet set;
+    CalibrationBoards set;
     for (const std::string& file : files)
         set.add(std::filesystem::path(file).stem().string(), load_body(file));
     set.validate();

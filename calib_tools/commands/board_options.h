@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "calib_tools/board/board_set.h"
+#include "calib_tools/board/calibration_boards.h"
 
 namespace vantage {
 
@@ -21,7 +21,7 @@ struct BoardOptions {
     BoardPattern pattern(const char* for_pictures) const;
     /// All boards, one by one and in bodies, each named by its file. Throws Error if they cannot be
     /// told apart.
-    BoardSet boards() const;
+    CalibrationBoards boards() const;
 
   private:
     BoardPattern chessboard() const;

@@ -59,7 +59,7 @@ std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pic
 }
 
 std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
-                                            const BoardSet& boards, const StageRig& rig,
+                                            const CalibrationBoards& boards, const StageRig& rig,
                                             const CameraModel& camera, StageCalibration& notes) {
     const std::vector<std::filesystem::path> files = expand_pictures(pattern_of_files);
     const std::vector<long long> numbers = picture_numbers(files);
@@ -77,7 +77,7 @@ struct LiveFilm {
 };
 
 /// Films the board live and gives every rig what it saw.
-LiveFilm film_live(const StageOptions& options, const BoardSet& boards,
+LiveFilm film_live(const StageOptions& options, const CalibrationBoards& boards,
                    const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
                    StageCalibration& notes) {
     LiveRigs live = options.live.connect(folders);
@@ -108,7 +108,7 @@ LiveFilm film_live(const StageOptions& options, const BoardSet& boards,
 }
 
 void run(const StageOptions& options) {
-    const BoardSet boards = options.board.boards();
+    const CalibrationBoards boards = options.board.boards();
     std::vector<StageRig> rigs;
     StageCalibration notes;
     std::optional<Floor> floor;

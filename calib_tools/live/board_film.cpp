@@ -59,7 +59,7 @@ void require_empty(const FilmedCamera& camera) {
 }
 
 /// The instants that an earlier film left in the folders.
-void take_up(const std::vector<FilmedCamera>& cameras, const BoardSet& boards, BoardFilm& film) {
+void take_up(const std::vector<FilmedCamera>& cameras, const CalibrationBoards& boards, BoardFilm& film) {
     std::set<std::uint64_t> pulses;
     for (const FilmedCamera& camera : cameras) pulses.merge(pulses_in_folder(camera));
     film.pulses.assign(pulses.begin(), pulses.end());
@@ -143,7 +143,7 @@ std::string joined(const std::vector<std::string>& sentences) {
 /// Throws Error if two pictures show a chessboard of one other size: then no waiting helps.
 class OtherBoardWatch {
   public:
-    explicit OtherBoardWatch(const BoardSet& boards)
+    explicit OtherBoardWatch(const CalibrationBoards& boards)
         : pattern_(boards.boards.front()),
           watches_(boards.is_one_board() && pattern_.kind == BoardKind::chessboard) {}
 
@@ -167,7 +167,7 @@ class OtherBoardWatch {
 /// Films into `film` until nothing is missing, `most` instants are kept, or the program is asked to
 /// stop. Returns the sentence that says which.
 std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                    const BoardSet& boards, std::size_t most, const FilmRule& rule,
+                    const CalibrationBoards& boards, std::size_t most, const FilmRule& rule,
                     const FilmAdvice& advice, BoardFilm& film) {
     OtherBoardWatch other_board(boards);
     Notice notice;
@@ -221,7 +221,7 @@ std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
 }  // namespace
 
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const BoardSet& boards, const FilmOptions& options, const FilmRule& rule,
+                     const CalibrationBoards& boards, const FilmOptions& options, const FilmRule& rule,
                      const FilmAdvice& advice) {
     BoardFilm film;
     film.pictures.resize(cameras.size());

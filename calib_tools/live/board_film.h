@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_set.h"
+#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/live/live_rigs.h"
 #include "calib_tools/pictures/seen_picture.h"
 #include "common/base/error.h"
@@ -48,7 +48,7 @@ struct FilmOptions {
 /// hold pictures already (unless it goes on from them), where rigs fall silent, and if the pictures
 /// show another board; it says then what is kept.
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const BoardSet& boards, const FilmOptions& options, const FilmRule& rule,
+                     const CalibrationBoards& boards, const FilmOptions& options, const FilmRule& rule,
                      const FilmAdvice& advice);
 
 /// Does what follows a film; if that throws Error, so does this, saying also what is kept. `kept`
@@ -70,13 +70,13 @@ std::string all_see_board(const std::vector<SeenPicture>& pictures);
 FilmAdvice lens_advice(std::vector<std::string> camera_names);
 
 /// At least two rigs have to see one board or body; cameras 2i and 2i + 1 are of rig i.
-FilmRule two_rigs_see_board(const BoardSet& boards);
+FilmRule two_rigs_see_board(const CalibrationBoards& boards);
 
 /// The same, and the first instant has to show the board that lies on the floor: the one that is
 /// named, or, without a name, one board only that is no part of a body.
-FilmRule floor_first(const BoardSet& boards, std::string floor_board);
+FilmRule floor_first(const CalibrationBoards& boards, std::string floor_board);
 
 /// Which rigs are not tied to the others by enough instants yet.
-FilmAdvice tie_advice(const BoardSet& boards, std::vector<std::string> rig_names);
+FilmAdvice tie_advice(const CalibrationBoards& boards, std::vector<std::string> rig_names);
 
 }  // namespace vantage

@@ -55,7 +55,7 @@ FilmAdvice lens_advice(std::vector<std::string> camera_names) {
     };
 }
 
-FilmRule two_rigs_see_board(const BoardSet& boards) {
+FilmRule two_rigs_see_board(const CalibrationBoards& boards) {
     return [boards](const std::vector<SeenPicture>& pictures) -> std::string {
         std::map<int, std::set<std::size_t>> rigs_of_body;
         std::size_t most = 0;
@@ -76,7 +76,7 @@ FilmRule two_rigs_see_board(const BoardSet& boards) {
     };
 }
 
-FilmRule floor_first(const BoardSet& boards, std::string floor_board) {
+FilmRule floor_first(const CalibrationBoards& boards, std::string floor_board) {
     return [boards, two_rigs_see = two_rigs_see_board(boards), name = std::move(floor_board),
             is_first = true](const std::vector<SeenPicture>& pictures) mutable -> std::string {
         std::string fault = two_rigs_see(pictures);
@@ -98,7 +98,7 @@ FilmRule floor_first(const BoardSet& boards, std::string floor_board) {
     };
 }
 
-FilmAdvice tie_advice(const BoardSet& boards, std::vector<std::string> rig_names) {
+FilmAdvice tie_advice(const CalibrationBoards& boards, std::vector<std::string> rig_names) {
     return [boards, names = std::move(rig_names)](const BoardFilm& film) {
         const std::size_t count = names.size();
         struct Tie {

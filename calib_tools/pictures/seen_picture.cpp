@@ -45,7 +45,7 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
         static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
 }
 
-void look_at(SeenPicture& picture, const BoardSet& boards) {
+void look_at(SeenPicture& picture, const CalibrationBoards& boards) {
     try {
         picture = look_at_picture(to_grey(read_colour_image(picture.path)), picture.path, boards);
     } catch (const Error& error) {
@@ -64,7 +64,7 @@ void refuse(SeenPicture& picture, std::string reason) {
 }
 
 /// Pictures of which the markers do not tell the board's layout have that which others tell.
-void settle_layout(std::vector<SeenPicture>& pictures, const BoardSet& boards) {
+void settle_layout(std::vector<SeenPicture>& pictures, const CalibrationBoards& boards) {
     if (!boards.is_one_board()) return;
     const bool described = boards.boards.front().starts_white();
     int others = 0, as_described = 0;
@@ -72,7 +72,7 @@ void settle_layout(std::vector<SeenPicture>& pictures, const BoardSet& boards) {
         if (p.sighting.found() && p.sighting.layout_is_sure)
             ++(p.sighting.legacy == described ? as_described : others);
     if (others <= as_described) return;
-    BoardSet settled = boards;
+    CalibrationBoards settled = boards;
     settled.boards.front().legacy = !described;
     for (SeenPicture& p : pictures)
         if (p.sighting.found() && !p.sighting.layout_is_sure) look_at(p, settled);
@@ -81,7 +81,7 @@ void settle_layout(std::vector<SeenPicture>& pictures, const BoardSet& boards) {
 }  // namespace
 
 SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
-                            const BoardSet& boards) {
+                            const CalibrationBoards& boards) {
     SeenPicture picture;
     picture.path = path;
     picture.width_px = grey.cols;
@@ -137,7 +137,7 @@ void judge_blur_and_glare(SeenPicture& picture, const UsualPicture& usual) {
 }
 
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
-                                          const BoardSet& boards) {
+                                          const CalibrationBoards& boards) {
     std::vector<SeenPicture> pictures(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) pictures[i].path = files[i];
     std::atomic<std::size_t> done{0};
@@ -200,7 +200,7 @@ void refuse_repeated(std::vector<SeenPicture>& pictures) {
                 refuse(pictures[i], fmt::format("is the same picture as {}", pictures[k].name()));
 }
 
-void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardSet& boards) {
+void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const CalibrationBoards& boards) {
     std::size_t mirrored = 0, found = 0;
     std::vector<std::filesystem::path> without;
     for (const SeenPicture& p : pictures) {

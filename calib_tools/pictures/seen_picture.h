@@ -22,11 +22,11 @@ struct SeenPicture {
 /// Damaged files, boards of another size, blur and glare end up as reasons, never as an exception.
 /// Blur is judged against the sharper half of the series, since lenses differ.
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
-                                          const BoardSet& boards);
+                                          const CalibrationBoards& boards);
 
 /// A picture that is at hand already; it is not judged by blur and glare yet.
 SeenPicture look_at_picture(const GreyImage& grey, const std::filesystem::path& path,
-                            const BoardSet& boards);
+                            const CalibrationBoards& boards);
 
 /// How the board that the pictures show was printed, as BoardSighting says it.
 struct PrintedBoard {
@@ -53,6 +53,6 @@ void refuse_repeated(std::vector<SeenPicture>& pictures);
 
 /// Throws Error if most pictures show a board of one other size, or mirrored markers: the one
 /// sentence that spares a list of reasons.
-void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const BoardSet& boards);
+void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const CalibrationBoards& boards);
 
 }  // namespace vantage

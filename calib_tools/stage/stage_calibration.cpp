@@ -21,7 +21,7 @@ constexpr int few_shared = StageCalibration::few_shared;
 constexpr double weak_sigma_m = 0.002;
 const LensFamily& held_family() { return lens_family("none"); }
 
-void require_described_size(const std::vector<StageRig>& rigs, const BoardSet& boards) {
+void require_described_size(const std::vector<StageRig>& rigs, const CalibrationBoards& boards) {
     // Noise at the far end of a stage reaches a percent; boards differ by more.
     constexpr double most = 0.03;
     for (const BoardBody& body : boards.bodies) {
@@ -266,7 +266,7 @@ std::string StageCalibration::placement_name(int board) const {
                                             bodies[static_cast<std::size_t>(placement.body)].name);
 }
 
-StageCalibration calibrate_stage(const std::vector<StageRig>& given, const BoardSet& boards,
+StageCalibration calibrate_stage(const std::vector<StageRig>& given, const CalibrationBoards& boards,
                                  const std::optional<Floor>& floor) {
     if (given.size() < 2) fail("a stage needs at least two rigs; one was given");
     boards.validate();

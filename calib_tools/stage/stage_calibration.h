@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_set.h"
+#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/rig/rig_calibration.h"
 #include "calib_tools/stage/next_picture.h"
 #include "common/config/calibration_file.h"
@@ -91,7 +91,7 @@ struct Floor {
 /// up, x along its rows, z along its columns. Without, the first rig is taken to stand level
 /// (assume_place). Throws Error naming rigs that no board ties to the others, boards that look
 /// alike when turned, boards that cannot be told apart, and a floor board nobody saw.
-StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const BoardSet& boards,
+StageCalibration calibrate_stage(const std::vector<StageRig>& rigs, const CalibrationBoards& boards,
                                  const std::optional<Floor>& floor);
 
 }  // namespace vantage

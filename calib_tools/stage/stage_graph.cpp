@@ -152,7 +152,7 @@ void require_all_standing(const std::vector<StageRig>& rigs, const std::vector<b
 }
 
 /// Bodies without boards leave; the first board that was seen most gives a body its frame.
-void tidy_bodies(const std::vector<StageRig>& rigs, const BoardSet& boards, StageStart& start) {
+void tidy_bodies(const std::vector<StageRig>& rigs, const CalibrationBoards& boards, StageStart& start) {
     std::vector<int> corners(boards.boards.size(), 0);
     for (const StageRig& rig : rigs)
         for (const auto* series : {&rig.left, &rig.right})
@@ -183,7 +183,7 @@ void tidy_bodies(const std::vector<StageRig>& rigs, const BoardSet& boards, Stag
 
 }  // namespace
 
-StageStart start_stage(const std::vector<StageRig>& rigs, const BoardSet& boards) {
+StageStart start_stage(const std::vector<StageRig>& rigs, const CalibrationBoards& boards) {
     StageStart start;
     start.world_from_rig.assign(rigs.size(), Pose::Identity());
     start.body_from_board.assign(boards.boards.size(), Pose::Identity());

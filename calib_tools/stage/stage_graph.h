@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "calib_tools/board/board_set.h"
+#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/stage/stage_calibration.h"
 
 namespace vantage {
@@ -30,7 +30,7 @@ struct StageStart {
 /// until nothing is left. Of the two poses that a small board may have, the one that fits all
 /// corners of its body in both cameras of the rig counts. Throws Error naming the rigs that nothing
 /// ties to the others.
-StageStart start_stage(const std::vector<StageRig>& rigs, const BoardSet& boards);
+StageStart start_stage(const std::vector<StageRig>& rigs, const CalibrationBoards& boards);
 
 /// The corners of the boards that `wanted` takes.
 template <class Wanted>

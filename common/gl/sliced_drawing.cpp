@@ -39,7 +39,7 @@ class ScissorRows {
 
 }  // namespace
 
-SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way,
+SlicedDrawing::SlicedDrawing(std::chrono::nanoseconds slice, RenderPriority* way,
                              std::function<void()> between, double least_share)
     : slice_(slice),
       way_(way),
@@ -55,7 +55,7 @@ SlicedDrawing::~SlicedDrawing() { current_slicing = before_; }
 const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 
 void SlicedDrawing::give_way() const {
-    const DriverTurn::Pause pause;
+    const DriverLock::Pause pause;
     if (way_) {
         const MonotonicTime start = MonotonicClock::now();
         way_->give_way(may_wait_);

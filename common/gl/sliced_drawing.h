@@ -18,7 +18,7 @@ class SlicedDrawing {
   public:
     /// `way` must outlive it; null: nobody goes first. Bands wait for others so long at most that
     /// `least_share` of the time is theirs, from 0 to 1.
-    explicit SlicedDrawing(std::chrono::nanoseconds slice, RightOfWay* way = nullptr,
+    explicit SlicedDrawing(std::chrono::nanoseconds slice, RenderPriority* way = nullptr,
                            std::function<void()> between = {}, double least_share = 0);
     ~SlicedDrawing();
     SlicedDrawing(const SlicedDrawing&) = delete;
@@ -37,7 +37,7 @@ class SlicedDrawing {
     void drew_for(std::chrono::nanoseconds time) const;
 
     std::chrono::nanoseconds slice_;
-    RightOfWay* way_;
+    RenderPriority* way_;
     std::function<void()> between_;
     double least_share_;
     mutable std::chrono::nanoseconds may_wait_;  ///< by what was drawn; a thread's own

@@ -68,15 +68,15 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     rig.late_in_a_row = 0;
 
     auto [place, opened] = open_.try_emplace(index);
-    OpenSet& set = place->second;
+    OpenFrameSet& set = place->second;
     if (opened) {
         set.frames.resize(rigs_.size());
         set.deadline = arrival + options_.latency_budget;
     }
     if (set.frames[rig_number]) return FrameFate::duplicate;
     set.frames[rig_number] = std::move(frame);
-    if (open_.size() > max_open_sets) close_through(open_.begin()->first, arrival);
-    return FrameFate::in_set;
+    if (open_.size() > max_open_frame_sets) close_through(open_.begin()->first, arrival);
+    return FrameFate::in_background;
 }
 
 void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {
@@ -130,7 +130,7 @@ bool FrameSetAssembler::names_no_pulse(std::size_t rig) const {
     return rigs_[rig].unsynchronized_in_a_row >= pulseless_after;
 }
 
-bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenSet& set,
+bool FrameSetAssembler::everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set,
                                                MonotonicTime now) const {
     for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
         const bool went_past = rigs_[rig].newest && *rigs_[rig].newest > index;
@@ -161,7 +161,7 @@ void FrameSetAssembler::close_through(std::uint64_t index, MonotonicTime now) {
         }
         last_closed_ = set.trigger_index;
         closed_deadlines_[set.trigger_index] = node.mapped().deadline;
-        if (closed_deadlines_.size() > max_open_sets)
+        if (closed_deadlines_.size() > max_open_frame_sets)
             closed_deadlines_.erase(closed_deadlines_.begin());
         closed_.push_back(std::move(set));
     }

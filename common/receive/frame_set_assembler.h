@@ -17,7 +17,7 @@ namespace vantage {
 
 /// What became of a frame that was handed to the assembler.
 enum class FrameFate {
-    in_set,     ///< joined the open set of its pulse
+    in_background,     ///< joined the open set of its pulse
     late,       ///< its set was closed
     duplicate,  ///< its rig is in that set already
     unsynchronized,
@@ -45,7 +45,7 @@ class FrameSetAssembler {
     };
 
     /// Open sets at a time; one more closes the oldest.
-    static constexpr std::size_t max_open_sets = 32;
+    static constexpr std::size_t max_open_frame_sets = 32;
 
     FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
 
@@ -72,10 +72,10 @@ class FrameSetAssembler {
     /// Whether none of its frames names a pulse any more.
     bool names_no_pulse(std::size_t rig) const;
 
-    std::size_t open_sets() const { return open_.size(); }
+    std::size_t open_frame_sets() const { return open_.size(); }
 
   private:
-    struct OpenSet {
+    struct OpenFrameSet {
         std::vector<std::shared_ptr<const RigFrame>> frames;
         MonotonicTime deadline{};
     };
@@ -92,14 +92,14 @@ class FrameSetAssembler {
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;
     bool in_play(std::size_t rig, std::uint64_t index, MonotonicTime now) const;
-    bool everyone_accounted_for(std::uint64_t index, const OpenSet& set, MonotonicTime now) const;
+    bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set, MonotonicTime now) const;
     Absence absence(std::size_t rig, std::uint64_t index) const;
     void close_through(std::uint64_t index, MonotonicTime now);
 
     std::vector<Rig> rigs_;
     Options options_;
     StageStep step_;
-    std::map<std::uint64_t, OpenSet> open_;
+    std::map<std::uint64_t, OpenFrameSet> open_;
     std::optional<std::uint64_t> last_closed_;
     std::map<std::uint64_t, MonotonicTime> closed_deadlines_;  ///< of the sets that closed last
     std::vector<FrameSet> closed_;

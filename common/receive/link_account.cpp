@@ -9,7 +9,7 @@ namespace {
 
 LinkCounters sum(const LinkCounters& a, const LinkCounters& b) {
     return {a.offered + b.offered, a.sent + b.sent, a.send_dropped + b.send_dropped,
-            a.thinned + b.thinned};
+            a.skipped + b.skipped};
 }
 
 RigCounters sum(const RigCounters& a, const RigCounters& b) {

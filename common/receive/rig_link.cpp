@@ -224,7 +224,7 @@ void RigLink::refuse(std::string sentence, MonotonicTime now) {
     if (!reopen_) reopen_ = now + refusal_retry_period;
 }
 
-void RigLink::tick(const Wish& wish, MonotonicTime now) {
+void RigLink::tick(const Request& request, MonotonicTime now) {
     if (reopen_ && now >= *reopen_) {
         reopen_.reset();
         close();
@@ -233,14 +233,14 @@ void RigLink::tick(const Wish& wish, MonotonicTime now) {
     HostMessage message;
     message.host_id = host_id_;
     message.link = account_.link();
-    message.handled = account_.handled(wish.unhandled);
+    message.handled = account_.handled(request.unhandled);
     message.credit_window = credit_window;
-    message.streaming = wish.streaming;
-    message.rate_divisor = wish.rate_divisor;
-    message.first_pulse = wish.first_pulse;
-    message.raw_pairs = wish.raw_pairs;
-    message.fetch = wish.fetch;
-    message.report_id = wish.report_id;
+    message.streaming = request.streaming;
+    message.rate_divisor = request.rate_divisor;
+    message.first_pulse = request.first_pulse;
+    message.raw_pairs = request.raw_pairs;
+    message.fetch = request.fetch;
+    message.report_id = request.report_id;
     if (now < next_heartbeat_ && message == told_) return;
     // Not taken while the rig is away; then the heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

@@ -31,15 +31,15 @@ class RigLink {
     };
 
     /// What the host asks of the rig.
-    struct Wish {
+    struct Request {
         bool streaming = true;
         std::uint32_t rate_divisor = 1;
         std::uint64_t unhandled = 0;    ///< frames that came and are not decoded yet
         std::uint64_t first_pulse = 0;  ///< of the take; 0: not announced yet
         bool raw_pairs = false;
-        std::optional<FetchWish> fetch = {};
+        std::optional<FetchRequest> fetch = {};
         std::uint64_t report_id = 0;
-        bool operator==(const Wish&) const = default;
+        bool operator==(const Request&) const = default;
     };
 
     struct View {
@@ -82,7 +82,7 @@ class RigLink {
 
     /// Tells the rig, if the wish has changed or a heartbeat is due. Opens the link again when a
     /// refusal has aged.
-    void tick(const Wish& wish, MonotonicTime now);
+    void tick(const Request& request, MonotonicTime now);
 
     View view(MonotonicTime now) const;
 

@@ -24,7 +24,7 @@ std::string trouble_of_pulses(const RigStatus& rig) {
     if (rig.lags)
         return "its frames come beyond the latency budget, and nobody waits for them: is its clock "
                "set, is its network slow?";
-    if (rig.names_no_pulse || (rig.unsynchronized > 0 && rig.in_sets == 0))
+    if (rig.names_no_pulse || (rig.unsynchronized > 0 && rig.in_frame_sets == 0))
         return "its pictures name no pulse of the stage: give it a trigger, or see its wire";
     return {};
 }

@@ -33,8 +33,8 @@ struct RigStatus {
     std::uint64_t undecodable =
         0;                      ///< messages refused by the decoder; the last reason in last_error
     std::uint64_t lost = 0;     ///< sent by the rig, never came: the connection broke
-    std::uint64_t in_sets = 0;  ///< frames that met their set, and that set is closed
-    std::uint64_t in_dropped_sets = 0;  ///< of those: in sets that nobody took in time
+    std::uint64_t in_frame_sets = 0;  ///< frames that met their set, and that set is closed
+    std::uint64_t in_dropped_frame_sets = 0;  ///< of those: in sets that nobody took in time
     std::uint64_t late = 0;             ///< frames that came after their set was closed
     std::uint64_t duplicate = 0;        ///< frames of a pulse this rig had delivered already
     std::uint64_t unsynchronized = 0;   ///< frames that name no pulse of the stage
@@ -61,10 +61,10 @@ struct RigStatus {
 struct ReceiverStatus {
     std::vector<RigStatus> rigs;
     std::uint64_t sets = 0;           ///< closed, with at least one rig
-    std::uint64_t complete_sets = 0;  ///< with all rigs
-    std::uint64_t sets_dropped =
+    std::uint64_t complete_frame_sets = 0;  ///< with all rigs
+    std::uint64_t frame_sets_dropped =
         0;  ///< closed and not taken by next() before newer ones pushed them out
-    std::optional<MonotonicTime> newest_set;  ///< when the last of them was closed
+    std::optional<MonotonicTime> newest_frame_set;  ///< when the last of them was closed
 };
 
 inline constexpr const char* clocks_not_disciplined = "clocks not disciplined: skew unknown";

@@ -10,8 +10,8 @@ SignalState signal_state(const ReceiverStatus& status, bool held, std::chrono::n
     const bool any_rig =
         std::any_of(status.rigs.begin(), status.rigs.end(),
                     [&](const RigStatus& rig) { return gives_pictures(rig, status.rigs); });
-    if (!any_rig || !status.newest_set) return SignalState::no_signal;
-    const std::chrono::nanoseconds age = now - *status.newest_set;
+    if (!any_rig || !status.newest_frame_set) return SignalState::no_signal;
+    const std::chrono::nanoseconds age = now - *status.newest_frame_set;
     if (age > period + no_signal_after) return SignalState::no_signal;
     return age > period + stale_after ? SignalState::stale : SignalState::live;
 }

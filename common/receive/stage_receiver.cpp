@@ -104,7 +104,7 @@ struct StageReceiver::Impl {
         RigStatus status;
         bool relay_answers = false;  ///< and says why the rig does not
         std::uint64_t undecodable_frames = 0;
-        RigLink::Wish wish;
+        RigLink::Request request;
         std::shared_ptr<const std::string> report;
         OutageBook outages;
         LogLimiter complaints{complaint_period};
@@ -117,14 +117,14 @@ struct StageReceiver::Impl {
           context(static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
-          closed_sets(max_closed_sets) {
+          closed_frame_sets(max_closed_sets) {
         std::optional<CurveKeys> keys;
         if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
         for (const StageConfig::Rig& rig : stage.rigs)
             rigs.push_back(std::make_unique<Rig>(context, rig, keys));
         for (const auto& rig : rigs) {
-            rig->wish.streaming = films();
-            rig->wish.raw_pairs = purpose == Purpose::calibrate;
+            rig->request.streaming = films();
+            rig->request.raw_pairs = purpose == Purpose::calibrate;
             rig->status.stage_rate_hz = stage.rate_hz;
         }
         for (std::size_t i = 0; i < rigs.size(); ++i)
@@ -177,14 +177,14 @@ struct StageReceiver::Impl {
                          delivery->arrival_tai});
                 hand_over(*rig, std::move(*delivery));
             }
-            RigLink::Wish wish;
+            RigLink::Request request;
             {
                 const std::lock_guard lock(mutex);
-                wish = rig->wish;
+                request = rig->request;
             }
-            wish.unhandled = rig->unhandled;
-            wish.first_pulse = first_pulse;
-            rig->link.tick(wish, now);
+            request.unhandled = rig->unhandled;
+            request.first_pulse = first_pulse;
+            rig->link.tick(request, now);
         }
         const std::lock_guard lock(mutex);
         for (std::size_t i = 0; i < rigs.size(); ++i) {
@@ -193,7 +193,7 @@ struct StageReceiver::Impl {
             // What came before the rig was gone still joins its sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
             assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
-            assembler.set_asked(i, rig.wish.streaming ? rig.wish.rate_divisor : 0);
+            assembler.set_asked(i, rig.request.streaming ? rig.request.rate_divisor : 0);
             note_step(rig, i);
         }
         collect_closed(now);
@@ -315,7 +315,7 @@ struct StageReceiver::Impl {
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
-            case FrameFate::in_set:
+            case FrameFate::in_background:
                 break;
             case FrameFate::late:
                 ++rig.status.late;
@@ -337,13 +337,13 @@ struct StageReceiver::Impl {
     void collect_closed(MonotonicTime now) {
         for (FrameSet& set : assembler.take_closed(now)) {
             for (std::size_t i = 0; i < rigs.size(); ++i)
-                rigs[i]->status.in_sets += set.slots[i].frame != nullptr;
+                rigs[i]->status.in_frame_sets += set.slots[i].frame != nullptr;
             ++sets;
-            complete_sets += set.present() == static_cast<int>(rigs.size());
-            newest_set = now;
-            if (const std::optional<FrameSet> dropped = closed_sets.push(std::move(set)))
+            complete_frame_sets += set.present() == static_cast<int>(rigs.size());
+            newest_frame_set = now;
+            if (const std::optional<FrameSet> dropped = closed_frame_sets.push(std::move(set)))
                 for (std::size_t i = 0; i < rigs.size(); ++i)
-                    rigs[i]->status.in_dropped_sets += dropped->slots[i].frame != nullptr;
+                    rigs[i]->status.in_dropped_frame_sets += dropped->slots[i].frame != nullptr;
         }
     }
 
@@ -411,11 +411,11 @@ struct StageReceiver::Impl {
     TakeStarter starter;
     std::uint64_t first_pulse = 0;  ///< 0: not announced yet; only the I/O thread uses it
     std::uint64_t sets = 0;
-    std::uint64_t complete_sets = 0;
-    std::optional<MonotonicTime> newest_set;
+    std::uint64_t complete_frame_sets = 0;
+    std::optional<MonotonicTime> newest_frame_set;
     std::string failure;
 
-    BoundedQueue<FrameSet> closed_sets;
+    BoundedQueue<FrameSet> closed_frame_sets;
     WakeEvent wake;
     std::atomic<bool> stopping = false;
     std::thread io_thread;
@@ -427,7 +427,7 @@ StageReceiver::StageReceiver(const StageConfig& stage, Purpose purpose, FrameTap
 StageReceiver::~StageReceiver() = default;
 
 std::optional<FrameSet> StageReceiver::next(std::chrono::nanoseconds timeout) {
-    std::optional<FrameSet> set = impl_->closed_sets.pop_for(timeout);
+    std::optional<FrameSet> set = impl_->closed_frame_sets.pop_for(timeout);
     if (!set) {
         const std::lock_guard lock(impl_->mutex);
         if (!impl_->failure.empty()) fail("receiving came to an end: {}", impl_->failure);
@@ -445,9 +445,9 @@ ReceiverStatus StageReceiver::status() const {
         shown.decode_ms = rig->decode_ms.summary();
     }
     status.sets = impl_->sets;
-    status.complete_sets = impl_->complete_sets;
-    status.newest_set = impl_->newest_set;
-    status.sets_dropped = impl_->closed_sets.dropped_count();
+    status.complete_frame_sets = impl_->complete_frame_sets;
+    status.newest_frame_set = impl_->newest_frame_set;
+    status.frame_sets_dropped = impl_->closed_frame_sets.dropped_count();
     return status;
 }
 
@@ -457,8 +457,8 @@ void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t
     Impl::Rig& rig = impl_->named(rig_name);
     {
         const std::lock_guard lock(impl_->mutex);
-        rig.wish.streaming = streaming;
-        rig.wish.rate_divisor = rate_divisor;
+        rig.request.streaming = streaming;
+        rig.request.rate_divisor = rate_divisor;
     }
     impl_->wake.notify();
 }
@@ -470,7 +470,7 @@ void StageReceiver::look_at(std::string_view rig_name, bool is_looked_at) {
 void StageReceiver::ask_for_reports() {
     {
         const std::lock_guard lock(impl_->mutex);
-        for (const auto& rig : impl_->rigs) rig->wish.report_id = random_id();
+        for (const auto& rig : impl_->rigs) rig->request.report_id = random_id();
     }
     impl_->wake.notify();
 }

@@ -42,7 +42,7 @@ void HostLinks::pass_on(const std::shared_ptr<const PackedFrame>& frame) {
         if (!link.attached || link.raw_pairs != frame->is_raw_pair) continue;
         ++link.counters.offered;
         if (!link.streaming || frame->trigger_index % link.rate_divisor != 0) {
-            ++link.counters.thinned;
+            ++link.counters.skipped;
             continue;
         }
         if (link.queue.size() == queue_frames_) {
@@ -67,12 +67,12 @@ void HostLinks::relay(std::uint64_t session, const RigCounters& counters, RigSyn
     health_ = std::move(health);
 }
 
-void HostLinks::miss(std::uint64_t dropped, std::uint64_t thinned) {
+void HostLinks::miss(std::uint64_t dropped, std::uint64_t skipped) {
     for (Link& link : links_) {
         if (!link.attached) continue;
-        link.counters.offered += dropped + thinned;
+        link.counters.offered += dropped + skipped;
         link.counters.send_dropped += dropped;
-        link.counters.thinned += thinned;
+        link.counters.skipped += skipped;
     }
 }
 
@@ -141,20 +141,20 @@ void HostLinks::reported(std::shared_ptr<const std::string> report) {
     }
 }
 
-void HostLinks::hear_fetch(Link& link, const std::optional<FetchWish>& wish) {
-    if (!wish) {
+void HostLinks::hear_fetch(Link& link, const std::optional<FetchRequest>& request) {
+    if (!request) {
         link.fetch.reset();
         return;
     }
-    if (!link.fetch || link.fetch->wish.id != wish->id) {
-        link.fetch = Fetch{*wish, wish->from_pulse, 0, false, false, {}, {}};
+    if (!link.fetch || link.fetch->request.id != request->id) {
+        link.fetch = Fetch{*request, request->from_pulse, 0, false, false, {}, {}};
         if (!no_kept_.empty()) {
             ++refused_fetches_;
             link.fetch->trouble = no_kept_;
             link.heartbeat_due = true;
         }
     }
-    link.fetch->wish.granted = std::min(wish->granted, link.fetch->sent + max_credit_window);
+    link.fetch->request.granted = std::min(request->granted, link.fetch->sent + max_credit_window);
 }
 
 std::optional<HostLinks::FetchJob> HostLinks::next_fetch() {
@@ -168,11 +168,11 @@ std::optional<HostLinks::FetchJob> HostLinks::next_fetch() {
         if (!link.attached || !link.fetch) continue;
         Fetch& fetch = *link.fetch;
         if (fetch.is_looked_up || fetch.is_searched || !fetch.trouble.empty() ||
-            fetch.sent + fetch.ready.size() >= fetch.wish.granted)
+            fetch.sent + fetch.ready.size() >= fetch.request.granted)
             continue;
         fetch.is_looked_up = true;
         last_served_ = link.id;
-        return FetchJob{link.id, fetch.wish.id, fetch.next_pulse, fetch.wish.to_pulse};
+        return FetchJob{link.id, fetch.request.id, fetch.next_pulse, fetch.request.to_pulse};
     }
     return std::nullopt;
 }
@@ -180,13 +180,13 @@ std::optional<HostLinks::FetchJob> HostLinks::next_fetch() {
 void HostLinks::fetched(const FetchJob& job, std::shared_ptr<const KeptParts> kept,
                         std::string trouble) {
     for (Link& link : links_) {
-        if (link.id != job.link || !link.fetch || link.fetch->wish.id != job.fetch) continue;
+        if (link.id != job.link || !link.fetch || link.fetch->request.id != job.fetch) continue;
         Fetch& fetch = *link.fetch;
         fetch.is_looked_up = false;
         fetch.trouble = std::move(trouble);
         if (kept) {
             fetch.next_pulse = kept->pulse + 1;
-            fetch.is_searched = fetch.next_pulse >= fetch.wish.to_pulse;
+            fetch.is_searched = fetch.next_pulse >= fetch.request.to_pulse;
             fetch.ready.push_back(std::move(kept));
         } else {
             fetch.is_searched = fetch.trouble.empty();
@@ -332,7 +332,7 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.health = health_;
     message.health.refused_connections += refused_connections_;
     if (link.fetch)
-        message.fetch = FetchState{link.fetch->wish.id, link.fetch->sent, link.fetch->is_over(),
+        message.fetch = FetchState{link.fetch->request.id, link.fetch->sent, link.fetch->is_over(),
                                    link.fetch->trouble};
     return message;
 }

@@ -66,7 +66,7 @@ class HostLinks {
     void relay(std::uint64_t session, const RigCounters& counters, RigSync sync, RigHealth health);
     /// Frames that the rig published and that never came to the relay: dropped on the way, and left
     /// out as the relay asked. They are in the account of every attached host.
-    void miss(std::uint64_t dropped, std::uint64_t thinned);
+    void miss(std::uint64_t dropped, std::uint64_t skipped);
     /// Why the rig gives the relay nothing, which its hosts are told instead of heartbeats; empty:
     /// it does.
     void set_away(std::string reason) { away_ = std::move(reason); }
@@ -153,7 +153,7 @@ class HostLinks {
 
   private:
     struct Fetch {
-        FetchWish wish;
+        FetchRequest request;
         std::uint64_t next_pulse = 0;  ///< all before it are sent, ready, or not kept
         std::uint64_t sent = 0;
         bool is_looked_up = false;  ///< a job is under way
@@ -186,7 +186,7 @@ class HostLinks {
     Link* take_on(const std::string& host_key, std::uint64_t host_id);
     void let_go(Link& link);
     void drop_oldest(Link& link);
-    void hear_fetch(Link& link, const std::optional<FetchWish>& wish);
+    void hear_fetch(Link& link, const std::optional<FetchRequest>& request);
     RigMessage message_to(const Link& link) const;
 
     std::string rig_;

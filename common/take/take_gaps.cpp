@@ -18,7 +18,7 @@ constexpr std::uint64_t most_ahead = 32;
 constexpr std::size_t most_frames_later = 8;
 
 Losses losses_of(const TakeReader::Frame& frame) {
-    return {frame.rig.missed, frame.rig.late, frame.link.send_dropped, frame.link.thinned,
+    return {frame.rig.missed, frame.rig.late, frame.link.send_dropped, frame.link.skipped,
             frame.dropped};
 }
 

@@ -13,8 +13,8 @@ StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float textur
     return material;
 }
 
-StageScene make_set(std::uint64_t set) {
-    return set == 0 ? make_studio_set() : make_random_set(set);
+StageScene make_frame_set(std::uint64_t set) {
+    return set == 0 ? make_studio_background() : make_random_background(set);
 }
 
 void add_performers(StageScene& scene) {
@@ -32,7 +32,7 @@ void add_sky(StageMeshBuilder& mesh, const Eigen::Vector3f& tint) {
     StageMaterial material = matte(0, tint, 0.2f);
     material.glow = 0.5f;
     mesh.begin_chunk(far_scenery);
-    mesh.set_material(material);
+    mesh.background_material(material);
     constexpr float pi = std::numbers::pi_v<float>;
     mesh.patch(32, 16, [&](float s, float t) {
         const float azimuth = 2 * pi * s, polar = pi * t;

@@ -28,13 +28,13 @@ struct StageScene {
 
 /// The set that the demo films: a round studio with panelled walls, a lighting grid, props, and
 /// three performers.
-StageScene make_studio_set();
+StageScene make_studio_background();
 
 /// Another room for every seed.
-StageScene make_random_set(std::uint64_t seed);
+StageScene make_random_background(std::uint64_t seed);
 
 /// Set 0 is the studio, any other one random.
-StageScene make_set(std::uint64_t set);
+StageScene make_frame_set(std::uint64_t set);
 
 /// Adds the performers' meshes and gives them their bones.
 void add_performers(StageScene& scene);

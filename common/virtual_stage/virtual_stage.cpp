@@ -80,8 +80,8 @@ bool are_same(const StageCamera& a, const StageCamera& b) {
 }
 
 /// A camera's picture of the set, without what moves on it, and that with it.
-struct KeptSet {
-    KeptSet(const StageCamera& from, int samples_per_side)
+struct KeptBackground {
+    KeptBackground(const StageCamera& from, int samples_per_side)
         : camera(from),
           still({from.width_px, from.height_px}, samples_per_side),
           moving({from.width_px, from.height_px}, samples_per_side),
@@ -351,7 +351,7 @@ struct VirtualStage::Impl {
 
     /// The picture of a camera's set, made anew where there is none; the one that was asked for
     /// least recently goes for it.
-    KeptSet& kept_set(const StageCamera& camera, int samples_per_side) {
+    KeptBackground& kept_set(const StageCamera& camera, int samples_per_side) {
         const auto at = std::find_if(sets.begin(), sets.end(), [&](const auto& kept) {
             return kept->still.samples_per_side() == samples_per_side &&
                    are_same(kept->camera, camera);
@@ -361,7 +361,7 @@ struct VirtualStage::Impl {
             return *sets.back();
         }
         if (sets.size() == kept_sets) sets.erase(sets.begin());
-        sets.push_back(std::make_unique<KeptSet>(camera, samples_per_side));
+        sets.push_back(std::make_unique<KeptBackground>(camera, samples_per_side));
         return *sets.back();
     }
 
@@ -438,7 +438,7 @@ struct VirtualStage::Impl {
     }
 
     /// The parts of the picture that show performers, or what they may shade.
-    PictureParts changing_parts(const KeptSet& kept) const {
+    PictureParts changing_parts(const KeptBackground& kept) const {
         const ScreenBounds bounds(kept.camera);
         PictureParts parts(kept.moving.size());
         for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
@@ -478,7 +478,7 @@ struct VirtualStage::Impl {
     }
 
     /// Draws what moves, and its shadows, over the set.
-    void draw_colour_over(KeptSet& kept, const std::vector<const StageChunk*>& chunks) {
+    void draw_colour_over(KeptBackground& kept, const std::vector<const StageChunk*>& chunks) {
         const StageCamera& camera = kept.camera;
         const StageTargets& target = kept.moving;
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
@@ -533,7 +533,7 @@ struct VirtualStage::Impl {
             in_view(camera, clip_from_world(camera, near_m, far_m));
         const bool with_colour = options.pictures != StagePictures::depth,
                    with_depth = options.pictures != StagePictures::colour;
-        KeptSet* kept = options.stands_still ? &kept_set(camera, samples_per_side) : nullptr;
+        KeptBackground* kept = options.stands_still ? &kept_set(camera, samples_per_side) : nullptr;
         const StageTargets& target =
             kept ? kept->moving
                  : targets_for({camera.width_px, camera.height_px}, samples_per_side);
@@ -592,11 +592,11 @@ struct VirtualStage::Impl {
     std::optional<Buffer> shaded_indices;  ///< of their corners
     std::optional<std::chrono::nanoseconds> posed_time;
     std::vector<std::unique_ptr<StageTargets>> targets;
-    std::vector<std::unique_ptr<KeptSet>> sets;
+    std::vector<std::unique_ptr<KeptBackground>> sets;
 };
 
 VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t set)
-    : impl_(std::make_unique<Impl>(library, make_set(set))) {}
+    : impl_(std::make_unique<Impl>(library, make_frame_set(set))) {}
 VirtualStage::~VirtualStage() = default;
 VirtualStage::VirtualStage(VirtualStage&&) noexcept = default;
 VirtualStage& VirtualStage::operator=(VirtualStage&&) noexcept = default;

@@ -62,7 +62,7 @@ struct LinkCounters {
     std::uint64_t sent = 0;          ///< handed to the socket
     std::uint64_t send_dropped = 0;  ///< pushed out of the queue by newer ones, or left in it when
                                      ///< the host went away
-    std::uint64_t thinned = 0;       ///< left out as the host asked
+    std::uint64_t skipped = 0;       ///< left out as the host asked
 
     bool operator==(const LinkCounters&) const = default;
 };

@@ -59,7 +59,7 @@ RigHealth from_wire(const wire::Health& in) {
     return health;
 }
 
-FetchWish from_wire(const wire::Fetch& in) {
+FetchRequest from_wire(const wire::Fetch& in) {
     if (in.id() == 0) fail("a fetch without id came");
     if (in.to_pulse() > max_trigger_index || in.from_pulse() >= in.to_pulse())
         fail("a fetch of the pulses from {} to before {} came, which are none up to {}",
@@ -128,7 +128,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
     out.set_offered(message.counters.offered);
     out.set_sent(message.counters.sent);
     out.set_send_dropped(message.counters.send_dropped);
-    out.set_thinned(message.counters.thinned);
+    out.set_thinned(message.counters.skipped);
     to_wire(message.rig_counters, *out.mutable_counters());
     to_wire(message.sync, *out.mutable_sync());
     to_wire(message.health, *out.mutable_health());
@@ -159,7 +159,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.rig = in.rig();
     message.session = in.session();
     message.link = in.link();
-    message.counters = {in.offered(), in.sent(), in.send_dropped(), in.thinned()};
+    message.counters = {in.offered(), in.sent(), in.send_dropped(), in.skipped()};
     message.rig_counters = from_wire(in.counters());
     message.sync = from_wire(in.sync());
     message.health = from_wire(in.health());

@@ -13,12 +13,12 @@
 namespace vantage {
 
 /// What a host fetches of the rig's own take: the frames of these pulses.
-struct FetchWish {
+struct FetchRequest {
     std::uint64_t id = 0;                        ///< random, not 0; another one begins anew
     std::uint64_t from_pulse = 0, to_pulse = 0;  ///< `to_pulse` is the first that is left out
     std::uint64_t granted = 0;                   ///< frames that may be sent for this id in all
 
-    bool operator==(const FetchWish&) const = default;
+    bool operator==(const FetchRequest&) const = default;
 };
 
 /// How the rig stands to it.
@@ -41,7 +41,7 @@ struct HostMessage {
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; only pulses whose index it divides
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
     bool raw_pairs = false;          ///< what the sensors saw instead of views
-    std::optional<FetchWish> fetch = {};
+    std::optional<FetchRequest> fetch = {};
     std::uint64_t report_id = 0;  ///< random: asks for a report; 0: asks for none
 
     bool operator==(const HostMessage&) const = default;

@@ -9,20 +9,20 @@ namespace vantage {
 
 /// What a preparer of instants has learnt of the stage's set, as a thing of its own. Belongs to the
 /// preparer's thread and context.
-class SetMemory {
+class BackgroundAccess {
   public:
-    virtual ~SetMemory() = default;
+    virtual ~BackgroundAccess() = default;
 
     /// Rigs that have no past, now and later, begin with what this set has of them, if it was
     /// learnt with their calibration; states() tells of those that it does not fit. Null: with
     /// nothing.
-    virtual void begin_with(std::shared_ptr<const LearntSet> set) = 0;
+    virtual void begin_with(std::shared_ptr<const Background> set) = 0;
     /// What the rigs see from now on is the set, whatever was known: for a stage that is empty.
     virtual void learn_anew() = 0;
     /// Reads all of it back. Waits for the GPU.
-    virtual LearntSet learnt() const = 0;
+    virtual Background learnt() const = 0;
     /// Of the rigs of the newest instant, a second old at most.
-    virtual std::vector<RigSetState> states() const = 0;
+    virtual std::vector<RigBackgroundState> states() const = 0;
 };
 
 }  // namespace vantage

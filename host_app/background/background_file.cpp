@@ -55,8 +55,8 @@ Picture unpacked(PayloadDecompressor& zstd, const std::string& payload, cv::Size
     return picture;
 }
 
-LearntRigSet decode_rig(const learnt::RigSet& from) {
-    LearntRigSet rig;
+RigBackground decode_rig(const learnt::RigBackground& from) {
+    RigBackground rig;
     check_name("rig", from.rig());
     check_name("calibration", from.calibration().substr(from.calibration().find(':') + 1));
     rig.rig = from.rig();
@@ -77,22 +77,22 @@ LearntRigSet decode_rig(const learnt::RigSet& from) {
 
 }  // namespace
 
-std::vector<std::byte> encode_set(const LearntSet& set) {
-    learnt::LearntSet message;
+std::vector<std::byte> encode_frame_set(const Background& set) {
+    learnt::Background message;
     message.set_version(version);
     message.set_learnt_tai_ns(to_ns(set.learnt));
     PayloadCompressor zstd;
     LosslessColourEncoder colours;
-    for (const LearntRigSet& rig : set.rigs) {
-        learnt::RigSet& to = *message.add_rigs();
+    for (const RigBackground& rig : set.rigs) {
+        learnt::RigBackground& to = *message.add_rigs();
         to.set_rig(rig.rig);
         to.set_calibration(rig.calibration);
         to.set_width_px(static_cast<std::uint32_t>(rig.colour.cols));
         to.set_height_px(static_cast<std::uint32_t>(rig.colour.rows));
         to.set_depth_width_px(static_cast<std::uint32_t>(rig.depth_m.cols));
         to.set_depth_height_px(static_cast<std::uint32_t>(rig.depth_m.rows));
-        to.set_colour(text_of(colours.encode(rig.colour)));
-        to.set_depth(text_of(zstd.compress(bytes_of(rig.depth_m))));
+        to.background_colour(text_of(colours.encode(rig.colour)));
+        to.background_depth(text_of(zstd.compress(bytes_of(rig.depth_m))));
         to.set_certainty(text_of(zstd.compress(bytes_of(rig.certainty))));
     }
     const std::string text = std::string(first_line) + message.SerializeAsString();
@@ -100,14 +100,14 @@ std::vector<std::byte> encode_set(const LearntSet& set) {
     return {bytes.begin(), bytes.end()};
 }
 
-LearntSet decode_set(std::span<const std::byte> bytes) {
+Background decode_frame_set(std::span<const std::byte> bytes) {
     if (bytes.size() < first_line.size() ||
         std::memcmp(bytes.data(), first_line.data(), first_line.size()) != 0)
         fail("it is no learnt set: it does not begin with '{}'",
              first_line.substr(0, first_line.size() - 1));
     const std::span<const std::byte> rest = bytes.subspan(first_line.size());
     keep_protobuf_quiet();
-    learnt::LearntSet message;
+    learnt::Background message;
     if (rest.size() > most_bytes ||
         !message.ParseFromArray(rest.data(), static_cast<int>(rest.size())))
         fail("it is a damaged learnt set");
@@ -116,11 +116,11 @@ LearntSet decode_set(std::span<const std::byte> bytes) {
              message.version(), version);
     if (message.rigs_size() < 1 || message.rigs_size() > most_rigs)
         fail("it is the set of {} rigs, which is outside 1..{}", message.rigs_size(), most_rigs);
-    LearntSet set;
+    Background set;
     if (message.learnt_tai_ns() < 0) fail("it was learnt before 1970");
     set.learnt = tai_from_ns(message.learnt_tai_ns());
     std::int64_t pixels = 0;
-    for (const learnt::RigSet& rig : message.rigs()) {
+    for (const learnt::RigBackground& rig : message.rigs()) {
         pixels += std::max(
             std::int64_t{side("picture", rig.width_px())} * side("picture", rig.height_px()),
             std::int64_t{side("depth map", rig.depth_width_px())} *
@@ -128,21 +128,21 @@ LearntSet decode_set(std::span<const std::byte> bytes) {
         if (pixels > most_pixels)
             fail("its pictures have more than the {} pixels that a set may have", most_pixels);
     }
-    for (const learnt::RigSet& rig : message.rigs()) set.rigs.push_back(decode_rig(rig));
+    for (const learnt::RigBackground& rig : message.rigs()) set.rigs.push_back(decode_rig(rig));
     return set;
 }
 
-LearntSet load_set(const std::filesystem::path& path) {
+Background load_set(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = read_file(path, most_bytes);
     try {
-        return decode_set(bytes);
+        return decode_frame_set(bytes);
     } catch (const Error& error) {
         fail("{} cannot be used: {}", path.string(), error.what());
     }
 }
 
-void save_set(const LearntSet& set, const std::filesystem::path& path) {
-    write_file_atomically(path, encode_set(set));
+void save_background(const Background& set, const std::filesystem::path& path) {
+    write_file_atomically(path, encode_frame_set(set));
 }
 
 }  // namespace vantage

@@ -45,9 +45,9 @@ float instants_of(double seconds, double dt_s, int fewest, int most) {
         std::clamp(instants, static_cast<double>(fewest), static_cast<double>(most)));
 }
 
-void SetLearner::learn(RigHistory& rig) {
+void BackgroundModel::learn(RigHistory& rig) {
     // Asked for before anything is bound: making a texture binds it.
-    SetState& set = rig.set_to_learn();
+    BackgroundState& set = rig.set_to_learn();
     const cv::Size picture = rig.fresh_colour().size();
     const Eigen::Vector2f size(static_cast<float>(picture.width),
                                static_cast<float>(picture.height));
@@ -56,7 +56,7 @@ void SetLearner::learn(RigHistory& rig) {
     hard_.resize(picture);
     const bool has_before = set.is_drawn() && rig.has_colour_before();
     const Framebuffer& colour = rig.next_colour_target();
-    const Texture& set_colour = has_before ? rig.colour_mean() : rig.fresh_colour();
+    const Texture& background_colour = has_before ? rig.colour_mean() : rig.fresh_colour();
     const Texture& state_before = has_before ? set.state() : rig.depth();
     const auto set_votes = [&](Program& program) {
         program.set("softness", softness);
@@ -66,12 +66,12 @@ void SetLearner::learn(RigHistory& rig) {
 
     rig.depth().bind(0);
     rig.fresh_colour().bind(1);
-    set_colour.bind(2);
+    background_colour.bind(2);
     TwoStagePass& seeing = rig.depth().size() == picture ? see_alike_ : see_;
     seeing.draw(set.seen_target(), [&](Program& see) {
         see.set("depth_map", 0);
         see.set("picture", 1);
-        see.set("set_colour", 2);
+        see.set("background_colour", 2);
         bind_now(see, rig, state_before, 3);
         set_votes(see);
     });
@@ -93,15 +93,15 @@ void SetLearner::learn(RigHistory& rig) {
     Program& edges = edges_.use();
     edges.set("hard", 0);
     edges.set("picture", 1);
-    edges.set("set_colour", 2);
+    edges.set("background_colour", 2);
     hard_.texture().bind(0);
     rig.fresh_colour().bind(1);
-    set_colour.bind(2);
+    background_colour.bind(2);
     edges_.draw(rig.matte().target(), rig.matte_tiles().texture(), 3, picture);
 
     Program& learn = learn_.use();
     learn.set("depth_map", 0);
-    learn.set("set_before", 1);
+    learn.set("background_before", 1);
     learn.set("seen", 2);
     learn.set("matte", 3);
     set_votes(learn);
@@ -122,7 +122,7 @@ void SetLearner::learn(RigHistory& rig) {
     show.set("has_before", has_before ? 1.0f : 0.0f);
     show.set("most_instants", most_colour_instants(rig.dt_s()));
     rig.fresh_colour().bind(0);
-    set_colour.bind(1);
+    background_colour.bind(1);
     set.seen().bind(2);
     rig.matte().texture().bind(3);
     colour_.draw(colour);
@@ -130,10 +130,10 @@ void SetLearner::learn(RigHistory& rig) {
     rig.finish_colour();
 }
 
-void SetLearner::bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit) {
+void BackgroundModel::bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit) {
     const std::optional<RigHistory::Model>& model = rig.model();
     program.set("model", unit);
-    program.set("set_state", unit + 1);
+    program.set("background_state", unit + 1);
     // What has not changed for as long as is counted has not changed since an older model either.
     program.set("since", model ? std::min(static_cast<float>(rig.learnt_instants() - model->made),
                                           most_votes(rig) - 1)
@@ -142,17 +142,17 @@ void SetLearner::bind_now(Program& program, const RigHistory& rig, const Texture
     state.bind(unit + 1);
 }
 
-float SetLearner::most_votes(const RigHistory& rig) {
+float BackgroundModel::most_votes(const RigHistory& rig) {
     return instants_of(depth_mean_s, rig.dt_s(), 8, longest_depth_mean);
 }
 
-float SetLearner::known_after(const RigHistory& rig) { return known_after_of(rig.dt_s()); }
+float BackgroundModel::known_after(const RigHistory& rig) { return known_after_of(rig.dt_s()); }
 
-LearntRigSet SetLearner::learnt(const RigHistory& rig) {
-    LearntRigSet set;
+RigBackground BackgroundModel::learnt(const RigHistory& rig) {
+    RigBackground set;
     set.rig = rig.camera().name;
     set.calibration = calibration_of(rig.camera(), rig.fresh_colour().size(), rig.depth().size());
-    const cv::Mat state = rig.set_state().state().download();
+    const cv::Mat state = rig.background_state().state().download();
     cv::extractChannel(state, set.depth_m, 0);
     cv::Mat votes, mean;
     cv::extractChannel(state, votes, 1);
@@ -166,7 +166,7 @@ LearntRigSet SetLearner::learnt(const RigHistory& rig) {
     return set;
 }
 
-void SetLearner::restore(RigHistory& rig, const LearntRigSet& set) {
+void BackgroundModel::restore(RigHistory& rig, const RigBackground& set) {
     cv::Mat votes;
     set.certainty.convertTo(votes, CV_32F, longest_depth_mean / 255.0);
     cv::Mat whole(votes.size(), CV_32F);
@@ -188,7 +188,7 @@ void SetLearner::restore(RigHistory& rig, const LearntRigSet& set) {
     rig.restore(state, halves, longest_depth_mean);
 }
 
-cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
+cv::Mat1b BackgroundModel::known(const RigBackground& set, double dt_s) {
     // The first instant counts nothing in the mean's alpha.
     const double least = 255 * (known_after_of(dt_s) - 1) / most_colour_instants(dt_s);
     cv::Mat1b still;
@@ -197,41 +197,41 @@ cv::Mat1b SetLearner::known(const LearntRigSet& set, double dt_s) {
     return (still >= std::floor(least)) & (set.depth_m > 0);
 }
 
-SetPicture SetLearner::picture(const RigHistory& rig) {
-    const LearntRigSet set = learnt(rig);
+BackgroundView BackgroundModel::picture(const RigHistory& rig) {
+    const RigBackground set = learnt(rig);
     const cv::Size whole = set.depth_m.size();
-    const cv::Size size = set_match_size(whole);
-    SetPicture picture;
+    const cv::Size size = background_match_size(whole);
+    BackgroundView picture;
     picture.K = scaled_intrinsics(rig.K_depth(), static_cast<double>(size.width) / whole.width,
                                   static_cast<double>(size.height) / whole.height);
     picture.world_from_camera = rig.camera().world_from_camera;
     picture.baseline_m = rig.camera().baseline_m;
     picture.right_jpegs.assign(rig.right_jpegs().begin(), rig.right_jpegs().end());
-    picture.right_px = set_match_size(rig.fresh_colour().size());
+    picture.right_px = background_match_size(rig.fresh_colour().size());
     picture.right_correction = rig.camera().colour_correction;
     picture.doffs_px = rig.camera().doffs_px * size.width / rig.fresh_colour().width_px();
     cv::resize(set.depth_m, picture.depth_m, size, 0, 0, cv::INTER_NEAREST_EXACT);
     cv::resize(set.colour, picture.colour, size, 0, 0, cv::INTER_AREA);
     cv::Mat known;
-    cv::resize(SetLearner::known(set, rig.dt_s()), known, size, 0, 0, cv::INTER_NEAREST_EXACT);
+    cv::resize(BackgroundModel::known(set, rig.dt_s()), known, size, 0, 0, cv::INTER_NEAREST_EXACT);
     cv::insertChannel(known, picture.colour, 3);
     return picture;
 }
 
-SetLearner::Look SetLearner::look_at(const RigHistory& rig) {
+BackgroundModel::Look BackgroundModel::look_at(const RigHistory& rig) {
     const cv::Size picture = rig.matte().size();
     const double reduction = std::max(1.0, picture.width / static_cast<double>(most_sampled_px));
     const cv::Size sampled(std::max(1, cvRound(picture.width / reduction)),
                            std::max(1, cvRound(picture.height / reduction)));
     sampled_.resize(sampled);
     Program& known = known_.use();
-    known.set("set_state", 0);
-    known.set("set_colour", 1);
+    known.set("background_state", 0);
+    known.set("background_colour", 1);
     known.set("known_after", known_after(rig));
     known.set("matte", 2);
     known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
                                               1.0f / static_cast<float>(sampled.height)));
-    rig.set_state().state().bind(0);
+    rig.background_state().state().bind(0);
     rig.colour_mean().bind(1);
     rig.matte().bind(2);
     known_.draw(sampled_.target());

@@ -11,32 +11,32 @@ namespace vantage {
 
 /// Tells a rig's set, which stands still, from the performers before it. The set's depth and colour
 /// are learnt along time, and what performers hide now is remembered; performers get a matte.
-class SetLearner {
+class BackgroundModel {
   public:
-    explicit SetLearner(const ShaderLibrary& library)
-        : see_(library, "set_see.frag"),
-          see_alike_(library, "set_see.frag", {{"SAME_SIZE", "1"}}),
+    explicit BackgroundModel(const ShaderLibrary& library)
+        : see_(library, "background_compare.frag"),
+          see_alike_(library, "background_compare.frag", {{"SAME_SIZE", "1"}}),
           tiles_(library, "matte_tiles.frag"),
           matte_(library, "matte.frag"),
           edges_(library, "matte_edges.frag"),
-          learn_(library, "set_learn.frag"),
-          colour_(library, "set_colour.frag"),
-          known_(library, "set_look.frag") {}
+          learn_(library, "background_learn.frag"),
+          colour_(library, "background_colour.frag"),
+          known_(library, "background_sample.frag") {}
 
     /// Makes the rig's colour() and steady_depth() those of its set, and fills its matte(). Once an
     /// upload.
     void learn(RigHistory& rig);
 
     /// What was learnt, read back. Precondition: learn() of the last upload.
-    static LearntRigSet learnt(const RigHistory& rig);
+    static RigBackground learnt(const RigHistory& rig);
     /// Goes on from that; before learn(), of an upload without a past. Precondition: it is of the
     /// rig's camera and sizes.
-    static void restore(RigHistory& rig, const LearntRigSet& set);
+    static void restore(RigHistory& rig, const RigBackground& set);
     /// Where a set is known that was read back from instants `dt_s` apart; of its depth's size.
-    static cv::Mat1b known(const LearntRigSet& set, double dt_s);
+    static cv::Mat1b known(const RigBackground& set, double dt_s);
     /// What is to be matched of it, read back, of its depth's size or a part of that. Precondition
     /// as learnt().
-    static SetPicture picture(const RigHistory& rig);
+    static BackgroundView picture(const RigHistory& rig);
     struct Look {
         double known_share = 0;  ///< of the rig's pixels: the set is known there
         cv::Mat1b matte;         ///< the performers' share of its picture, small, 0..255
@@ -44,7 +44,7 @@ class SetLearner {
     /// Reads it back. Precondition as learnt().
     Look look_at(const RigHistory& rig);
 
-    /// Gives a program of set_now.glsl what it reads of a rig, on `unit` and the next; `state` is
+    /// Gives a program of background_now.glsl what it reads of a rig, on `unit` and the next; `state` is
     /// that of its set.
     static void bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit);
 

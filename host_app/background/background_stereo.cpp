@@ -24,7 +24,7 @@ constexpr std::size_t most_others = 3;
 constexpr double least_apart = 2;
 
 /// Mean difference of colours (0..255) beyond which nothing is more unlike.
-constexpr float most_unlike = 25;
+constexpr float max_cost = 25;
 /// Of a depth that other rigs' surfaces hide from them, and of one that lies outside their
 /// pictures: what nobody can deny is not to be the better for it.
 constexpr Cost hidden_cost = 130, unseen_cost = 165;
@@ -70,7 +70,7 @@ struct Other {
     cv::Mat2f inverse_depths;
 };
 
-Eigen::Matrix4d other_from_pixel(const SetPicture& other, const SetPicture& set) {
+Eigen::Matrix4d other_from_pixel(const BackgroundView& other, const BackgroundView& set) {
     DepthView view;
     view.K = other.K;
     view.world_from_camera = other.world_from_camera;
@@ -78,12 +78,12 @@ Eigen::Matrix4d other_from_pixel(const SetPicture& other, const SetPicture& set)
         view, {set.colour.cols, set.colour.rows, set.K, set.world_from_camera});
 }
 
-double apart_m(const SetPicture& a, const SetPicture& b) {
+double apart_m(const BackgroundView& a, const BackgroundView& b) {
     return (a.world_from_camera.translation() - b.world_from_camera.translation()).norm();
 }
 
-std::vector<std::size_t> others_of(std::span<const SetPicture> sets, std::size_t which) {
-    const SetPicture& set = sets[which];
+std::vector<std::size_t> others_of(std::span<const BackgroundView> sets, std::size_t which) {
+    const BackgroundView& set = sets[which];
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < sets.size(); ++i)
         if (i != which && apart_m(sets[i], set) > least_apart * set.baseline_m) others.push_back(i);
@@ -95,7 +95,7 @@ std::vector<std::size_t> others_of(std::span<const SetPicture> sets, std::size_t
 }
 
 /// Empty: nothing is known.
-DepthRange range_of(const SetPicture& set, const SetPicture& nearest) {
+DepthRange range_of(const BackgroundView& set, const BackgroundView& nearest) {
     std::vector<float> known;
     for (int y = 0; y < set.depth_m.rows; ++y)
         for (int x = 0; x < set.depth_m.cols; ++x)
@@ -181,8 +181,8 @@ class CostVolume {
 constexpr std::array<Cost, 3 * 255 + 1> cost_of_difference = [] {
     std::array<Cost, 3 * 255 + 1> costs{};
     for (std::size_t sum = 0; sum < costs.size(); ++sum)
-        costs[sum] = static_cast<Cost>(std::min(static_cast<float>(sum) / 3, most_unlike) *
-                                       (whole / most_unlike));
+        costs[sum] = static_cast<Cost>(std::min(static_cast<float>(sum) / 3, max_cost) *
+                                       (whole / max_cost));
     return costs;
 }();
 
@@ -368,7 +368,7 @@ class PixelSweep {
 
 // Where `stop` is asked for what follows is left half-way: it is of no use any more.
 
-CostVolume swept(const SetPicture& set, std::span<const Other> others,
+CostVolume swept(const BackgroundView& set, std::span<const Other> others,
                  const std::optional<Other>& right, const DepthRange& range,
                  const std::stop_token& stop) {
     CostVolume costs(set.colour.size(), range.depths);
@@ -386,7 +386,7 @@ CostVolume swept(const SetPicture& set, std::span<const Other> others,
 }
 
 /// The mean over the pixels around that look alike, and the cost of leaving the rig's own depth.
-CostVolume smoothed(const CostVolume& costs, const SetPicture& set, const DepthRange& range,
+CostVolume smoothed(const CostVolume& costs, const BackgroundView& set, const DepthRange& range,
                     const std::stop_token& stop) {
     constexpr int all = 64;  // the sum of all weights
     CostVolume smooth(costs.size(), costs.depths());
@@ -495,7 +495,7 @@ void walk_columns(const CostVolume& costs, const ColourImage& colour, CostVolume
     }
 }
 
-DepthImage winners(const CostVolume& sums, const SetPicture& set, const DepthRange& range) {
+DepthImage winners(const CostVolume& sums, const BackgroundView& set, const DepthRange& range) {
     DepthImage depth_m(set.colour.size(), 0.0f);
     for (int y = 0; y < depth_m.rows; ++y)
         for (int x = 0; x < depth_m.cols; ++x) {
@@ -521,7 +521,7 @@ cv::Mat4b finer(const ColourImage& picture) {
 
 /// The right picture's channels times so much each that they are the left one's where the rig's own
 /// depth says that they show the same: two sensors differ, and light has changed since.
-void bring_to_left(const SetPicture& set, ColourImage& right) {
+void bring_to_left(const BackgroundView& set, ColourImage& right) {
     const double f_baseline = set.K(0, 0) * set.baseline_m;
     cv::Scalar left_sum, right_sum;
     for (int y = 0; y < right.rows; ++y)
@@ -540,7 +540,7 @@ void bring_to_left(const SetPicture& set, ColourImage& right) {
 }
 
 /// What stands still in the right pictures of the set's own rig; empty if too few have come.
-ColourImage right_of(const SetPicture& set) {
+ColourImage right_of(const BackgroundView& set) {
     const ColourImage still = still_picture(set.right_jpegs, set.right_px);
     if (still.empty()) return {};
     cv::Mat sized;
@@ -552,19 +552,19 @@ ColourImage right_of(const SetPicture& set) {
 }
 
 /// It as it is looked at.
-Other seen_from(const SetPicture& set, const ColourImage& right) {
-    SetPicture camera;
+Other seen_from(const BackgroundView& set, const ColourImage& right) {
+    BackgroundView camera;
     camera.K = set.K;
     camera.K(0, 2) += set.doffs_px;
     camera.world_from_camera = set.world_from_camera * Eigen::Translation3d(set.baseline_m, 0, 0);
     return {other_from_pixel(camera, set).cast<float>(), finer(right), {}};
 }
 
-std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t which,
+std::optional<DepthImage> matched(std::span<const BackgroundView> sets, std::size_t which,
                                   std::span<const cv::Mat4b> fine, const ColourImage& right_picture,
                                   std::span<const cv::Mat2f> inverse_depths,
                                   const std::stop_token& stop) {
-    const SetPicture& set = sets[which];
+    const BackgroundView& set = sets[which];
     std::vector<Other> others;
     const std::vector<std::size_t> told_by = others_of(sets, which);
     others.reserve(told_by.size());
@@ -588,11 +588,11 @@ std::optional<DepthImage> matched(std::span<const SetPicture> sets, std::size_t 
 
 }  // namespace
 
-std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> sets,
+std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> sets,
                                                   const std::stop_token& stop) {
     std::vector<cv::Mat4b> fine;
     std::vector<ColourImage> rights;
-    for (const SetPicture& set : sets) {
+    for (const BackgroundView& set : sets) {
         fine.push_back(finer(set.colour));
         rights.push_back(right_of(set));
     }

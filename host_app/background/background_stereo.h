@@ -15,7 +15,7 @@
 namespace vantage {
 
 /// What one rig has learnt of its set. Both pictures have one size.
-struct SetPicture {
+struct BackgroundView {
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
     Pose world_from_camera = Pose::Identity();
     double baseline_m = 0;  ///< of the rig's own two cameras
@@ -43,7 +43,7 @@ struct SetPicture {
 ///
 /// @return each rig's depth, metres, 0 where its set is not known, or where no other rig stands
 /// farther from it than its own two cameras from each other; nothing if `stop` was asked for.
-std::optional<std::vector<DepthImage>> match_sets(std::span<const SetPicture> sets,
+std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> sets,
                                                   const std::stop_token& stop = {});
 
 }  // namespace vantage

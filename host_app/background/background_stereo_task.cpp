@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-void SetMatching::begin(std::vector<SetPicture> sets, Manner manner) {
+void BackgroundStereoTask::begin(std::vector<BackgroundView> sets, Manner manner) {
     auto match = [sets = std::move(sets), stop = stop_.get_token()] {
-        return match_sets(sets, stop);
+        return match_backgrounds(sets, stop);
     };
     if (manner == Manner::when_waited_for)
         result_ = std::async(std::launch::deferred, std::move(match));
@@ -20,7 +20,7 @@ void SetMatching::begin(std::vector<SetPicture> sets, Manner manner) {
         });
 }
 
-std::optional<std::vector<DepthImage>> SetMatching::take(bool waits) {
+std::optional<std::vector<DepthImage>> BackgroundStereoTask::take(bool waits) {
     if (!result_.valid()) return std::nullopt;
     if (!waits && result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return std::nullopt;

@@ -15,7 +15,7 @@
 #include "host_app/commands/demo/demo_moves.h"
 #include "host_app/commands/demo/demo_stage.h"
 #include "host_app/commands/live_session.h"
-#include "host_app/commands/rigs/pair_look.h"
+#include "host_app/commands/rigs/pair_preview.h"
 
 namespace vantage {
 namespace {

@@ -23,9 +23,9 @@ void run_live_session(const LiveOptions& options) {
             "is live",
             options.show.path);
     // A flight that nobody steers ends with its move.
-    const bool has_hands = options.show.jog.value_or(!options.show.headless);
+    const bool has_operator_input = options.show.jog.value_or(!options.show.headless);
     if (options.show.headless && plan.move && !plan.move->loops() && !plan.frames &&
-        !plan.seconds && !has_hands)
+        !plan.seconds && !has_operator_input)
         plan.seconds = plan.move->duration_s();
     LiveSettings settings = options.show.settings(stage.view, stage.rate_hz);
     ClipStore clips = options.show.clip_store(options.stage, stage.rate_hz);
@@ -34,8 +34,8 @@ void run_live_session(const LiveOptions& options) {
     settings.replay_bytes = static_cast<std::size_t>(options.past_mb * 1e6);
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
-    const std::unique_ptr<JogDeck> deck = options.show.make_deck();
-    TakeDesk takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s),
+    const std::unique_ptr<JogDevices> deck = options.show.make_deck();
+    TakeControl takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s),
                    !options.show.audio.empty());
     if (!options.take.empty()) takes.begin(options.take);
     // Ends before the takes that its sound goes to.

@@ -26,7 +26,7 @@ struct PlayOptions {
 };
 
 Transport transport_of(const PlayOptions& options, const TakeReader& take,
-                       const PastSets::Span& span) {
+                       const PastFrameSets::Span& span) {
     std::optional<std::uint64_t> in, out;
     if (!options.from.empty()) in = pulse_of(take, options.from, span.oldest, span.newest);
     if (!options.to.empty()) out = pulse_of(take, options.to, span.oldest, span.newest);
@@ -48,7 +48,7 @@ void play(const PlayOptions& options) {
     const auto take = std::make_shared<const TakeReader>(options.take);
     const TakeShow told = take_show_from(take->facts().show);
     if (is_time_zone(told.timecode_zone)) use_time_zone(told.timecode_zone);
-    const auto sets = std::make_shared<const TakeSets>(take);
+    const auto sets = std::make_shared<const TakeFrameSets>(take);
     FlightStore flights = options.show.flight_store(options.take);
     FlightPlan plan = options.show.plan(told.view, flights);
     plan.habits = habits_of(*take);
@@ -58,13 +58,13 @@ void play(const PlayOptions& options) {
     ClipStore clips = options.show.clip_store(options.take, take->facts().pulse_rate_hz);
     settings.replay = Replay(transport_of(options, *take, *sets->span()), clips.book());
     // What nobody steers ends with the take.
-    const bool has_hands = options.show.jog.value_or(!options.show.headless);
+    const bool has_operator_input = options.show.jog.value_or(!options.show.headless);
     // A flight that says where in the take it is ends by itself.
     const bool leads = plan.move && plan.move->take_s_at(0);
-    if (leads && options.show.headless && !has_hands && !plan.move->loops() && !plan.frames &&
+    if (leads && options.show.headless && !has_operator_input && !plan.move->loops() && !plan.frames &&
         !plan.seconds)
         plan.seconds = plan.move->duration_s();
-    settings.ends_with_take = options.show.headless && !has_hands && !plan.frames && !plan.seconds;
+    settings.ends_with_take = options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
         fail("what loops or stands has no end: say --frames or --seconds with --headless");
     // It begins with what is heard where the take is begun.
@@ -74,7 +74,7 @@ void play(const PlayOptions& options) {
                                         take->facts().has_sound && options.show.audio.empty()
                                             ? open_take_sound(take, pulses.time_of(begin))
                                             : nullptr);
-    const std::unique_ptr<JogDeck> deck = options.show.make_deck();
+    const std::unique_ptr<JogDevices> deck = options.show.make_deck();
     LiveShow show(settings, plan, feed_of(*take), deck.get());
     ShowSession session{options.show,
                         show,
@@ -85,7 +85,7 @@ void play(const PlayOptions& options) {
                         options.show.desk_store(options.take),
                         nullptr,
                         options.take,
-                        [&](StopSignal& signal) { return show.wait_for_first_set(signal); }};
+                        [&](StopSignal& signal) { return show.wait_for_first_frame_set(signal); }};
     session.run(stop);
 }
 

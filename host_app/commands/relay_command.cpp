@@ -57,7 +57,7 @@ nlohmann::ordered_json to_json(const RigRelay::Rig& rig) {
                                  {"offered", host.counters.offered},
                                  {"sent", host.counters.sent},
                                  {"send_dropped", host.counters.send_dropped},
-                                 {"thinned", host.counters.thinned}});
+                                 {"thinned", host.counters.skipped}});
     return json;
 }
 
@@ -69,7 +69,7 @@ void print(const std::vector<RigRelay::Rig>& rigs) {
             std::cout << fmt::format("    {}: {} of {} sent, {} dropped, {} not asked for\n",
                                      host.host_key.empty() ? "a host without key" : host.host_key,
                                      host.counters.sent, host.counters.offered,
-                                     host.counters.send_dropped, host.counters.thinned);
+                                     host.counters.send_dropped, host.counters.skipped);
     }
 }
 

@@ -27,7 +27,7 @@ constexpr int timed_renderings = 5;
 struct RenderOptions {
     std::string views, hold_out, pose, synthesiser = default_synthesiser, output, difference;
     std::vector<std::string> earlier;
-    bool novelty = false, json = false;
+    bool source_map = false, json = false;
     StereoscopicOptions stereoscopic;
 };
 
@@ -45,17 +45,17 @@ class Rendering {
             eyes_ = eye_views(target, *settled_);
             mosaic_.begin({target.width_px, target.height_px}, *settled_);
         }
-        if (options.novelty) {
-            NoveltyOverlay::require(synthesiser_->note_origins(true), options.synthesiser);
+        if (options.source_map) {
+            SourceMapOverlay::require(synthesiser_->note_origins(true), options.synthesiser);
             synthesiser_->note_origins(false);
             for (const DepthView& view : set.views)
                 if (!view.depth_m.empty()) overlay_.name_rigs({view.name});
         }
         for (const ViewSet& instant : earlier) {
-            synthesiser_->set_views(instant.views);
+            synthesiser_->background_views(instant.views);
             synthesiser_->render(target);
         }
-        synthesiser_->set_views(set.views);
+        synthesiser_->background_views(set.views);
     }
 
     const std::optional<Stereoscopy>& stereoscopy() const { return settled_; }
@@ -65,12 +65,12 @@ class Rendering {
     }
 
     /// The overlay and, in `result`, what it says in numbers.
-    const Texture& novelty(nlohmann::ordered_json& result) {
-        NoveltyShares sum;
+    const Texture& source_map(nlohmann::ordered_json& result) {
+        SourceShares sum;
         synthesiser_->note_origins(true);
         const Texture& picture = all([&](const Texture& eye) -> const Texture& {
             const PixelOrigins& origins = *synthesiser_->origins();
-            const NoveltyShares shares = novelty_shares(eye.download(), origins);
+            const SourceShares shares = source_shares(eye.download(), origins);
             const auto eyes = static_cast<double>(eyes_.size());
             for (const auto& [rig, share] : shares.rigs) sum.rigs[rig] += share / eyes;
             sum.filled += shares.filled / eyes;
@@ -79,7 +79,7 @@ class Rendering {
         });
         synthesiser_->note_origins(false);
         result = to_json(sum);
-        for (const NoveltyOverlay::Key& key : overlay_.legend())
+        for (const SourceMapOverlay::Key& key : overlay_.legend())
             result["colours"][key.rig] =
                 fmt::format("#{:02x}{:02x}{:02x}", key.colour[0], key.colour[1], key.colour[2]);
         return picture;
@@ -95,7 +95,7 @@ class Rendering {
     }
 
     std::unique_ptr<Synthesiser> synthesiser_;
-    NoveltyOverlay overlay_;
+    SourceMapOverlay overlay_;
     std::optional<Stereoscopy> settled_;
     std::vector<VirtualView> eyes_;
     EyeMosaic mosaic_;
@@ -150,7 +150,7 @@ void render(const RenderOptions& options) {
     result["renderer"] = gl.renderer;
     if (const auto& eyes = rendering.stereoscopy()) result["stereoscopic"] = to_json(*eyes);
     ColourImage shown = picture;
-    if (options.novelty) shown = rendering.novelty(result["novelty"]).download();
+    if (options.source_map) shown = rendering.source_map(result["novelty"]).download();
 
     write_colour_image(options.output, shown);
     if (!options.difference.empty())
@@ -192,7 +192,7 @@ CommandEntry render_command_entry() {
             ->add_option("--difference", options->difference,
                          "With --hold-out: also write 4 * |rendered - true|")
             ->needs(hold_out);
-        command->add_flag("--novelty", options->novelty,
+        command->add_flag("--novelty", options->source_map,
                           "Write which views the pixels come from, a colour a view, what none has "
                           "seen hatched; the numbers are still those of the plain picture");
         command->add_flag("--json", options->json, "Write the result as one JSON object");

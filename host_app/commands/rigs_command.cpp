@@ -137,21 +137,21 @@ void plan(const FetchOptions& options, const StageConfig& stage, KeptFetch& fetc
     fetch.range = [range](int) { return range; };
 }
 
-nlohmann::ordered_json to_json(const FetchBooks& books) {
-    nlohmann::ordered_json json{{"name", books.rig},          {"wanted", books.wanted},
-                                {"frames", books.frames},     {"bytes", books.bytes},
-                                {"not_kept", books.not_kept}, {"were_there", books.there}};
-    if (!books.trouble.empty()) json["trouble"] = books.trouble;
+nlohmann::ordered_json to_json(const FetchStats& stats) {
+    nlohmann::ordered_json json{{"name", stats.rig},          {"wanted", stats.wanted},
+                                {"frames", stats.frames},     {"bytes", stats.bytes},
+                                {"not_kept", stats.not_kept}, {"were_there", stats.there}};
+    if (!stats.trouble.empty()) json["trouble"] = stats.trouble;
     json["files"] = nlohmann::ordered_json::array();
-    for (const std::filesystem::path& file : books.files) json["files"].push_back(file.string());
+    for (const std::filesystem::path& file : stats.files) json["files"].push_back(file.string());
     return json;
 }
 
-void tell_progress(const std::vector<FetchBooks>& all) {
-    for (const FetchBooks& books : all)
-        if (books.wanted > 0 && !books.is_done)
-            log_info("{}: {} of {} pulses ({} %), {:.1f} MB", books.rig, books.seen, books.wanted,
-                     100 * books.seen / books.wanted, static_cast<double>(books.bytes) / 1e6);
+void tell_progress(const std::vector<FetchStats>& all) {
+    for (const FetchStats& stats : all)
+        if (stats.wanted > 0 && !stats.is_done)
+            log_info("{}: {} of {} pulses ({} %), {:.1f} MB", stats.rig, stats.seen, stats.wanted,
+                     100 * stats.seen / stats.wanted, static_cast<double>(stats.bytes) / 1e6);
 }
 
 void fetch_kept(const FetchOptions& options) {
@@ -166,30 +166,30 @@ void fetch_kept(const FetchOptions& options) {
     fetch.patience = from_s(options.wait_s);
     make_folder(options.folder);
     StopSignal stop;
-    const std::vector<FetchBooks> all = fetch.run(
+    const std::vector<FetchStats> all = fetch.run(
         stage, [&] { return stop.requested(); }, tell_progress);
     if (options.json) {
         nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
-        for (const FetchBooks& books : all) rigs.push_back(to_json(books));
+        for (const FetchStats& stats : all) rigs.push_back(to_json(stats));
         std::cout
             << nlohmann::ordered_json{{"folder", options.folder.string()}, {"rigs", rigs}}.dump()
             << '\n';
     } else {
-        for (const FetchBooks& books : all) {
-            std::cout << fmt::format("{}: {} frames, {:.1f} MB", books.rig, books.frames,
-                                     static_cast<double>(books.bytes) / 1e6);
-            if (books.not_kept > 0)
-                std::cout << fmt::format("; {} pulses the rig has not kept either", books.not_kept);
+        for (const FetchStats& stats : all) {
+            std::cout << fmt::format("{}: {} frames, {:.1f} MB", stats.rig, stats.frames,
+                                     static_cast<double>(stats.bytes) / 1e6);
+            if (stats.not_kept > 0)
+                std::cout << fmt::format("; {} pulses the rig has not kept either", stats.not_kept);
             std::cout << '\n';
-            for (const std::filesystem::path& file : books.files)
+            for (const std::filesystem::path& file : stats.files)
                 std::cout << "    " << file.string() << '\n';
         }
     }
     std::string troubles;
-    for (const FetchBooks& books : all)
-        if (!books.trouble.empty()) troubles += (troubles.empty() ? "" : "; ") + books.trouble;
+    for (const FetchStats& stats : all)
+        if (!stats.trouble.empty()) troubles += (troubles.empty() ? "" : "; ") + stats.trouble;
     if (!troubles.empty()) fail("{}", troubles);
-    if (std::any_of(all.begin(), all.end(), [](const auto& books) { return !books.is_done; }))
+    if (std::any_of(all.begin(), all.end(), [](const auto& stats) { return !stats.is_done; }))
         fail("ended before all was there; the same command goes on from here");
 }
 

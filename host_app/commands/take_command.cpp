@@ -236,7 +236,7 @@ void export_take(const TakeOptions& options) {
     const TakeReader take(options.take);
     use_zone_of(take);
     const TakePart part = part_of(take, options);
-    const ExportBooks books =
+    const ExportStats stats =
         is_film
             ? options.film.write(options.take, part, !options.from.empty() || !options.to.empty(),
                                  options.output, progress_of(options.output))
@@ -245,19 +245,19 @@ void export_take(const TakeOptions& options) {
     if (options.json)
         std::cout << nlohmann::ordered_json{{"path", options.output},
                                             {"as", options.form},
-                                            {"written", books.written},
-                                            {"there", books.there},
-                                            {"damaged", books.damaged}}
+                                            {"written", stats.written},
+                                            {"there", stats.there},
+                                            {"damaged", stats.damaged}}
                          .dump()
                   << '\n';
     else
         std::cout << fmt::format(
-            "{}: {} {}{}{}\n", options.output, books.written,
+            "{}: {} {}{}{}\n", options.output, stats.written,
             is_film  ? "pictures"
             : format ? "moments"
                      : "ticks of the camera",
-            books.there > 0 ? fmt::format(", {} were there", books.there) : "",
-            books.damaged > 0 ? fmt::format(", {} damaged frames left out", books.damaged) : "");
+            stats.there > 0 ? fmt::format(", {} were there", stats.there) : "",
+            stats.damaged > 0 ? fmt::format(", {} damaged frames left out", stats.damaged) : "");
 }
 
 void join(const TakeOptions& options) {

@@ -16,7 +16,7 @@ constexpr double longest_flight_s = 600;
 
 }  // namespace
 
-bool HandsBox::put(const FlightInput& input, MonotonicTime now) {
+bool OperatorInputBox::put(const FlightInput& input, MonotonicTime now) {
     if (!input.is_any()) return true;
     const std::lock_guard lock(mutex_);
     const bool has_to_wait = !waiting_.empty() && waiting_.back().input.commands_twice(input);
@@ -29,7 +29,7 @@ bool HandsBox::put(const FlightInput& input, MonotonicTime now) {
     return true;
 }
 
-HandsBox::Taken HandsBox::take() {
+OperatorInputBox::Taken OperatorInputBox::take() {
     const std::lock_guard lock(mutex_);
     if (waiting_.empty()) return {};
     Taken taken = waiting_.front();
@@ -37,17 +37,17 @@ HandsBox::Taken HandsBox::take() {
     return taken;
 }
 
-FlightControls::FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing,
+FlightControls::FlightControls(Settings settings, JogDevices* deck, RigView rig_view, Framing framing,
                                CorridorNow corridor)
     : settings_(std::move(settings)),
-      cameras_(Helm(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move,
+      cameras_(FlightController(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move,
                     settings_.has_past, settings_.plan.habits)),
       fly_to_preview_s_(settings_.plan.habits.shot_s),
       deck_(deck),
       rig_view_(std::move(rig_view)),
       framing_(std::move(framing)),
       corridor_now_(std::move(corridor)) {
-    cameras_.programme().helm.keep(settings_.plan.book);
+    cameras_.programme().flight_controller.keep(settings_.plan.book);
     shots_ = settings_.plan.book.shots;
     if (settings_.plan.move) move_ = std::make_shared<const Move>(*settings_.plan.move);
 }
@@ -62,13 +62,13 @@ void FlightControls::follow(const Following& found) {
     followed_.push_back(found);
 }
 
-PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) {
+CameraStep FlightControls::step(double time_s, std::optional<double> past_pulse) {
     const double dt_s = time_s - last_s_;
     last_s_ = time_s;
     if (framing_) {
         if (const std::optional<StageFraming> framing = framing_()) {
-            cameras_.for_each_helm([&](Helm& helm) {
-                helm.settle(framing->limits,
+            cameras_.for_each_controller([&](FlightController& flight_controller) {
+                flight_controller.settle(framing->limits,
                             settings_.plan.start ? std::nullopt : std::optional(framing->start));
             });
             framing_ = {};
@@ -77,31 +77,31 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
     take_from_session();
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight)
-        cameras_.for_each_helm([&](Helm& helm) { helm.keep_within(corridor); });
-    auto [hands, since] = hands_.take();
-    if (deck_) hands.add(take_wheels(dt_s, since));
-    if (hands.toggle_jog_map) {
+        cameras_.for_each_controller([&](FlightController& flight_controller) { flight_controller.keep_within(corridor); });
+    auto [operator_input, since] = operator_input_.take();
+    if (deck_) operator_input.add(take_wheels(dt_s, since));
+    if (operator_input.toggle_jog_map) {
         wheels_.toggle();
         mapper_.let_go();
     }
-    PilotStep step;
+    CameraStep step;
     step.hand = since;
-    step.next_synthesiser = hands.next_synthesiser;
-    step.toggle_source_map = hands.toggle_novelty;
-    step.time = {.pulses = hands.past_steps,
+    step.next_synthesiser = operator_input.next_synthesiser;
+    step.toggle_source_map = operator_input.toggle_source_map;
+    step.time = {.pulses = operator_input.past_steps,
                  .shuttle_pulses = 0,
-                 .speed_steps = hands.speed_steps,
-                 .toggle_hold = hands.toggle_freeze,
-                 .to_live = hands.to_live,
-                 .mark_in = hands.mark_in,
-                 .mark_out = hands.mark_out,
-                 .clear_marks = hands.clear_marks,
-                 .toggle_loop = hands.toggle_loop,
-                 .cue = hands.cue,
-                 .calls = hands.replay};
-    if (cameras_.in_hand().helm.wheel_mode() == WheelMode::past) {
-        step.time.pulses += hands.wheel_steps;
-        step.time.shuttle_pulses = hands.shuttle_s * settings_.pulse_rate_hz;
+                 .speed_steps = operator_input.speed_steps,
+                 .toggle_hold = operator_input.toggle_freeze,
+                 .to_live = operator_input.to_live,
+                 .mark_in = operator_input.mark_in,
+                 .mark_out = operator_input.mark_out,
+                 .clear_marks = operator_input.clear_marks,
+                 .toggle_loop = operator_input.toggle_loop,
+                 .cue = operator_input.cue,
+                 .calls = operator_input.replay};
+    if (cameras_.in_hand().flight_controller.wheel_mode() == WheelMode::past) {
+        step.time.pulses += operator_input.wheel_steps;
+        step.time.shuttle_pulses = operator_input.shuttle_s * settings_.pulse_rate_hz;
     }
     const auto take_s_of = [&](double pulse) {
         return (pulse - *settings_.take_begin) / settings_.pulse_rate_hz;
@@ -112,26 +112,26 @@ PilotStep FlightControls::step(double time_s, std::optional<double> past_pulse) 
         const std::lock_guard lock(mutex_);
         step.time.to_pulse = std::exchange(seek_, std::nullopt);
     }
-    take_preview(hands);
-    fly(hands, dt_s, take_s, step);
-    record(hands, step, time_s, take_s);
+    take_preview(operator_input);
+    fly(operator_input, dt_s, take_s, step);
+    record(operator_input, step, time_s, take_s);
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
-    wishes_.toggle_take ^= hands.toggle_take;
+    requests_.toggle_take ^= operator_input.toggle_take;
     if (auto change = cameras_.take_change()) {
         shots_ = change->book.shots;
         const std::optional<Move>& move = change->book.move;
         move_ = move ? std::make_shared<const Move>(*move) : nullptr;
-        change->is_of_move |= wishes_.change && wishes_.change->is_of_move;
-        wishes_.change = std::move(change);
+        change->is_of_move |= requests_.change && requests_.change->is_of_move;
+        requests_.change = std::move(change);
     }
     if (!is_recording_) pass_flight_on();
-    if (hands.pick) wishes_.pick = hands.pick;
-    if (!hands.cue_time.empty()) wishes_.cue_time = hands.cue_time;
-    wishes_.save_set |= hands.save_set;
-    wishes_.learn_set |= hands.learn_set;
-    if (hands.toggle_output != 0 && wishes_.outputs.size() < most_waiting_outputs)
-        wishes_.outputs.push_back(hands.toggle_output);
+    if (operator_input.pick) requests_.pick = operator_input.pick;
+    if (!operator_input.cue_time.empty()) requests_.cue_time = operator_input.cue_time;
+    requests_.save_background |= operator_input.save_background;
+    requests_.learn_background |= operator_input.learn_background;
+    if (operator_input.toggle_output != 0 && requests_.outputs.size() < most_waiting_outputs)
+        requests_.outputs.push_back(operator_input.toggle_output);
     note_lines(corridor.get());
     return step;
 }
@@ -140,37 +140,37 @@ void FlightControls::note_lines(const Corridor* corridor) {
     const CameraPair::Camera& in_hand = cameras_.in_hand();
     const CameraPair::Camera* preview = cameras_.preview();
     const std::optional<double> on_air_move =
-        is_tracked_ ? std::nullopt : cameras_.programme().helm.move_progress();
+        is_tracked_ ? std::nullopt : cameras_.programme().flight_controller.move_progress();
     lines_ = {};
-    lines_.move_progress = preview ? in_hand.helm.move_progress() : on_air_move;
-    lines_.wheel_mode = name_of(in_hand.helm.wheel_mode());
+    lines_.move_progress = preview ? in_hand.flight_controller.move_progress() : on_air_move;
+    lines_.wheel_mode = name_of(in_hand.flight_controller.wheel_mode());
     lines_.is_tracked = is_tracked_;
     lines_.wheel = wheel_line();
-    lines_.corridor = corridor_books_;
+    lines_.corridor = corridor_stats_;
     lines_.is_recording = is_recording_;
-    lines_.holds_horizon = in_hand.helm.holds_horizon();
+    lines_.holds_horizon = in_hand.flight_controller.holds_horizon();
     lines_.is_following = in_hand.follows_performer;
-    lines_.keyframes = in_hand.helm.keyframes();
+    lines_.keyframes = in_hand.flight_controller.keyframes();
     for (const CameraPair::Camera* camera :
          {&std::as_const(cameras_).programme(), cameras_.preview()})
         if (camera && camera->follows_performer)
-            lines_.following.push_back({camera->id, camera->helm.view().pivot_m});
+            lines_.following.push_back({camera->id, camera->flight_controller.view().pivot_m});
     lines_.fly_to_preview_s = fly_to_preview_s_;
     if (!preview) return;
-    const OrbitView view = preview->helm.view();
+    const OrbitView view = preview->flight_controller.view();
     lines_.preview = {view, corridor ? std::optional(corridor->of(view.camera())) : std::nullopt,
                       cameras_.fly_progress(), on_air_move};
 }
 
-void FlightControls::take_preview(const FlightInput& hands) {
-    if (hands.fly_to_preview_tenths != 0) fly_to_preview_s_ = 0.1 * hands.fly_to_preview_tenths;
-    if (hands.toggle_preview) cameras_.toggle_preview();
-    if (!hands.cut && !hands.fly_to_preview) return;
+void FlightControls::take_preview(const FlightInput& operator_input) {
+    if (operator_input.fly_to_preview_tenths != 0) fly_to_preview_s_ = 0.1 * operator_input.fly_to_preview_tenths;
+    if (operator_input.toggle_preview) cameras_.toggle_preview();
+    if (!operator_input.cut && !operator_input.fly_to_preview) return;
     if (!cameras_.preview())
         return log_info(
             "there is no camera on preview to cut or fly to: the command preview, key "
             "/, begins one");
-    if (hands.cut) {
+    if (operator_input.cut) {
         cameras_.cut();
         // A tracked camera is not glided away from.
         is_tracked_ = false;
@@ -181,14 +181,14 @@ void FlightControls::take_preview(const FlightInput& hands) {
     may_track_ = false;
 }
 
-void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<double> take_s,
-                         PilotStep& step) {
-    Helm& programme = cameras_.programme().helm;
-    Helm& in_hand = cameras_.in_hand().helm;
+void FlightControls::fly(const FlightInput& operator_input, double dt_s, std::optional<double> take_s,
+                         CameraStep& step) {
+    FlightController& programme = cameras_.programme().flight_controller;
+    FlightController& in_hand = cameras_.in_hand().flight_controller;
     const bool has_preview = cameras_.preview() != nullptr;
-    if (hands.toggle_tracking) may_track_ = !may_track_;
-    const bool wheel_steers = hands.turns_wheel() && in_hand.wheel_mode() != WheelMode::past;
-    if (!has_preview && (hands.steers() || hands.toggle_move || wheel_steers)) may_track_ = false;
+    if (operator_input.toggle_tracking) may_track_ = !may_track_;
+    const bool wheel_steers = operator_input.turns_wheel() && in_hand.wheel_mode() != WheelMode::past;
+    if (!has_preview && (operator_input.steers() || operator_input.toggle_move || wheel_steers)) may_track_ = false;
     const std::optional<CameraState> tracked =
         may_track_ ? tracked_.newest(MonotonicClock::now()) : std::nullopt;
     // Before the hands, so that they steer on from there.
@@ -203,33 +203,33 @@ void FlightControls::fly(const FlightInput& hands, double dt_s, std::optional<do
         if (step.time.is_any()) programme.leave_move();
     }
     bool& follows = cameras_.in_hand().follows_performer;
-    if (hands.toggle_follow) follows = !follows;
+    if (operator_input.toggle_follow) follows = !follows;
     // A hand that takes the pivot elsewhere, or a flight that does, ends that.
-    if (hands.moves_pivot() || in_hand.move_progress()) follows = false;
-    in_hand.take(hands, rig_view_, take_s);
+    if (operator_input.moves_pivot() || in_hand.move_progress()) follows = false;
+    in_hand.take(operator_input, rig_view_, take_s);
     cameras_.advance(dt_s);
     show(dt_s, tracked, step);
 }
 
-void FlightControls::show(double dt_s, const std::optional<CameraState>& tracked, PilotStep& step) {
-    const Helm& programme = cameras_.programme().helm;
+void FlightControls::show(double dt_s, const std::optional<CameraState>& tracked, CameraStep& step) {
+    const FlightController& programme = cameras_.programme().flight_controller;
     if (const std::optional<double> led = programme.move_take_s(); led && settings_.take_begin)
         step.time.at_pulse = *settings_.take_begin + *led * settings_.pulse_rate_hz;
     step.view = programme.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
-    if (const CameraPair::Camera* preview = cameras_.preview()) step.preview = preview->helm.view();
+    if (const CameraPair::Camera* preview = cameras_.preview()) step.preview = preview->flight_controller.view();
 }
 
-PilotStep FlightControls::fly_to_shot(int number) {
-    FlightInput hands;
-    hands.recall_shot = number;
+CameraStep FlightControls::fly_to_shot(int number) {
+    FlightInput operator_input;
+    operator_input.recall_shot = number;
     may_track_ = false;
     if (std::exchange(is_tracked_, false)) glide_.begin();
     CameraPair::Camera& programme = cameras_.programme();
     programme.follows_performer = false;
-    programme.helm.take(hands, rig_view_);
-    PilotStep step;
+    programme.flight_controller.take(operator_input, rig_view_);
+    CameraStep step;
     show(0, std::nullopt, step);
     return step;
 }
@@ -253,19 +253,19 @@ void FlightControls::take_from_session() {
         followed = std::exchange(followed_, {});
     }
     if (flight) {
-        cameras_.in_hand().helm.keep_flight(*flight);
+        cameras_.in_hand().flight_controller.keep_flight(*flight);
         const std::lock_guard lock(mutex_);
         move_ = std::make_shared<const Move>(*std::move(flight));
     }
     for (const Following& found : followed)
         if (CameraPair::Camera* camera = cameras_.find(found.camera);
             camera && camera->follows_performer)
-            camera->helm.carry_pivot_to(found.pivot_m);
+            camera->flight_controller.carry_pivot_to(found.pivot_m);
 }
 
-void FlightControls::record(const FlightInput& hands, const PilotStep& step, double time_s,
+void FlightControls::record(const FlightInput& operator_input, const CameraStep& step, double time_s,
                             std::optional<double> take_s) {
-    if (hands.toggle_recording) is_recording_ = !is_recording_;
+    if (operator_input.toggle_recording) is_recording_ = !is_recording_;
     if (!is_recording_) return;
     const OrbitView view =
         step.preview ? *step.preview
@@ -287,9 +287,9 @@ std::shared_ptr<const Move> FlightControls::move() const {
     return move_;
 }
 
-SessionWishes FlightControls::take_wishes() {
+SessionRequests FlightControls::take_requests() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(wishes_, {});
+    return std::exchange(requests_, {});
 }
 
 void FlightControls::end_recording() {
@@ -299,24 +299,24 @@ void FlightControls::end_recording() {
 
 void FlightControls::pass_flight_on() {
     if (flight_.empty()) return;
-    wishes_.flight = std::exchange(flight_, {});
-    wishes_.limits = cameras_.in_hand().helm.limits();
+    requests_.flight = std::exchange(flight_, {});
+    requests_.limits = cameras_.in_hand().flight_controller.limits();
 }
 
 void FlightControls::note_coverage(const Corridor* corridor, const CameraState& camera,
                                    double dt_s) {
     if (!corridor) return;
     const Coverage now = corridor->of(camera);
-    corridor_books_.now = now;
-    corridor_books_.least_share = std::min(corridor_books_.least_share, now.share);
+    corridor_stats_.now = now;
+    corridor_stats_.least_share = std::min(corridor_stats_.least_share, now.share);
     switch (Corridor::place_of(now.share)) {
         case CorridorPlace::inside:
             break;
         case CorridorPlace::edge:
-            corridor_books_.edge_s += dt_s;
+            corridor_stats_.edge_s += dt_s;
             break;
         case CorridorPlace::beyond:
-            corridor_books_.beyond_s += dt_s;
+            corridor_stats_.beyond_s += dt_s;
             break;
     }
 }
@@ -352,7 +352,7 @@ std::string FlightControls::wheel_line() const {
         "{} {}{}{}", names,
         wheels_.is_open()
             ? "moves nothing while its map is open"
-            : fmt::format("drives the {}", name_of(cameras_.in_hand().helm.wheel_mode())),
+            : fmt::format("drives the {}", name_of(cameras_.in_hand().flight_controller.wheel_mode())),
         mapper_.is_storing() ? "; the next shot button stores" : "",
         wheels_.unsaved().empty() ? "" : "; its map is changed and not saved");
 }

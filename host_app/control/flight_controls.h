@@ -23,7 +23,7 @@ namespace vantage {
 
 /// What hands did, wherever they are, on its way to the programme's thread. Turns add up; a command
 /// that is given again before the programme has taken it waits for the next step.
-class HandsBox {
+class OperatorInputBox {
   public:
     /// Commands that wait are bounded: false where these had to be left out. Turns never are.
     bool put(const FlightInput& input, MonotonicTime now);
@@ -41,19 +41,19 @@ class HandsBox {
 };
 
 /// What hands ask of the session and not of the programme, on its way to the session's thread.
-struct SessionWishes {
-    bool toggle_take = false, save_set = false, learn_set = false;
+struct SessionRequests {
+    bool toggle_take = false, save_background = false, learn_background = false;
     std::string cue_time = {};                 ///< see FlightInput
     std::optional<Eigen::Vector2d> pick = {};  ///< see FlightInput
     std::vector<int> outputs;                  ///< pressed, 1 and on, in their order
-    std::optional<Helm::Change> change = {};   ///< of shots and move, by hand
+    std::optional<FlightController::Change> change = {};   ///< of shots and move, by hand
     FlightRecording flight = {};               ///< that was recorded; empty: none
     FlightLimits limits = {};                  ///< that it was flown in
 };
 
 /// All hands on the virtual camera: mouse and keyboard where there is a window, and the jog wheels
 /// of the deck. Whatever came until a picture is begun is in that picture.
-class FlightControls final : public Pilot {
+class FlightControls final : public CameraSource {
   public:
     struct Settings {
         FlightPlan plan;
@@ -71,17 +71,17 @@ class FlightControls final : public Pilot {
     using CorridorNow = std::function<std::shared_ptr<const Corridor>()>;
     /// Without a deck there are no wheels; else it must outlive this. Without `framing` limits are
     /// those of FlightLimits, without `corridor` there is none.
-    FlightControls(Settings settings, JogDeck* deck, RigView rig_view, Framing framing = {},
+    FlightControls(Settings settings, JogDevices* deck, RigView rig_view, Framing framing = {},
                    CorridorNow corridor = {});
 
-    HandsBox& hands() { return hands_; }
+    OperatorInputBox& operator_input() { return operator_input_; }
     /// One that speaks flies, until a hand steers.
     TrackedCamera& tracked() { return tracked_; }
     /// The maps of the wheels, to be shown and changed.
-    WheelDesk& wheels() { return wheels_; }
+    WheelInput& wheels() { return wheels_; }
     /// Throws what the deck throws.
-    PilotStep step(double time_s, std::optional<double> past_pulse) override;
-    PilotStep fly_to_shot(int number) override;
+    CameraStep step(double time_s, std::optional<double> past_pulse) override;
+    CameraStep fly_to_shot(int number) override;
 
     /// A flight that was recorded: the move from the next step on. From any thread.
     void keep_flight(Move move);
@@ -103,7 +103,7 @@ class FlightControls final : public Pilot {
     std::shared_ptr<const Move> move() const;
 
     /// Those of the steps since the last call; from any thread.
-    SessionWishes take_wishes();
+    SessionRequests take_requests();
 
     /// After the last step: what is recorded is among the wishes.
     void end_recording();
@@ -114,7 +114,7 @@ class FlightControls final : public Pilot {
         std::string wheel_mode;               ///< orbit, move or past
         bool is_tracked = false;              ///< a tracked camera flies
         std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
-        CorridorBooks corridor;
+        CorridorStats corridor;
         bool is_recording = false;  ///< a flight
         bool holds_horizon = true;
         bool is_following = false;  ///< the pivot of the camera in hand goes with a performer
@@ -137,15 +137,15 @@ class FlightControls final : public Pilot {
     FlightInput take_wheels(double dt_s, std::optional<MonotonicTime>& since);
     std::string wheel_line() const;
     /// What hands ask of the camera on preview, and of the programme's to come to its view.
-    void take_preview(const FlightInput& hands);
+    void take_preview(const FlightInput& operator_input);
     /// Whoever flies, tracked camera or helm.
-    void fly(const FlightInput& hands, double dt_s, std::optional<double> take_s, PilotStep& step);
+    void fly(const FlightInput& operator_input, double dt_s, std::optional<double> take_s, CameraStep& step);
     /// The programme's camera, and what it says of time, after dt_s; and the one on preview.
-    void show(double dt_s, const std::optional<CameraState>& tracked, PilotStep& step);
+    void show(double dt_s, const std::optional<CameraState>& tracked, CameraStep& step);
     /// What the session's thread has made meanwhile.
     void take_from_session();
     /// Keeps the step's camera while a flight is recorded.
-    void record(const FlightInput& hands, const PilotStep& step, double time_s,
+    void record(const FlightInput& operator_input, const CameraStep& step, double time_s,
                 std::optional<double> take_s);
     /// What was recorded, to the session. Precondition: mutex_ is held.
     void pass_flight_on();
@@ -155,14 +155,14 @@ class FlightControls final : public Pilot {
     Settings settings_;
     CameraPair cameras_;
     double fly_to_preview_s_;
-    JogDeck* deck_;
+    JogDevices* deck_;
     RigView rig_view_;
     Framing framing_;  ///< empty once it has told
     CorridorNow corridor_now_;
-    CorridorBooks corridor_books_;
+    CorridorStats corridor_stats_;
     JogMapper mapper_;
-    WheelDesk wheels_;
-    HandsBox hands_;
+    WheelInput wheels_;
+    OperatorInputBox operator_input_;
     TrackedCamera tracked_;
     CameraGlide glide_;
     bool may_track_ = true;  ///< no hand has taken over
@@ -172,7 +172,7 @@ class FlightControls final : public Pilot {
     FlightRecording flight_;
     mutable std::mutex mutex_;
     Lines lines_;
-    SessionWishes wishes_;
+    SessionRequests requests_;
     std::optional<double> seek_;
     Shots shots_;
     std::shared_ptr<const Move> move_;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "host_app/desk/rig_look.h"
+#include "host_app/desk/rig_verdict.h"
 
 namespace vantage {
 namespace {
@@ -21,7 +21,7 @@ constexpr double most_repeated = 0.25;
 /// Why nothing of the stage can be shown.
 std::string why_not(const DeskState& state) {
     if (state.waiting)
-        return state.has_sets ? "the renderer compiles its shaders"
+        return state.has_frame_sets ? "the renderer compiles its shaders"
                               : "no rig has sent a picture yet";
     if (state.is_of_take()) return "";
     if (state.signal == SignalState::no_signal) return "no rig gives pictures";

@@ -34,7 +34,7 @@ struct DeskRig {
     std::optional<double> temperature_c = {};
     std::string clock = {};                 ///< a few words; empty: it says nothing
     std::string calibration = {};           ///< age and residual; empty: it has none
-    std::optional<double> set_known = {};   ///< share of its set; nothing: none is learnt
+    std::optional<double> background_known = {};   ///< share of its set; nothing: none is learnt
     std::vector<std::string> worries = {};  ///< what a technician should look after
 };
 
@@ -233,7 +233,7 @@ struct DeskState {
     std::uint64_t pulse = 0;
     bool is_ltc_off = false;
     bool waiting = true;    ///< no instant is ready yet
-    bool has_sets = false;  ///< of frames, whether ready or not
+    bool has_frame_sets = false;  ///< of frames, whether ready or not
     SignalState signal = SignalState::live;
     bool recording = false;  ///< a film
     bool recording_flight = false;

@@ -17,7 +17,7 @@
 #include "host_app/exports/film_sound.h"
 #include "host_app/foreground/motion/interpolated_frame_sets.h"
 #include "host_app/output/media/video_writer.h"
-#include "host_app/output/set_timecode.h"
+#include "host_app/output/frame_set_timecode.h"
 #include "host_app/refine/gain_compensation.h"
 #include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
@@ -71,22 +71,22 @@ class FilmInstants {
             share > 0 ? *between_.at(sets_, there, share) : *sets_.at(static_cast<double>(there));
         if (dt_s > longest_gap_s) preparer_->cut();
         std::vector<DepthView> views = depth_views_of(set, show_.colours);
-        if (share == 0) harmoniser_.see(views, std::min(dt_s, longest_gap_s));
-        for (DepthView& view : views) harmoniser_.apply(view);
+        if (share == 0) gain_compensation_.see(views, std::min(dt_s, longest_gap_s));
+        for (DepthView& view : views) gain_compensation_.apply(view);
         preparer_->take(views, std::min(dt_s, longest_gap_s));
         for (std::size_t rig = 0; rig < views.size(); ++rig) preparer_->improve(target);
     }
     std::shared_ptr<const Instant> prepared(const VirtualView& target) {
         return preparer_->prepare(target, prepare_levels().front());
     }
-    const TakeSets& sets() const { return sets_; }
+    const TakeFrameSets& sets() const { return sets_; }
 
   private:
     TakeShow show_;
     double rate_hz_;
-    TakeSets sets_;
-    BetweenSets between_;
-    ColourHarmoniser harmoniser_;
+    TakeFrameSets sets_;
+    InterpolatedFrameSets between_;
+    GainCompensation gain_compensation_;
     std::unique_ptr<InstantPreparer> preparer_;
     std::optional<double> moment_;  ///< pulses
 };
@@ -150,7 +150,7 @@ class FilmWork {
     /// The set, from before the picture at `begin` and, where that is little, from after it; then
     /// what pictures before it show.
     void learn(std::uint64_t begin, const std::function<bool()>& is_wanted) {
-        const PastSets::Span span = *instants_.sets().span();
+        const PastFrameSets::Span span = *instants_.sets().span();
         const auto pulses_of = [this](double time_s) {
             return static_cast<std::uint64_t>(std::llround(time_s * pulse_rate_hz_));
         };
@@ -264,7 +264,7 @@ std::vector<FilmPicture> film_of_cameras(const TakeReader& take, const TakePart&
     return pictures;
 }
 
-ExportBooks export_film(std::shared_ptr<const TakeReader> take,
+ExportStats export_film(std::shared_ptr<const TakeReader> take,
                         const std::vector<FilmPicture>& pictures, const FilmSettings& settings,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,
                         const std::function<void(double)>& progress) {
@@ -275,18 +275,18 @@ ExportBooks export_film(std::shared_ptr<const TakeReader> take,
     const std::filesystem::path folder = FilmParts::folder_of(file);
     claim_folder(folder, *take, claim_of(pictures, settings));
     FilmParts parts(folder, settings.rate_hz);
-    ExportBooks books{0, parts.pictures(), 0};
-    const TakeSets sets(take);
+    ExportStats stats{0, parts.pictures(), 0};
+    const TakeFrameSets sets(take);
     const SetTimecode timecodes(take->facts().pulse_rate_hz, settings.rate_hz);
     const std::string timecode = timecodes.of(*sets.at(pictures.front().pulse));
     if (parts.pictures() < pictures.size())
         FilmWork(take, pictures, settings).render(parts, is_wanted, progress);
-    books.written = parts.pictures() - books.there;
-    if (parts.pictures() < pictures.size()) return books;
+    stats.written = parts.pictures() - stats.there;
+    if (parts.pictures() < pictures.size()) return stats;
     parts.join(file, timecode, sound_of_film(take, pictures, settings.rate_hz));
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
-    return books;
+    return stats;
 }
 
 }  // namespace vantage

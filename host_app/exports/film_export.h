@@ -43,7 +43,7 @@ struct FilmSettings {
 /// while the set is learnt; one that is not wanted any more is left there. The set is learnt from
 /// twenty seconds before the first picture, or the one that it goes on with, and where the take has
 /// fewer from those after it. Throws Error if there is such a file already.
-ExportBooks export_film(std::shared_ptr<const TakeReader> take,
+ExportStats export_film(std::shared_ptr<const TakeReader> take,
                         const std::vector<FilmPicture>& pictures, const FilmSettings& settings,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,
                         const std::function<void(double)>& progress = {});

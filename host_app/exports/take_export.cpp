@@ -55,7 +55,7 @@ const ExportFormat& find_export_format(const std::string& name) {
     fail("a take is not exported as '{}'; there are camera, film{}", name, names);
 }
 
-ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
+ExportStats export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
                            const std::filesystem::path& folder,
                            const std::function<void(double)>& progress) {
     const std::vector<std::uint64_t> pulses = pulses_of(take, part);
@@ -63,29 +63,29 @@ ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, c
     claim_folder(folder, take, format.name);
     const std::uint64_t first = pulse_span_of(take).first;
     MomentReader reader(take);
-    ExportBooks books;
+    ExportStats stats;
     for (std::size_t i = 0; i < pulses.size(); ++i) {
         if (progress) progress(static_cast<double>(i) / static_cast<double>(pulses.size()));
         const std::string name = fmt::format("{:06}{}", pulses[i] - first, format.extension);
         if (std::filesystem::exists(folder / name)) {
-            ++books.there;
+            ++stats.there;
             continue;
         }
         const std::filesystem::path partial = folder / ("partial-" + name);
         std::error_code error;
         std::filesystem::remove_all(partial, error);
         const Moment moment = reader.at(pulses[i]);
-        books.damaged += moment.damaged;
+        stats.damaged += moment.damaged;
         if (moment.views.empty()) continue;
         format.write(moment, partial);
         std::filesystem::rename(partial, folder / name, error);
         if (error) fail("cannot write {}: {}", (folder / name).string(), error.message());
-        ++books.written;
+        ++stats.written;
     }
-    return books;
+    return stats;
 }
 
-ExportBooks export_camera(const TakeReader& take, const TakePart& part,
+ExportStats export_camera(const TakeReader& take, const TakePart& part,
                           const std::filesystem::path& folder) {
     std::vector<CameraRecord> cameras;
     std::uint64_t ticks = 0;

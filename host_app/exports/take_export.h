@@ -28,7 +28,7 @@ struct TakePart {
     std::uint64_t from = 0, to = ~std::uint64_t{0}, every = 1;
 };
 
-struct ExportBooks {
+struct ExportStats {
     std::uint64_t written = 0;
     std::uint64_t there = 0;    ///< that an earlier export wrote
     std::uint64_t damaged = 0;  ///< frames that are left out, since their bytes are not right
@@ -38,12 +38,12 @@ struct ExportBooks {
 /// there is left as it is: what was broken off goes on where it was. Moments are numbered by their
 /// pulses from the beginning of the take. Throws Error if the folder holds something else, or there
 /// is nothing to write.
-ExportBooks export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
+ExportStats export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
                            const std::filesystem::path& folder,
                            const std::function<void(double)>& progress = {});
 
 /// Writes the flight: `folder`/camera.csv and camera.freed. Throws Error likewise.
-ExportBooks export_camera(const TakeReader& take, const TakePart& part,
+ExportStats export_camera(const TakeReader& take, const TakePart& part,
                           const std::filesystem::path& folder);
 
 }  // namespace vantage

@@ -12,46 +12,46 @@ CameraPair::Camera* CameraPair::find(std::uint64_t id) {
 
 void CameraPair::toggle_preview() {
     if (preview_) {
-        programme_.helm.set_wheel_mode(preview_->helm.wheel_mode());
+        programme_.flight_controller.set_wheel_mode(preview_->flight_controller.wheel_mode());
         preview_.reset();
         share_move();
         return;
     }
-    preview_.emplace(Camera{++last_id_, programme_.helm});
-    preview_->helm.halt();
+    preview_.emplace(Camera{++last_id_, programme_.flight_controller});
+    preview_->flight_controller.halt();
 }
 
 void CameraPair::cut() {
     assert(preview_);
-    const WheelMode mode = preview_->helm.wheel_mode();
+    const WheelMode mode = preview_->flight_controller.wheel_mode();
     // One that was under way to what is on air now stays where it was cut away.
-    if (std::exchange(flies_to_preview_, false)) programme_.helm.halt();
+    if (std::exchange(flies_to_preview_, false)) programme_.flight_controller.halt();
     std::swap(programme_, *preview_);
     share_move();
-    preview_->helm.set_wheel_mode(mode);
+    preview_->flight_controller.set_wheel_mode(mode);
 }
 
 void CameraPair::fly_to_preview(double duration_s) {
     assert(preview_);
     programme_.follows_performer = false;
-    programme_.helm.fly_over_to(preview_->helm, duration_s);
-    flies_to_preview_ = programme_.helm.flight_progress().has_value();
+    programme_.flight_controller.fly_over_to(preview_->flight_controller, duration_s);
+    flies_to_preview_ = programme_.flight_controller.flight_progress().has_value();
 }
 
 std::optional<double> CameraPair::fly_progress() const {
-    return flies_to_preview_ ? programme_.helm.flight_progress() : std::nullopt;
+    return flies_to_preview_ ? programme_.flight_controller.flight_progress() : std::nullopt;
 }
 
 void CameraPair::advance(double dt_s) {
-    for_each_helm([&](Helm& helm) { helm.advance(dt_s); });
-    if (!programme_.helm.flight_progress()) flies_to_preview_ = false;
+    for_each_controller([&](FlightController& flight_controller) { flight_controller.advance(dt_s); });
+    if (!programme_.flight_controller.flight_progress()) flies_to_preview_ = false;
     share_move();
 }
 
-std::optional<Helm::Change> CameraPair::take_change() {
-    std::optional<Helm::Change> change = in_hand().helm.take_change();
+std::optional<FlightController::Change> CameraPair::take_change() {
+    std::optional<FlightController::Change> change = in_hand().flight_controller.take_change();
     if (!change || !preview_) return change;
-    programme_.helm.share({change->book, false});
+    programme_.flight_controller.share({change->book, false});
     if (change->is_of_move || move_lacking_id_) {
         move_lacking_id_ = programme_.id;
         newest_ = change->book;
@@ -63,8 +63,8 @@ std::optional<Helm::Change> CameraPair::take_change() {
 void CameraPair::share_move() {
     if (!move_lacking_id_) return;
     Camera* lacking = find(*move_lacking_id_);
-    if (lacking && lacking != &in_hand() && lacking->helm.move_progress()) return;
-    if (lacking) lacking->helm.share({newest_, true});
+    if (lacking && lacking != &in_hand() && lacking->flight_controller.move_progress()) return;
+    if (lacking) lacking->flight_controller.share({newest_, true});
     move_lacking_id_.reset();
 }
 

@@ -14,10 +14,10 @@ class CameraPair {
   public:
     struct Camera {
         std::uint64_t id;  ///< of none before
-        Helm helm;
+        FlightController flight_controller;
         bool follows_performer = false;
     };
-    explicit CameraPair(Helm programme) : programme_{1, std::move(programme)} {}
+    explicit CameraPair(FlightController programme) : programme_{1, std::move(programme)} {}
 
     Camera& programme() { return programme_; }
     const Camera& programme() const { return programme_; }
@@ -28,9 +28,9 @@ class CameraPair {
     /// Null: it has gone meanwhile.
     Camera* find(std::uint64_t id);
     template <class Visit>
-    void for_each_helm(Visit visit) {
-        visit(programme_.helm);
-        if (preview_) visit(preview_->helm);
+    void for_each_controller(Visit visit) {
+        visit(programme_.flight_controller);
+        if (preview_) visit(preview_->flight_controller);
     }
 
     /// The camera on preview begins at the programme's view; hands are back at the programme's
@@ -48,7 +48,7 @@ class CameraPair {
     void advance(double dt_s);
     /// What hands changed of shots and move. Both cameras have it; one that is on its move on air
     /// flies that as it was until it is off it or in hand.
-    std::optional<Helm::Change> take_change();
+    std::optional<FlightController::Change> take_change();
 
   private:
     void share_move();

@@ -9,7 +9,7 @@
 namespace vantage {
 
 /// What hands and plans want of one tick.
-struct PilotStep {
+struct CameraStep {
     OrbitView view;
     /// Where what flies is no hand on an orbit: the camera, of which `view` is the nearest orbit.
     std::optional<CameraState> camera{};
@@ -21,15 +21,15 @@ struct PilotStep {
 
 /// Whoever flies the virtual camera. Asked once a tick, on the programme's thread, as late as
 /// possible; never waits.
-class Pilot {
+class CameraSource {
   public:
-    virtual ~Pilot() = default;
+    virtual ~CameraSource() = default;
     /// The camera at `time_s` after the start of the programme; times grow. `past_pulse`: where in
     /// the past, or in a take, the programme is.
-    virtual PilotStep step(double time_s, std::optional<double> past_pulse) = 0;
+    virtual CameraStep step(double time_s, std::optional<double> past_pulse) = 0;
     /// The camera of the step before, which flies to this shot from now on; one that takes no time
     /// is there at once.
-    virtual PilotStep fly_to_shot(int number) = 0;
+    virtual CameraStep fly_to_shot(int number) = 0;
 };
 
 }  // namespace vantage

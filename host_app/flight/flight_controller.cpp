@@ -64,7 +64,7 @@ const char* name_of(WheelMode mode) {
     return "past";
 }
 
-Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past,
+FlightController::FlightController(const OrbitView& start, std::optional<Move> move, bool has_past,
            const FlightHabits& habits)
     : camera_(start, habits.applied_to({})),
       start_(start),
@@ -78,25 +78,25 @@ Helm::Helm(const OrbitView& start, std::optional<Move> move, bool has_past,
     mode_ = WheelMode::move;
 }
 
-void Helm::settle(const FlightLimits& limits, const std::optional<OrbitView>& start) {
+void FlightController::settle(const FlightLimits& limits, const std::optional<OrbitView>& start) {
     limits_ = habits_.applied_to(limits);
     if (start) start_ = *start;
     camera_ = OrbitCamera(start ? *start : camera_.view(), limits_);
     camera_.keep_within(corridor_);
 }
 
-void Helm::keep(const FlightBook& book) {
+void FlightController::keep(const FlightBook& book) {
     shots_ = book.shots;
     if (!move_) move_ = book.move;
 }
 
-void Helm::keep_flight(Move move) {
+void FlightController::keep_flight(Move move) {
     leave_move();
     set_move(std::move(move));
     move_s_ = 0;
 }
 
-void Helm::set_move(std::optional<Move> move) {
+void FlightController::set_move(std::optional<Move> move) {
     const double place = move_ ? place_s() : 0;
     if (on_move_ && move) {
         // It goes on there, and glides over to what has become of the move.
@@ -112,32 +112,32 @@ void Helm::set_move(std::optional<Move> move) {
     is_changed_ = is_move_changed_ = true;
 }
 
-std::optional<Helm::Change> Helm::take_change() {
+std::optional<FlightController::Change> FlightController::take_change() {
     if (!std::exchange(is_changed_, false)) return std::nullopt;
     return Change{{move_, shots_, limits_.min_eye_height_m},
                   std::exchange(is_move_changed_, false)};
 }
 
-void Helm::stand_at(const CameraState& camera) {
+void FlightController::stand_at(const CameraState& camera) {
     leave_move();
     shot_flight_.reset();
     camera_.jump_to(taken_over(camera, limits_, camera_.view().azimuth_rad));
 }
 
-void Helm::fly_over_to(const Helm& other, double duration_s) {
+void FlightController::fly_over_to(const FlightController& other, double duration_s) {
     leave_move();
     shot_flight_.reset();
     holds_horizon_ = other.holds_horizon_;
     fly_to(other.view(), duration_s, Easing::ease);
 }
 
-void Helm::halt() {
+void FlightController::halt() {
     leave_move();
     shot_flight_.reset();
     camera_.jump_to(camera_.view());
 }
 
-void Helm::share(const Change& change) {
+void FlightController::share(const Change& change) {
     shots_ = change.book.shots;
     if (!change.is_of_move) return;
     const bool was_changed = is_changed_, was_move_changed = is_move_changed_;
@@ -146,12 +146,12 @@ void Helm::share(const Change& change) {
     is_move_changed_ = was_move_changed;
 }
 
-std::optional<double> Helm::flight_progress() const {
+std::optional<double> FlightController::flight_progress() const {
     if (!shot_flight_) return std::nullopt;
     return shot_flight_->gone_s / shot_flight_->duration_s;
 }
 
-OrbitView Helm::view() const {
+OrbitView FlightController::view() const {
     if (!on_move_) return camera_.view();
     OrbitView on_move = move_->at(move_s_);
     if (joining_ <= 0) return on_move;
@@ -160,28 +160,28 @@ OrbitView Helm::view() const {
     return move_->path() == MovePath::orbit ? constrained(view, limits_) : view;
 }
 
-std::optional<double> Helm::move_progress() const {
+std::optional<double> FlightController::move_progress() const {
     if (!on_move_) return std::nullopt;
     if (move_->duration_s() == 0) return 0;
     return place_s() / move_->duration_s();
 }
 
-std::optional<double> Helm::move_take_s() const {
+std::optional<double> FlightController::move_take_s() const {
     return on_move_ ? move_->take_s_at(move_s_) : std::nullopt;
 }
 
-void Helm::leave_move() {
+void FlightController::leave_move() {
     if (!on_move_) return;
     camera_.jump_to(taken_over(view().camera(), limits_, view().azimuth_rad));
     on_move_ = playing_ = false;
     pending_s_ = joining_ = 0;
 }
 
-void Helm::toggle_pause() {
+void FlightController::toggle_pause() {
     if (on_move_) playing_ = !playing_;
 }
 
-void Helm::join_move() {
+void FlightController::join_move() {
     playing_ = false;
     if (on_move_) return;
     shot_flight_.reset();
@@ -190,12 +190,12 @@ void Helm::join_move() {
     on_move_ = true;
 }
 
-void Helm::travel(double seconds) {
+void FlightController::travel(double seconds) {
     move_s_ += seconds;
     if (!move_->loops()) move_s_ = std::clamp(move_s_, 0.0, move_->duration_s());
 }
 
-void Helm::next_mode() {
+void FlightController::next_mode() {
     switch (mode_) {
         case WheelMode::orbit:
             if (move_)
@@ -212,7 +212,7 @@ void Helm::next_mode() {
     }
 }
 
-void Helm::take_wheel(const FlightInput& input) {
+void FlightController::take_wheel(const FlightInput& input) {
     if (mode_ == WheelMode::past) return;
     if (mode_ == WheelMode::orbit) {
         leave_move();
@@ -225,16 +225,16 @@ void Helm::take_wheel(const FlightInput& input) {
     travel(input.shuttle_s);
 }
 
-std::optional<Shot>& Helm::shot(int number) {
+std::optional<Shot>& FlightController::shot(int number) {
     assert(number >= 1 && number <= static_cast<int>(shots_.size()));
     return shots_[static_cast<std::size_t>(number - 1)];
 }
 
-void Helm::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
+void FlightController::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
     if (!on_move_ && !shot_flight_) camera_.carry_pivot_to(pivot_m);
 }
 
-void Helm::look_at(const Eigen::Vector3d& pivot_m) {
+void FlightController::look_at(const Eigen::Vector3d& pivot_m) {
     const OrbitView here = camera_.view();
     const Eigen::Vector3d eye = here.eye_m();
     if ((pivot_m - eye).norm() < limits_.min_distance_m) return;
@@ -243,7 +243,7 @@ void Helm::look_at(const Eigen::Vector3d& pivot_m) {
     fly_to(taken_over(there.camera(), limits_, there.azimuth_rad), look_s, Easing::ease);
 }
 
-void Helm::fly_to(const OrbitView& asked, double duration_s, Easing easing) {
+void FlightController::fly_to(const OrbitView& asked, double duration_s, Easing easing) {
     OrbitView view = asked;
     if (holds_horizon_) view.roll_rad = 0;
     const bool is_held =
@@ -261,13 +261,13 @@ void Helm::fly_to(const OrbitView& asked, double duration_s, Easing easing) {
     shot_flight_ = {from, to, std::max(duration_s, least_flight_s(from, to, limits_)), 0, easing};
 }
 
-double Helm::place_s() const {
+double FlightController::place_s() const {
     const double end_s = move_->duration_s();
     if (move_->loops()) return move_s_ - end_s * std::floor(move_s_ / end_s);
     return std::clamp(move_s_, 0.0, end_s);
 }
 
-void Helm::edit_move(const FlightInput& input, std::optional<double> take_s) {
+void FlightController::edit_move(const FlightInput& input, std::optional<double> take_s) {
     if (move_ && move_->keyframes().size() >= most_keyframes &&
         (input.add_keyframe || input.set_keyframe)) {
         log_warning("the move has {} keyframes, the most that one may have: no more is put in",
@@ -290,7 +290,7 @@ void Helm::edit_move(const FlightInput& input, std::optional<double> take_s) {
     }
 }
 
-void Helm::jump_keyframes(int count) {
+void FlightController::jump_keyframes(int count) {
     const std::vector<MoveKeyframe>& keyframes = move_->keyframes();
     // Where it is on its way to, which no wheel turns beyond the ends.
     const double here_s = move_->loops()
@@ -314,7 +314,7 @@ void Helm::jump_keyframes(int count) {
     pending_s_ = there_s - place_s();
 }
 
-void Helm::take(const FlightInput& input,
+void FlightController::take(const FlightInput& input,
                 const std::function<std::optional<OrbitView>(int number)>& rig_view,
                 std::optional<double> take_s) {
     if (input.next_wheel_mode) next_mode();
@@ -358,7 +358,7 @@ void Helm::take(const FlightInput& input,
     }
 }
 
-void Helm::advance(double dt_s) {
+void FlightController::advance(double dt_s) {
     assert(dt_s >= 0);
     if (shot_flight_) {
         ShotFlight& flight = *shot_flight_;

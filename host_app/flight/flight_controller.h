@@ -24,11 +24,11 @@ const char* name_of(WheelMode mode);
 /// The virtual camera between a planned move and the operator's hands. Nothing that a hand does
 /// makes the picture jump: the camera follows smoothly, and glides back onto the move. Without any
 /// input it holds its pose, or the move goes on if it plays.
-class Helm {
+class FlightController {
   public:
     /// A move plays from the start. `has_past`: whether there is a past for the wheel to go
     /// through.
-    Helm(const OrbitView& start, std::optional<Move> move, bool has_past = false,
+    FlightController(const OrbitView& start, std::optional<Move> move, bool has_past = false,
          const FlightHabits& habits = {});
 
     /// Shots, and a move for when there is none yet, which is flown when hands say so.
@@ -49,7 +49,7 @@ class Helm {
     void stand_at(const CameraState& camera);
 
     /// Flies from rest to rest to where the other stands, whose horizon it takes over too.
-    void fly_over_to(const Helm& other, double duration_s);
+    void fly_over_to(const FlightController& other, double duration_s);
     /// Stays where it is, whatever it was on.
     void halt();
     /// Has shots and, if that was changed, the move of another helm from now on.

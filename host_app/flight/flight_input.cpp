@@ -22,7 +22,7 @@ void FlightInput::add(const FlightInput& other) {
     // Two presses of a switch undo each other.
     toggle_freeze ^= other.toggle_freeze;
     toggle_move ^= other.toggle_move;
-    toggle_novelty ^= other.toggle_novelty;
+    toggle_source_map ^= other.toggle_source_map;
     toggle_take ^= other.toggle_take;
     toggle_tracking ^= other.toggle_tracking;
     toggle_jog_map ^= other.toggle_jog_map;
@@ -36,8 +36,8 @@ void FlightInput::add(const FlightInput& other) {
     remove_keyframe |= other.remove_keyframe;
     keyframe_jump += other.keyframe_jump;
     retime_s += other.retime_s;
-    save_set |= other.save_set;
-    learn_set |= other.learn_set;
+    save_background |= other.save_background;
+    learn_background |= other.learn_background;
     reset |= other.reset;
     next_synthesiser |= other.next_synthesiser;
     to_live |= other.to_live;
@@ -59,8 +59,8 @@ void FlightInput::add(const FlightInput& other) {
 bool FlightInput::commands_twice(const FlightInput& other) const {
     const auto both = [&](auto FlightInput::*what) { return this->*what != 0 && other.*what != 0; };
     return both(&FlightInput::toggle_freeze) || both(&FlightInput::toggle_move) ||
-           both(&FlightInput::toggle_novelty) || both(&FlightInput::toggle_take) ||
-           both(&FlightInput::save_set) || both(&FlightInput::learn_set) ||
+           both(&FlightInput::toggle_source_map) || both(&FlightInput::toggle_take) ||
+           both(&FlightInput::save_background) || both(&FlightInput::learn_background) ||
            both(&FlightInput::toggle_tracking) || both(&FlightInput::toggle_jog_map) ||
            both(&FlightInput::toggle_loop) || both(&FlightInput::reset) ||
            both(&FlightInput::next_synthesiser) || both(&FlightInput::next_wheel_mode) ||

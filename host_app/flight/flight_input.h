@@ -22,8 +22,8 @@ struct FlightInput {
     bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
     bool toggle_tracking = false;
     bool toggle_jog_map = false;  ///< on the desk
-    bool next_wheel_mode = false, to_live = false, toggle_novelty = false, toggle_take = false;
-    bool save_set = false, learn_set = false;
+    bool next_wheel_mode = false, to_live = false, toggle_source_map = false, toggle_take = false;
+    bool save_background = false, learn_background = false;
     bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
     bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
     bool toggle_recording = false;  ///< of a flight
@@ -76,8 +76,8 @@ struct FlightInput {
     /// True if there is anything in it.
     bool is_any() const {
         return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
-               next_wheel_mode || to_live || toggle_novelty || store_shot != 0 || past_steps != 0 ||
-               toggle_tracking || toggle_jog_map || toggle_take || save_set || learn_set ||
+               next_wheel_mode || to_live || toggle_source_map || store_shot != 0 || past_steps != 0 ||
+               toggle_tracking || toggle_jog_map || toggle_take || save_background || learn_background ||
                toggle_output != 0 || mark_in || mark_out || clear_marks || toggle_loop || cue ||
                speed_steps != 0 || !replay.empty() || !cue_time.empty() || edits_move() ||
                toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow ||

@@ -11,7 +11,7 @@ namespace {
 
 /// Of one instant nothing is told: a matte is empty, whatever stands there.
 constexpr int told_from_instants = 2;
-constexpr int block_px = 4;  // as in performer_blocks.glsl
+constexpr int block_px = 4;  // as in foreground_blocks.glsl
 
 VirtualView depth_camera(const RigHistory& rig) {
     const cv::Size size = rig.depth().size();
@@ -20,7 +20,7 @@ VirtualView depth_camera(const RigHistory& rig) {
 
 }  // namespace
 
-std::vector<const RigHistory*> PerformerDepth::others_of(const RigHistory& rig,
+std::vector<const RigHistory*> ForegroundDepth::others_of(const RigHistory& rig,
                                                          std::span<RigHistory* const> all) {
     std::vector<const RigHistory*> others;
     for (const RigHistory* other : most_useful(all, depth_camera(rig), max_others + 1))
@@ -30,7 +30,7 @@ std::vector<const RigHistory*> PerformerDepth::others_of(const RigHistory& rig,
     return others;
 }
 
-GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
+GLuint ForegroundDepth::bind(Program& program, const RigHistory& rig,
                             std::span<const RigHistory* const> others, int unit) {
     const VirtualView camera = depth_camera(rig);
     for (std::size_t i = 0; i < others.size(); ++i) {
@@ -40,7 +40,7 @@ GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
         const RigHistory& other = *others[i];
         set("other_matte", unit);
         other.matte().bind(unit++);
-        set("other_set", unit);
+        set("other_background", unit);
         other.steady_depth().bind(unit++);
         set("other_from_pixel",
             Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
@@ -50,7 +50,7 @@ GLuint PerformerDepth::bind(Program& program, const RigHistory& rig,
     return static_cast<GLuint>(unit);
 }
 
-void PerformerDepth::carve(const RigHistory& rig, std::span<const RigHistory* const> others) {
+void ForegroundDepth::carve(const RigHistory& rig, std::span<const RigHistory* const> others) {
     carved_.resize(rig.depth().size());
     TilePass& carving = carve_[others.size()];
     Program& carve = carving.use();
@@ -58,13 +58,13 @@ void PerformerDepth::carve(const RigHistory& rig, std::span<const RigHistory* co
     carve.set("seen", 1);
     carve.set("matte", 2);
     rig.depth().bind(0);
-    rig.set_state().seen().bind(1);
+    rig.background_state().seen().bind(1);
     rig.matte().bind(2);
     carving.draw(carved_.target(), rig.matte_tiles(), bind(carve, rig, others, 3),
                  rig.fresh_colour().size());
 }
 
-const Texture& PerformerDepth::look_far(const RigHistory& rig,
+const Texture& ForegroundDepth::look_far(const RigHistory& rig,
                                         std::span<const RigHistory* const> others) {
     const cv::Size size = rig.depth().size();
     far_.resize({(size.width + block_px - 1) / block_px, (size.height + block_px - 1) / block_px});
@@ -79,13 +79,13 @@ const Texture& PerformerDepth::look_far(const RigHistory& rig,
     return far_.texture();
 }
 
-void PerformerDepth::close(const Texture& depth_m, const Texture* far_m, const RigHistory& rig,
+void ForegroundDepth::close(const Texture& depth_m, const Texture* far_m, const RigHistory& rig,
                            const Framebuffer& closed) {
     TilePass& closing = far_m ? close_from_afar_ : close_;
     Program& close = closing.use();
     close.set("depth_map", 0);
     close.set("matte", 1);
-    close.set("set_depth", 2);
+    close.set("background_depth", 2);
     close.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
     rig.matte().bind(1);
@@ -97,7 +97,7 @@ void PerformerDepth::close(const Texture& depth_m, const Texture* far_m, const R
     closing.draw(closed, rig.matte_tiles(), 4, rig.fresh_colour().size());
 }
 
-void PerformerDepth::find(const RigHistory& rig, std::span<RigHistory* const> all,
+void ForegroundDepth::find(const RigHistory& rig, std::span<RigHistory* const> all,
                           const Framebuffer& found) {
     const std::vector<const RigHistory*> others = others_of(rig, all);
     carve(rig, others);
@@ -105,15 +105,15 @@ void PerformerDepth::find(const RigHistory& rig, std::span<RigHistory* const> al
     close(carved_.texture(), &far_m, rig, found);
 }
 
-void PerformerDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
+void ForegroundDepth::better(const RigHistory& rig, std::span<RigHistory* const> all,
                             const Framebuffer& found) {
     const auto performers = [](const RigHistory& one) {
-        return ComparedView{&one.camera(), &one.fresh_colour(), &one.performer_depth(),
+        return ComparedView{&one.camera(), &one.fresh_colour(), &one.foreground_depth(),
                             &one.samples()};
     };
     std::vector<ComparedView> views;
     for (const RigHistory* one : all) views.push_back(performers(*one));
-    close(consensus_.better_performers(performers(rig), views, rig.matte_tiles()), nullptr, rig,
+    close(refinement_.refine_foreground(performers(rig), views, rig.matte_tiles()), nullptr, rig,
           found);
 }
 

@@ -7,16 +7,16 @@
 namespace vantage {
 
 /// Finds the depth of what stands before a rig's set.
-class PerformerDepth {
+class ForegroundDepth {
   public:
-    explicit PerformerDepth(const ShaderLibrary& library)
-        : close_(library, "performer_depth.frag"),
-          close_from_afar_(library, "performer_depth.frag", {{"FAR", "1"}}),
-          consensus_(library) {
+    explicit ForegroundDepth(const ShaderLibrary& library)
+        : close_(library, "foreground_depth.frag"),
+          close_from_afar_(library, "foreground_depth.frag", {{"FAR", "1"}}),
+          refinement_(library) {
         for (std::size_t others = 0; others <= max_others; ++others) {
             const ShaderDefines count{{"OTHERS", std::to_string(others)}};
-            carve_.emplace_back(library, "performer_carve.frag", count);
-            look_far_.emplace_back(library, "performer_far.frag", count);
+            carve_.emplace_back(library, "foreground_carve.frag", count);
+            look_far_.emplace_back(library, "foreground_far.frag", count);
         }
     }
 
@@ -30,7 +30,7 @@ class PerformerDepth {
     void better(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
   private:
-    static constexpr std::size_t max_others = RigConsensus::max_others;
+    static constexpr std::size_t max_others = MultiViewRefinement::max_others;
 
     /// Those whose silhouettes are looked at.
     static std::vector<const RigHistory*> others_of(const RigHistory& rig,
@@ -47,7 +47,7 @@ class PerformerDepth {
 
     std::vector<TilePass> carve_, look_far_;  ///< one for every number of other rigs
     TilePass close_, close_from_afar_;
-    RigConsensus consensus_;
+    MultiViewRefinement refinement_;
     DrawnTexture carved_{TextureFormat::r32f}, far_{TextureFormat::r32f};
 };
 

@@ -87,7 +87,7 @@ std::optional<FrameSet> ReplayBuffer::at(double pulse) const {
     return set;
 }
 
-std::optional<PastSets::Span> ReplayBuffer::span() const {
+std::optional<PastFrameSets::Span> ReplayBuffer::span() const {
     const std::lock_guard lock(mutex_);
     if (kept_.empty()) return std::nullopt;
     return Span{kept_.front().trigger_index, kept_.back().trigger_index, kept_.size(), bytes_};

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/wire/frame_codec.h"
-#include "host_app/frames/past_sets.h"
+#include "host_app/frames/past_frame_sets.h"
 #include "host_app/frames/stage_feed.h"
 
 namespace vantage {
@@ -16,7 +16,7 @@ namespace vantage {
 /// leave first. Frames are kept as they came over the wire, a tenth of what they are decoded, and
 /// decoded when they are asked for; one that came over no wire is kept as it is. Safe to use from
 /// any thread.
-class ReplayBuffer final : public PastSets {
+class ReplayBuffer final : public PastFrameSets {
   public:
     explicit ReplayBuffer(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 

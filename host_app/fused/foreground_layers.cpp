@@ -4,13 +4,13 @@
 
 namespace vantage {
 
-PerformerLayers::PerformerLayers(const ShaderLibrary& library)
+ForegroundLayers::ForegroundLayers(const ShaderLibrary& library)
     : layers_(library, RigLayers::Depths::matted),
-      find_(library, "performer_show.frag", same_surface_share, {{"FIRST", "1"}}),
-      show_(library, "performer_show.frag", same_surface_share),
-      show_plainly_(library, "performer_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}
+      find_(library, "foreground_show.frag", same_surface_share, {{"FIRST", "1"}}),
+      show_(library, "foreground_show.frag", same_surface_share),
+      show_plainly_(library, "foreground_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}
 
-const DepthPicture& PerformerLayers::show(const Texture& picture, const Texture& depth_m,
+const DepthPicture& ForegroundLayers::show(const Texture& picture, const Texture& depth_m,
                                           const Texture* shares,
                                           std::span<const DrawnLayer> performers,
                                           const VirtualView& target, bool is_plain) {
@@ -27,8 +27,8 @@ const DepthPicture& PerformerLayers::show(const Texture& picture, const Texture&
             program.set(name, unit++);
         };
         bind("picture", picture);
-        bind("set_depth", depth_m);
-        if (shares) bind("set_shares", *shares);
+        bind("background_depth", depth_m);
+        if (shares) bind("background_shares", *shares);
         return drawing;
     };
     ready(find_).draw_depth(shown_.target());

@@ -9,9 +9,9 @@
 namespace vantage {
 
 /// Puts the performers of rigs before the set in a virtual view. Where they end their mattes say.
-class PerformerLayers {
+class ForegroundLayers {
   public:
-    explicit PerformerLayers(const ShaderLibrary& library);
+    explicit ForegroundLayers(const ShaderLibrary& library);
 
     /// `picture` and `depth_m` are the set's, of the target's size; `shares` are the rigs' in it,
     /// or null where they are not noted. `performers`, of the same rigs in the same order, are what

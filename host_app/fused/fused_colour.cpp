@@ -42,7 +42,7 @@ FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
     const int unit = layers.first_free_unit();
     program.set("fused_depth", unit);
     program.set("edge_ratio", edge_ratio);
-    program.set("remembered_trust", RigSurface::remembered_trust);
+    program.set("remembered_confidence", RigSurface::remembered_confidence);
     program.set("remembered_alpha", remembered_alpha / 255.0f);
     fused_depth.bind(unit);
     return drawing;

@@ -81,7 +81,7 @@ class FusedRenderer final : public ViewRenderer {
     FusedColour colour_;
     LayerBlender blender_;
     ImpulseFilter impulses_;
-    PerformerLayers performers_;
+    ForegroundLayers performers_;
     std::optional<PixelOrigins> origins_;
     const Texture* depth_m_ = nullptr;
     std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers

@@ -31,14 +31,14 @@ constexpr double look_period_s = 1;
 StagedPreparer::StagedPreparer(const ShaderLibrary& library)
     : sets_(library),
       performers_(library),
-      consensus_(library),
-      closer_(library),
-      edge_trust_(library),
+      refinement_(library),
+      inpainting_(library),
+      edge_confidence_(library),
       triangles_(library),
-      show_(library, "set_show.frag"),
+      show_(library, "background_show.frag"),
       now_(library, "colours_now.frag"),
-      show_matched_(library, "set_matched.frag"),
-      colour_performers_(library, "performer_colour.frag") {
+      show_matched_(library, "background_matched.frag"),
+      colour_performers_(library, "foreground_colour.frag") {
     match_anew(learnt_before_match_s);
 }
 
@@ -53,7 +53,7 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
-void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualView& target) {
+void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView& target) {
     // So many that there is something to remember, and time to better the set.
     match_anew(std::numeric_limits<double>::infinity());
     for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
@@ -63,7 +63,7 @@ void StagedPreparer::rehearse(std::span<const DepthView> views, const VirtualVie
     // A set that is matched is bettered in another way.
     for (RigHistory* rig : uploaded_) {
         const DepthImage none(rig->depth().size(), 0.0f);
-        rig->set_match(none, none, ColourImage(none.size()));
+        rig->background_match(none, none, ColourImage(none.size()));
     }
     improve(target);
     level_ = prepare_levels().front();
@@ -106,7 +106,7 @@ void StagedPreparer::begin_with_learnt(RigHistory& rig) {
     if (!begins_with_ || rig.learnt_instants() > 0) return;
     const std::string& name = rig.camera().name;
     const auto found = std::find_if(begins_with_->rigs.begin(), begins_with_->rigs.end(),
-                                    [&](const LearntRigSet& set) { return set.rig == name; });
+                                    [&](const RigBackground& set) { return set.rig == name; });
     std::string misfit;
     if (found == begins_with_->rigs.end())
         misfit = fmt::format("the set that was loaded has none of rig {}: it is learnt anew", name);
@@ -117,7 +117,7 @@ void StagedPreparer::begin_with_learnt(RigHistory& rig) {
             "{}: it is learnt anew",
             name);
     else
-        SetLearner::restore(rig, *found);
+        BackgroundModel::restore(rig, *found);
     if (!misfit.empty() && misfits_[name] != misfit) log_warning("{}", misfit);
     misfits_[name] = misfit;
 }
@@ -127,8 +127,8 @@ void StagedPreparer::look_at_sets() {
     states_.clear();
     for (const RigHistory* rig : uploaded_) {
         const auto misfit = misfits_.find(rig->camera().name);
-        const SetLearner::Look look =
-            rig->learnt_instants() > 0 ? sets_.look_at(*rig) : SetLearner::Look();
+        const BackgroundModel::Look look =
+            rig->learnt_instants() > 0 ? sets_.look_at(*rig) : BackgroundModel::Look();
         states_.push_back({.rig = rig->camera().name,
                            .known = look.known_share,
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
@@ -137,7 +137,7 @@ void StagedPreparer::look_at_sets() {
     }
 }
 
-void StagedPreparer::begin_with(std::shared_ptr<const LearntSet> set) {
+void StagedPreparer::begin_with(std::shared_ptr<const Background> set) {
     begins_with_ = std::move(set);
     misfits_.clear();
     states_.clear();
@@ -149,15 +149,15 @@ void StagedPreparer::learn_anew() {
     rigs_.forget();
 }
 
-LearntSet StagedPreparer::learnt() const {
-    LearntSet set;
+Background StagedPreparer::learnt() const {
+    Background set;
     set.learnt = TaiClock::now();
     for (const RigHistory* rig : rigs_.known())
-        if (rig->learnt_instants() > 0) set.rigs.push_back(SetLearner::learnt(*rig));
+        if (rig->learnt_instants() > 0) set.rigs.push_back(BackgroundModel::learnt(*rig));
     return set;
 }
 
-const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
+const Texture& StagedPreparer::refined_background(RigHistory& rig) {
     ComparedView view = compared(rig);
     std::vector<ComparedView> all;
     for (RigHistory* one : rigs_.shown()) {
@@ -167,7 +167,7 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
         all.back().depth_m = &one->matched_depth().texture();
         all.back().is_matched = true;
         if (one == &rig) view = all.back();
-        consensus_.then([this, one] {
+        refinement_.then([this, one] {
             Program& show = show_matched_.use();
             show.set("learnt", 0);
             show.set("picture", 1);
@@ -183,10 +183,10 @@ const Texture& StagedPreparer::bettered_set(RigHistory& rig) {
             show_matched_.draw(one->matched_depth().target());
         });
     }
-    return consensus_.better_set(view, all);
+    return refinement_.refine_background(view, all);
 }
 
-bool StagedPreparer::match_a_step(SetMatching::Manner manner) {
+bool StagedPreparer::match_a_step(BackgroundStereoTask::Manner manner) {
     if (matching_.is_under_way()) {
         if (const auto depths_m = matching_.take()) take_match(*depths_m);
         return false;
@@ -204,7 +204,7 @@ bool StagedPreparer::match_a_step(SetMatching::Manner manner) {
         matched_.reset();
         return false;
     }
-    matched_->sets.push_back(SetLearner::picture(*rig));
+    matched_->sets.push_back(BackgroundModel::picture(*rig));
     matched_->depth_sizes.push_back(rig->depth().size());
     if (matched_->sets.size() < matched_->rigs.size()) return true;
     matching_.begin(matched_->sets, manner);
@@ -220,12 +220,12 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         RigHistory* rig = matched->rigs[i];
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
         if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
-        rig->set_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
+        rig->background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
         if (!rig->model()) continue;
         // As soon as there is time.
         RigHistory::Model model = *rig->model();
         model.rest_s = 0;
-        rig->set_model(model);
+        rig->background_model(model);
     }
 }
 
@@ -235,13 +235,13 @@ void StagedPreparer::match_anew(double due_s) {
     match_rest_s_ = first_match_rest_s;
 }
 
-std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
+std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory& rig,
                                                               const PrepareLevel& level) {
     rig.generate_mipmaps();
     const Texture* depth_m = &rig.steady_depth();
     const Texture* measured_m = depth_m;
-    std::deque<RigConsensus::Step> steps;
-    if (level.is_refined) steps = consensus_.in_steps([&] { depth_m = &bettered_set(rig); });
+    std::deque<MultiViewRefinement::Step> steps;
+    if (level.is_refined) steps = refinement_.in_steps([&] { depth_m = &refined_background(rig); });
     const std::optional<RigHistory::Model>& before = rig.model();
     RigHistory::Model made{.surface = nullptr,
                            .rank = level.rank,
@@ -253,16 +253,16 @@ std::deque<RigConsensus::Step> StagedPreparer::model_in_steps(RigHistory& rig,
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
         const std::shared_ptr<RigSurface> model = surfaces_.take(shapes_);
         model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
-        closer_.close(*depth_m, *measured_m, colour, model->depth_target());
+        inpainting_.close(*depth_m, *measured_m, colour, model->depth_target());
         made.surface = model;
-        rig.set_model(made);
+        rig.background_model(made);
     });
     return steps;
 }
 
 void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
-    bettering_.reset();
-    for (const RigConsensus::Step& step : model_in_steps(rig, level)) step();
+    refinement_pass_.reset();
+    for (const MultiViewRefinement::Step& step : model_in_steps(rig, level)) step();
 }
 
 std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
@@ -272,8 +272,8 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     if (level.is_refined) {
         for (RigHistory* one : uploaded_) {
             if (has_depths_.contains(one)) continue;
-            one->performer_depth().resize(one->depth().size());
-            performers_.find(*one, learnt_, one->performer_depth().target());
+            one->foreground_depth().resize(one->depth().size());
+            performers_.find(*one, learnt_, one->foreground_depth().target());
             has_depths_.insert(one);
         }
         performers_.better(rig, uploaded_, surface->depth_target());
@@ -282,7 +282,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     }
     Program& program = colour_performers_.use();
     program.set("picture", 0);
-    program.set("set_colour", 1);
+    program.set("background_colour", 1);
     program.set("matte", 2);
     rig.fresh_colour().bind(0);
     rig.colour().bind(1);
@@ -302,20 +302,20 @@ bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level)
 void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                                 const PrepareLevel& level) {
     Program& show = show_.use();
-    SetLearner::bind_now(show, rig, rig.set_state().state(), 0);
+    BackgroundModel::bind_now(show, rig, rig.background_state().state(), 0);
     show.set("depth_map", 2);
     show.set("seen", 3);
     show.set("performers", 4);
     show.set("colour", 5);
     show.set("colour_mean", 6);
-    show.set("known_after", SetLearner::known_after(rig));
+    show.set("known_after", BackgroundModel::known_after(rig));
     rig.depth().bind(2);
-    rig.set_state().seen().bind(3);
+    rig.background_state().seen().bind(3);
     performers_m.bind(4);
     rig.colour().bind(5);
     rig.colour_mean().bind(6);
     show_.draw(surface.depth_target());
-    edge_trust_.judge(surface);
+    edge_confidence_.judge(surface);
     triangles_.build(surface.grid(QuadGrid::coarse), level.bend);
     if (level.has_fine_grid) {
         triangles_.build(surface.grid(QuadGrid::fine));
@@ -339,20 +339,20 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     }
     Program& now = now_.use();
     now.set("picture", 0);
-    now.set("set_colour", 1);
+    now.set("background_colour", 1);
     now.set("performers", 2);
     now.set("seen", 3);
     now.set("matte", 4);
-    now.set("set_depth", 5);
-    now.set("trust", 6);
-    now.set("remembered", RigSurface::remembered_trust);
+    now.set("background_depth", 5);
+    now.set("confidence", 6);
+    now.set("remembered", RigSurface::remembered_confidence);
     rig.fresh_colour().bind(0);
     rig.colour().bind(1);
     performers_m.bind(2);
-    rig.set_state().seen().bind(3);
+    rig.background_state().seen().bind(3);
     rig.matte().texture().bind(4);
     surface->depth().bind(5);
-    surface->trust().texture().bind(6);
+    surface->confidence().texture().bind(6);
     now_.draw(surface->colour_target());
     surface->finish_colour();
     return surface;
@@ -383,26 +383,26 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
 }
 
 void StagedPreparer::improve(const VirtualView& target) {
-    while (improve_a_step(target, SetMatching::Manner::when_waited_for)) continue;
+    while (improve_a_step(target, BackgroundStereoTask::Manner::when_waited_for)) continue;
     if (const auto depths_m = matching_.take(true)) take_match(*depths_m);
 }
 
-bool StagedPreparer::improve_a_step(const VirtualView& target, SetMatching::Manner manner) {
+bool StagedPreparer::improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
-    if (bettering_ && !is_under_way(*bettering_)) bettering_.reset();
-    if (!bettering_) begin_bettering(target);
-    if (!bettering_) return false;
-    const RigConsensus::Step step = std::move(bettering_->steps.front());
-    bettering_->steps.pop_front();
-    if (bettering_->steps.empty()) {
-        bettering_.reset();
+    if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
+    if (!refinement_pass_) begin_refining(target);
+    if (!refinement_pass_) return false;
+    const MultiViewRefinement::Step step = std::move(refinement_pass_->steps.front());
+    refinement_pass_->steps.pop_front();
+    if (refinement_pass_->steps.empty()) {
+        refinement_pass_.reset();
         improved_s_ = now_s_;
     }
     step();
-    return bettering_.has_value();
+    return refinement_pass_.has_value();
 }
 
-void StagedPreparer::begin_bettering(const VirtualView& target) {
+void StagedPreparer::begin_refining(const VirtualView& target) {
     if (now_s_ - improved_s_ < improvement_period_s) return;
     // Of those that are looked at the one whose model is due for longest.
     const auto due_s = [](const RigHistory& rig) {
@@ -414,17 +414,17 @@ void StagedPreparer::begin_bettering(const VirtualView& target) {
             oldest = rig;
     if (!oldest) return;
     learn(uploaded_);
-    bettering_.emplace();
+    refinement_pass_.emplace();
     for (RigHistory* rig : rigs_.shown())
         if (rig->learnt_instants() > 0)
-            bettering_->rigs.push_back(
+            refinement_pass_->rigs.push_back(
                 {rig, rig->colour().size(), rig->depth().size(), rig->match().has_value()});
-    bettering_->steps = model_in_steps(*oldest, prepare_levels().front());
+    refinement_pass_->steps = model_in_steps(*oldest, prepare_levels().front());
 }
 
-bool StagedPreparer::is_under_way(const Bettering& bettering) const {
+bool StagedPreparer::is_under_way(const Refining& refining) const {
     return std::all_of(
-        bettering.rigs.begin(), bettering.rigs.end(), [&](const Bettering::Rig& rig) {
+        refining.rigs.begin(), refining.rigs.end(), [&](const Refining::Rig& rig) {
             return rigs_.has_learnt(rig.rig) && rig.rig->colour().size() == rig.colour &&
                    rig.rig->depth().size() == rig.depth &&
                    rig.rig->match().has_value() == rig.is_matched;

@@ -23,7 +23,7 @@ namespace vantage {
 
 /// Takes a stage for two things: a set, which is learnt along time, bettered by all rigs and kept,
 /// and performers before it, who are cut out of every instant with a matte.
-class StagedPreparer final : public InstantPreparer, private SetMemory {
+class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
   public:
     explicit StagedPreparer(const ShaderLibrary& library);
 
@@ -32,17 +32,17 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
                                            const PrepareLevel& level) override;
     void improve(const VirtualView& target) override;
     bool improve_a_step(const VirtualView& target) override {
-        return improve_a_step(target, SetMatching::Manner::beside);
+        return improve_a_step(target, BackgroundStereoTask::Manner::beside);
     }
-    void rehearse(std::span<const DepthView> views, const VirtualView& target) override;
+    void warm_up(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
-    SetMemory* set_memory() override { return this; }
+    BackgroundAccess* background_access() override { return this; }
 
   private:
-    void begin_with(std::shared_ptr<const LearntSet> set) override;
+    void begin_with(std::shared_ptr<const Background> set) override;
     void learn_anew() override;
-    LearntSet learnt() const override;
-    std::vector<RigSetState> states() const override { return states_; }
+    Background learnt() const override;
+    std::vector<RigBackgroundState> states() const override { return states_; }
 
     /// The sets of those rigs of the newest instant of which it was not done yet.
     void learn(std::span<RigHistory* const> rigs);
@@ -53,35 +53,35 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
     /// A model that is made a step at a time, between instants.
-    struct Bettering {
+    struct Refining {
         struct Rig {
             RigHistory* rig = nullptr;
             cv::Size colour, depth;
             bool is_matched = false;
         };
         std::vector<Rig> rigs;  ///< that it needs, of these sizes
-        std::deque<RigConsensus::Step> steps;
+        std::deque<MultiViewRefinement::Step> steps;
     };
-    void begin_bettering(const VirtualView& target);
+    void begin_refining(const VirtualView& target);
     /// Whether all that it needs is still as it was.
-    bool is_under_way(const Bettering& bettering) const;
+    bool is_under_way(const Refining& refining) const;
     /// What make_model() does. The rigs must stay what they are until the last step.
-    std::deque<RigConsensus::Step> model_in_steps(RigHistory& rig, const PrepareLevel& level);
+    std::deque<MultiViewRefinement::Step> model_in_steps(RigHistory& rig, const PrepareLevel& level);
     /// Makes the model of the rig's set anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
     /// The depth of the rig's set as the other rigs better it.
-    const Texture& bettered_set(RigHistory& rig);
+    const Texture& refined_background(RigHistory& rig);
     /// Sets that are to be matched against each other: read back rig by rig, matched, and taken
     /// over.
     struct Matched {
         std::vector<RigHistory*> rigs;
-        std::vector<SetPicture> sets;       ///< of the first of them
+        std::vector<BackgroundView> sets;       ///< of the first of them
         std::vector<cv::Size> depth_sizes;  ///< likewise
     };
     /// A step of that, if it is time. True: more of them is left to be read back.
-    bool match_a_step(SetMatching::Manner manner);
+    bool match_a_step(BackgroundStereoTask::Manner manner);
     /// As without `manner`, in which sets are matched.
-    bool improve_a_step(const VirtualView& target, SetMatching::Manner manner);
+    bool improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
     void take_match(std::span<const DepthImage> depths_m);
     /// What is under way is of no use any more; the next one begins then, on now_s_'s clock.
     void match_anew(double due_s);
@@ -103,15 +103,15 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     std::set<RigHistory*> has_depths_;     ///< of them: whose performers were found
     PrepareLevel level_;                   ///< of the last instant that was prepared
     std::set<RigHistory*> prepared_rigs_;  ///< for it
-    std::optional<Bettering> bettering_;
+    std::optional<Refining> refinement_pass_;
     std::optional<Matched> matched_;
-    SetMatching matching_;
+    BackgroundStereoTask matching_;
     double match_due_s_ = 0, match_rest_s_ = 0;
-    SetLearner sets_;
-    PerformerDepth performers_;
-    RigConsensus consensus_;
-    DepthCloser closer_;
-    EdgeTrust edge_trust_;
+    BackgroundModel sets_;
+    ForegroundDepth performers_;
+    MultiViewRefinement refinement_;
+    DepthInpainting inpainting_;
+    EdgeConfidence edge_confidence_;
     TriangleBuilder triangles_;
     FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
@@ -119,9 +119,9 @@ class StagedPreparer final : public InstantPreparer, private SetMemory {
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< instants' time since the first one
     double improved_s_ = 0;
-    std::shared_ptr<const LearntSet> begins_with_;
+    std::shared_ptr<const Background> begins_with_;
     std::map<std::string, std::string> misfits_;  ///< by rig that begins_with_ was tried for
-    std::vector<RigSetState> states_;
+    std::vector<RigBackgroundState> states_;
     double looked_s_ = 0;
 };
 

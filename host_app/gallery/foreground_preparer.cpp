@@ -8,13 +8,13 @@ constexpr int known_from = 3;
 
 }  // namespace
 
-void PerformerPreparer::copy(const Texture& source, const Framebuffer& target) {
+void ForegroundPreparer::copy(const Texture& source, const Framebuffer& target) {
     copy_.use().set("source", 0);
     source.bind(0);
     copy_.draw(target);
 }
 
-std::shared_ptr<RigSurface> PerformerPreparer::surface_of(const RigHistory& rig,
+std::shared_ptr<RigSurface> ForegroundPreparer::surface_of(const RigHistory& rig,
                                                           const Texture& depth_m,
                                                           const Texture& colour) {
     std::shared_ptr<RigSurface> surface = surfaces_.take();
@@ -25,15 +25,15 @@ std::shared_ptr<RigSurface> PerformerPreparer::surface_of(const RigHistory& rig,
     return surface;
 }
 
-void PerformerPreparer::take(std::span<const DepthView> views, double dt_s) {
+void ForegroundPreparer::take(std::span<const DepthView> views, double dt_s) {
     auto instant = std::make_shared<Instant>();
-    auto performers = std::make_shared<PerformerInstant>();
+    auto performers = std::make_shared<ForegroundInstant>();
     for (RigHistory* rig : rigs_.upload(views, dt_s)) {
         sets_.learn(*rig);
         const std::shared_ptr<RigSurface> set =
             surface_of(*rig, rig->steady_depth(), rig->colour());
         triangles_.build(set->grid(QuadGrid::fine));
-        const std::shared_ptr<PerformerInstant::Matte> matte = mattes_.take();
+        const std::shared_ptr<ForegroundInstant::Matte> matte = mattes_.take();
         matte->share.resize(rig->matte().texture().size());
         copy(rig->matte().texture(), matte->share.target());
         performers->rigs.push_back({set, matte, rig->learnt_instants() >= known_from});
@@ -43,7 +43,7 @@ void PerformerPreparer::take(std::span<const DepthView> views, double dt_s) {
     instant_ = std::move(instant);
 }
 
-std::shared_ptr<const Instant> PerformerPreparer::prepare(const VirtualView& /*target*/,
+std::shared_ptr<const Instant> ForegroundPreparer::prepare(const VirtualView& /*target*/,
                                                           const PrepareLevel& /*level*/) {
     return instant_;
 }

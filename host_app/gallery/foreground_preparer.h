@@ -14,7 +14,7 @@ namespace vantage {
 
 /// What an instant shows of the performers apart from the set; a rig each in the order of
 /// Instant::rigs, whose surfaces are as they came.
-struct PerformerInstant final : InstantExtra {
+struct ForegroundInstant final : InstantExtra {
     struct Matte {
         /// r8, of the picture's size: the performers' share of each pixel.
         DrawnTexture share{TextureFormat::r8, Filter::linear};
@@ -29,9 +29,9 @@ struct PerformerInstant final : InstantExtra {
 
 /// Learns the set of every rig along time, as the product does (SetLearner), and hands on what it
 /// tells from it; nothing is bettered.
-class PerformerPreparer final : public InstantPreparer {
+class ForegroundPreparer final : public InstantPreparer {
   public:
-    explicit PerformerPreparer(const ShaderLibrary& library)
+    explicit ForegroundPreparer(const ShaderLibrary& library)
         : sets_(library), triangles_(library), copy_(library, "copy.frag") {}
 
     void take(std::span<const DepthView> views, double dt_s) override;
@@ -44,11 +44,11 @@ class PerformerPreparer final : public InstantPreparer {
     void copy(const Texture& source, const Framebuffer& target);
 
     RigRoster rigs_;
-    SetLearner sets_;
+    BackgroundModel sets_;
     TriangleBuilder triangles_;
     FullscreenPass copy_;
     RecyclePool<RigSurface> surfaces_;
-    RecyclePool<PerformerInstant::Matte> mattes_;
+    RecyclePool<ForegroundInstant::Matte> mattes_;
     std::shared_ptr<const Instant> instant_ = std::make_shared<Instant>();
 };
 

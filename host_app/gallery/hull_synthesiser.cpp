@@ -23,12 +23,12 @@ constexpr double nearest_share = 0.3, farthest_share = 3;
 
 struct SeenRig {
     const InstantRig* now;
-    const PerformerInstant::Rig* apart;
+    const ForegroundInstant::Rig* apart;
 };
 
 std::vector<SeenRig> rigs_with_silhouettes(const Instant& instant) {
     std::vector<SeenRig> rigs;
-    const auto* performers = dynamic_cast<const PerformerInstant*>(instant.extra.get());
+    const auto* performers = dynamic_cast<const ForegroundInstant*>(instant.extra.get());
     for (std::size_t i = 0; performers && i < performers->rigs.size(); ++i)
         if (performers->rigs[i].is_known) rigs.push_back({&instant.rigs[i], &performers->rigs[i]});
     return rigs;
@@ -40,7 +40,7 @@ std::vector<SeenRig> rigs_with_silhouettes(const Instant& instant) {
 class HullRenderer final : public ViewRenderer {
   public:
     explicit HullRenderer(const ShaderLibrary& library)
-        : blend_set_(library, "mesh_blend.frag", set_softness), blender_(library) {
+        : blend_background_(library, "mesh_blend.frag", set_softness), blender_(library) {
         for (std::size_t rigs = 1; rigs <= most_rigs; ++rigs) {
             const ShaderDefines defines{{"RIGS", std::to_string(rigs)}};
             depth_.emplace_back(library, "hull_depth.frag", defines);
@@ -69,7 +69,7 @@ class HullRenderer final : public ViewRenderer {
         return blender_.blend(
             view,
             [&](const DepthPicture& into, bool notes_origins) {
-                blend_set_.use(blender_.layers(), notes_origins).draw(into.target());
+                blend_background_.use(blender_.layers(), notes_origins).draw(into.target());
             },
             [&](const DepthPicture& set) -> const DepthPicture& {
                 return used_.size() < 2 ? set : lay_hull(set, view);
@@ -96,7 +96,7 @@ class HullRenderer final : public ViewRenderer {
             };
             const Texture& matte = rig.apart->matte->share.texture();
             set("matte", unit);
-            set("set_depth", rigs + unit);
+            set("background_depth", rigs + unit);
             set("pixel_from_target",
                 Eigen::Matrix4f(pixel_from_target_pixel(rig.now->camera(), target).cast<float>()));
             set("picture_size", Eigen::Vector2f(static_cast<float>(matte.width_px()),
@@ -106,7 +106,7 @@ class HullRenderer final : public ViewRenderer {
         }
     }
 
-    void find_depth(const VirtualView& target, const Texture* set_behind, DrawnTexture& into) {
+    void find_depth(const VirtualView& target, const Texture* background_behind, DrawnTexture& into) {
         double typical_m = 0;
         for (const SeenRig& rig : used_)
             typical_m = std::max(typical_m, rig.apart->set->median_depth_m());
@@ -117,9 +117,9 @@ class HullRenderer final : public ViewRenderer {
         program.set("range_m", Eigen::Vector2f(static_cast<float>(nearest_share * typical_m),
                                                static_cast<float>(farthest_share * typical_m)));
         const int unit = 2 * static_cast<int>(used_.size());
-        program.set("set_behind", unit);
-        program.set("has_set", set_behind ? 1.0f : 0.0f);
-        if (set_behind) set_behind->bind(unit);
+        program.set("background_behind", unit);
+        program.set("has_background", background_behind ? 1.0f : 0.0f);
+        if (background_behind) background_behind->bind(unit);
         pass.draw(into.target());
     }
 
@@ -156,14 +156,14 @@ class HullRenderer final : public ViewRenderer {
                                             .cast<float>()));
         }
         bind("hull", hull_.texture());
-        bind("set_colour", set.colour());
-        bind("set_behind", set.depth_m());
+        bind("background_colour", set.colour());
+        bind("background_behind", set.depth_m());
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
         pass.draw(laid_.target());
         return laid_;
     }
 
-    LayerPass blend_set_;
+    LayerPass blend_background_;
     LayerBlender blender_;
     std::vector<FullscreenPass> depth_, shade_;  ///< one for every number of rigs
     std::vector<SeenRig> used_;
@@ -179,7 +179,7 @@ class HullRenderer final : public ViewRenderer {
 SynthesiserEntry hull_synthesiser_entry() {
     return {
         "hull", "performers as the intersection of their silhouettes, shaded from nearest rigs",
-        [](const ShaderLibrary& library) { return std::make_unique<PerformerPreparer>(library); },
+        [](const ShaderLibrary& library) { return std::make_unique<ForegroundPreparer>(library); },
         [](const ShaderLibrary& library) { return std::make_unique<HullRenderer>(library); },
         false};
 }

@@ -51,8 +51,8 @@ std::shared_ptr<const Instant> TourPreparer::prepare(const VirtualView& target,
     if (instant_) return instant_;
     auto tour = std::make_shared<TourInstant>();
     tour->performers = performers_.prepare(target, level);
-    if (const auto* told = dynamic_cast<const PerformerInstant*>(tour->performers->extra.get()))
-        for (const PerformerInstant::Rig& rig : told->rigs) {
+    if (const auto* told = dynamic_cast<const ForegroundInstant*>(tour->performers->extra.get()))
+        for (const ForegroundInstant::Rig& rig : told->rigs) {
             const cv::Mat1b matte = rig.matte->share.texture().download();
             const std::shared_ptr<TourInstant::Labels> labels = labels_.take();
             if (!labels->numbers || labels->numbers->size() != matte.size())

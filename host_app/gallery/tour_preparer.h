@@ -43,7 +43,7 @@ class TourPreparer final : public InstantPreparer {
                                            const PrepareLevel& level) override;
 
   private:
-    PerformerPreparer performers_;
+    ForegroundPreparer performers_;
     RecyclePool<TourInstant::Labels> labels_;
     std::shared_ptr<const Instant> instant_;  ///< null: not yet made of what was taken
 };

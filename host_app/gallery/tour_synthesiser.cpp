@@ -118,26 +118,26 @@ class TourRenderer final : public ViewRenderer {
 
     void draw(const TourInstant& tour, std::size_t number, const VirtualView& view) {
         const InstantRig& rig = tour.performers->rigs[number];
-        const auto& told = dynamic_cast<const PerformerInstant&>(*tour.performers->extra);
+        const auto& told = dynamic_cast<const ForegroundInstant&>(*tour.performers->extra);
         const DepthView& camera = rig.camera();
         const Layout layout = layout_of(rig);
         Program& program = draw_.use();
         const Pose target_from_world = view.world_from_camera.inverse();
-        const auto set_plane = [&](const std::string& name, const Eigen::Vector3d& normal,
+        const auto background_plane = [&](const std::string& name, const Eigen::Vector3d& normal,
                                    double distance_m) {
             Eigen::Vector4d plane;
             plane << target_from_world.linear() * normal,
                 distance_m - normal.dot(view.world_from_camera.translation());
             program.set(name, Eigen::Vector4f(plane.cast<float>()));
         };
-        set_plane("floor_plane", layout.up, layout.floor_m);
-        set_plane("back_plane", layout.ahead, layout.back_m);
+        background_plane("floor_plane", layout.up, layout.floor_m);
+        background_plane("back_plane", layout.ahead, layout.back_m);
         const std::vector<CutOut>& parts = tour.rigs[number].cut_outs;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const Eigen::Vector3d foot = stands_at(camera, parts[i].foot_px, layout);
             Eigen::Vector3d facing = foot - camera.world_from_camera.translation();
             facing = (facing - facing.dot(layout.up) * layout.up).normalized();
-            set_plane(fmt::format("billboards[{}]", i), facing, facing.dot(foot));
+            background_plane(fmt::format("billboards[{}]", i), facing, facing.dot(foot));
         }
         program.set("cut_outs", static_cast<int>(parts.size()));
         program.set("pixel_from_target",
@@ -151,7 +151,7 @@ class TourRenderer final : public ViewRenderer {
             program.set(name, unit);
             texture.bind(unit++);
         };
-        bind("set_colour", told.rigs[number].set->colour());
+        bind("background_colour", told.rigs[number].set->colour());
         bind("picture", picture);
         bind("matte", told.rigs[number].matte->share.texture());
         bind("numbers", *tour.rigs[number].labels->numbers);

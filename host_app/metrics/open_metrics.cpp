@@ -11,7 +11,7 @@ namespace {
 double number(std::uint64_t count) { return static_cast<double>(count); }
 
 void write_programme(const LiveReport& report, MetricText& text) {
-    const ProgrammeBooks& programme = report.programme;
+    const ProgrammeStats& programme = report.programme;
     text.info("program", "This program.");
     text.sample(1, {{"version", version()},
                     {"synthesiser", report.synthesiser},
@@ -47,7 +47,7 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.summary("exposure_to_picture_seconds", "From exposure to the hand-over of its picture.");
     text.percentiles(programme.latency_ms);
     text.summary("hand_to_picture_seconds", "From an input to the first picture with it.");
-    text.percentiles(programme.hand_ms);
+    text.percentiles(programme.input_ms);
     text.summary("seek_to_picture_seconds", "From a jump in time to its picture.");
     text.percentiles(programme.seek_ms);
     text.summary("rest_to_best_seconds",
@@ -65,16 +65,16 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(report.corridor.now->share);
 }
 
-void write_sets(const LiveReport& report, MetricText& text) {
+void write_frame_sets(const LiveReport& report, MetricText& text) {
     text.counter("frame_sets", "Sets of frames that were closed, whole or not.");
-    text.sample(number(report.sets_complete), {{"rigs", "all"}});
-    text.sample(number(report.sets_closed - report.sets_complete), {{"rigs", "some"}});
+    text.sample(number(report.frame_sets_complete), {{"rigs", "all"}});
+    text.sample(number(report.frame_sets_closed - report.frame_sets_complete), {{"rigs", "some"}});
     text.counter("instants", "Instants that were prepared, of sets or between two pulses.");
     text.sample(number(report.instants_prepared), {{"of", "set"}});
     text.sample(number(report.instants_between), {{"of", "between"}});
     text.counter("sets_left_out", "Sets that no instant was made of.");
-    text.sample(number(report.sets_superseded), {{"why", "superseded"}});
-    text.sample(number(report.sets_dropped), {{"why", "dropped"}});
+    text.sample(number(report.frame_sets_superseded), {{"why", "superseded"}});
+    text.sample(number(report.frame_sets_dropped), {{"why", "dropped"}});
 }
 
 void write_rigs(const LiveReport& report, MetricText& text) {
@@ -150,10 +150,10 @@ void write_take(const TakeState& take, MetricText& text) {
 void write_ports(const LiveReport& report, MetricText& text) {
     text.counter("control_messages", "Messages of others who steer, and what became of them.");
     for (const PortState& port : report.ports)
-        for (const auto& [result, count] : {std::pair("obeyed", port.books.obeyed),
-                                            {"unknown", port.books.unknown},
-                                            {"malformed", port.books.malformed},
-                                            {"dropped", port.books.dropped}})
+        for (const auto& [result, count] : {std::pair("obeyed", port.stats.obeyed),
+                                            {"unknown", port.stats.unknown},
+                                            {"malformed", port.stats.malformed},
+                                            {"dropped", port.stats.dropped}})
             text.sample(number(count), {{"port", port.name}, {"result", result}});
 }
 
@@ -162,7 +162,7 @@ void write_ports(const LiveReport& report, MetricText& text) {
 std::string to_open_metrics(const LiveReport& report) {
     MetricText text;
     write_programme(report, text);
-    write_sets(report, text);
+    write_frame_sets(report, text);
     write_rigs(report, text);
     write_outputs(report, text);
     if (report.take) write_take(*report.take, text);

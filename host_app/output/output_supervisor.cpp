@@ -7,24 +7,24 @@
 
 namespace vantage {
 
-class OutputDesk::Fan final : public PictureSink {
+class OutputSupervisor::Fan final : public PictureSink {
   public:
-    explicit Fan(const OutputDesk& desk) : desk_(desk) {}
+    explicit Fan(const OutputSupervisor& desk) : desk_(desk) {}
     std::string name() const override { return ""; }
     void take(const ProgrammePicture& picture) override {
         for (const std::shared_ptr<Output>& output : desk_.outputs()) output->take(picture);
     }
 
   private:
-    const OutputDesk& desk_;
+    const OutputSupervisor& desk_;
 };
 
-OutputDesk::OutputDesk(Settings settings) : settings_(std::move(settings)) {
+OutputSupervisor::OutputSupervisor(Settings settings) : settings_(std::move(settings)) {
     check(settings_);
     for (const std::string& url : settings_.urls) add(url);
 }
 
-void OutputDesk::check(const Settings& settings) {
+void OutputSupervisor::check(const Settings& settings) {
     std::set<std::string> places;
     for (const std::string& url : settings.urls) {
         (void)plan_output(url, settings.format);
@@ -34,9 +34,9 @@ void OutputDesk::check(const Settings& settings) {
     if (!settings.format.encoder.empty()) require_known_encoder(settings.format.encoder);
 }
 
-std::unique_ptr<PictureSink> OutputDesk::sink() { return std::make_unique<Fan>(*this); }
+std::unique_ptr<PictureSink> OutputSupervisor::sink() { return std::make_unique<Fan>(*this); }
 
-std::size_t OutputDesk::add(const std::string& url) {
+std::size_t OutputSupervisor::add(const std::string& url) {
     const std::lock_guard adding(adding_);
     OutputPlan plan = plan_output(url, settings_.format);
     if (plan.is_encoded && !has_encoder_) {
@@ -59,33 +59,33 @@ std::size_t OutputDesk::add(const std::string& url) {
     return outputs_.size() - 1;
 }
 
-void OutputDesk::start(std::size_t number) { outputs().at(number)->start(); }
+void OutputSupervisor::start(std::size_t number) { outputs().at(number)->start(); }
 
-void OutputDesk::stop(std::size_t number) { outputs().at(number)->stop(); }
+void OutputSupervisor::stop(std::size_t number) { outputs().at(number)->stop(); }
 
-bool OutputDesk::is_wanted(std::size_t number) const { return outputs().at(number)->is_wanted(); }
+bool OutputSupervisor::is_wanted(std::size_t number) const { return outputs().at(number)->is_wanted(); }
 
-void OutputDesk::finish() {
+void OutputSupervisor::finish() {
     for (const std::shared_ptr<Output>& output : outputs()) output->finish();
 }
 
-std::vector<OutputState> OutputDesk::states() const {
+std::vector<OutputState> OutputSupervisor::states() const {
     std::vector<OutputState> states;
     for (const std::shared_ptr<Output>& output : outputs()) states.push_back(output->state());
     return states;
 }
 
-bool OutputDesk::takes_stdout() const {
+bool OutputSupervisor::takes_stdout() const {
     const std::lock_guard lock(mutex_);
     return takes_stdout_;
 }
 
-std::vector<std::shared_ptr<ScreenFeed>> OutputDesk::screens() const {
+std::vector<std::shared_ptr<ScreenFeed>> OutputSupervisor::screens() const {
     const std::lock_guard lock(mutex_);
     return screens_;
 }
 
-std::vector<std::shared_ptr<Output>> OutputDesk::outputs() const {
+std::vector<std::shared_ptr<Output>> OutputSupervisor::outputs() const {
     const std::lock_guard lock(mutex_);
     return outputs_;
 }

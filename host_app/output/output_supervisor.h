@@ -11,7 +11,7 @@ namespace vantage {
 
 /// A programme's outputs, each of which is begun, ended and fails by itself, also while the
 /// programme runs. They get the clean picture, never what is laid over it for people. Thread-safe.
-class OutputDesk {
+class OutputSupervisor {
   public:
     struct Settings {
         OutputFormat format;  ///< its encoder: the wish; empty: chosen by trying
@@ -19,7 +19,7 @@ class OutputDesk {
         std::vector<std::string> urls;  ///< begun at once, unless they say start=off
     };
     /// Throws Error for a URL that cannot be; what only opening shows fails later, alone.
-    explicit OutputDesk(Settings settings);
+    explicit OutputSupervisor(Settings settings);
 
     /// Throws Error as the constructor would, and opens nothing.
     static void check(const Settings& settings);

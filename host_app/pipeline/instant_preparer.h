@@ -52,14 +52,14 @@ class InstantPreparer {
     /// Goes through all that these views may ever need, and learns nothing of them: a driver
     /// compiles a shader when it is first drawn with, which takes seconds for all of them.
     /// Precondition: nothing was taken yet, or it may be forgotten.
-    virtual void rehearse(std::span<const DepthView> /*views*/, const VirtualView& /*target*/) {}
+    virtual void warm_up(std::span<const DepthView> /*views*/, const VirtualView& /*target*/) {}
 
     /// The next instant does not follow the last one (a cut): nothing that moves goes on. What
     /// stands still is still known.
     virtual void cut() {}
 
     /// What it learns of the set; null: nothing.
-    virtual SetMemory* set_memory() { return nullptr; }
+    virtual BackgroundAccess* background_access() { return nullptr; }
 };
 
 }  // namespace vantage

@@ -32,7 +32,7 @@ constexpr std::chrono::seconds longest_preparation{10};
 /// After a fault, before everything is made anew.
 constexpr std::chrono::milliseconds recovery{200};
 /// Between two looks at whether what is held could be better.
-constexpr std::chrono::milliseconds betterings{100};
+constexpr std::chrono::milliseconds refinements{100};
 /// A set is bettered when no instant waits; but a computer that is never done with them does it
 /// too, for this share of the time. What was left of it counts for so long.
 constexpr double least_improving = 0.1;
@@ -54,21 +54,21 @@ std::optional<TaiTime> exposure_of(const FrameSet& set) {
 }
 
 /// Whether what was prepared for `before` would be another instant, or a better one, for `wish`.
-bool is_better(const InstantWish& wish, const InstantWish& before) {
+bool is_better(const InstantRequest& request, const InstantRequest& before) {
     const auto is_elsewhere = [](const VirtualView& view, const VirtualView& other) {
         return !view.world_from_camera.isApprox(other.world_from_camera, 1e-6);
     };
-    return wish.level.rank < before.level.rank || is_elsewhere(wish.target, before.target) ||
-           (wish.preview && (!before.preview || is_elsewhere(*wish.preview, *before.preview)));
+    return request.level.rank < before.level.rank || is_elsewhere(request.target, before.target) ||
+           (request.preview && (!before.preview || is_elsewhere(*request.preview, *before.preview)));
 }
 
 /// Those of the first set. Where others of so many rigs are yet to come, one that is there stands
 /// for them too, a little further on each: shaders differ by the number of rigs that are compared,
 /// and what rigs do for each other is rehearsed before the show, not in it.
-std::vector<DepthView> for_rehearsal(std::vector<DepthView> views, std::size_t rigs) {
+std::vector<DepthView> for_warm_up(std::vector<DepthView> views, std::size_t rigs) {
     // Further apart than a rig's own two cameras, so that others tell something new.
     constexpr double apart_baselines = 5;
-    const std::size_t compared = std::min(rigs, RigConsensus::max_others + 1);
+    const std::size_t compared = std::min(rigs, MultiViewRefinement::max_others + 1);
     while (!views.empty() && views.size() < compared) {
         DepthView twin = views.back();
         twin.name += "'";
@@ -118,19 +118,19 @@ void InstantThread::prepare_for(const std::string& synthesiser, MakePreparer mak
     maker_ = {synthesiser, std::move(make)};
 }
 
-void InstantThread::wish(const InstantWish& wish) {
+void InstantThread::request(const InstantRequest& request) {
     const std::lock_guard lock(mutex_);
-    wish_ = wish;
+    request_ = request;
 }
 
-void InstantThread::learn_set_anew() {
+void InstantThread::learn_background_anew() {
     const std::lock_guard lock(mutex_);
     learns_anew_ = true;
 }
 
-std::future<LearntSet> InstantThread::learnt_set() {
+std::future<Background> InstantThread::background() {
     const std::lock_guard lock(mutex_);
-    return asked_for_set_.emplace_back().get_future();
+    return asked_for_background_.emplace_back().get_future();
 }
 
 std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
@@ -139,16 +139,16 @@ std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
     return newest_;
 }
 
-InstantThread::Books InstantThread::books() const {
+InstantThread::Stats InstantThread::stats() const {
     const std::lock_guard lock(mutex_);
-    Books books = books_;
-    books.superseded = sets_.superseded();
-    books.superseded.sets += failed_.sets;
-    for (const auto& [rig, frames] : failed_.frames) books.superseded.frames[rig] += frames;
-    books.prepare_ms = prepare_ms_.summary();
-    books.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
+    Stats stats = stats_;
+    stats.superseded = sets_.superseded();
+    stats.superseded.sets += failed_.sets;
+    for (const auto& [rig, frames] : failed_.frames) stats.superseded.frames[rig] += frames;
+    stats.prepare_ms = prepare_ms_.summary();
+    stats.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
                        pack_ms_.summary()};
-    return books;
+    return stats;
 }
 
 ReceiverStatus InstantThread::close() {
@@ -177,17 +177,17 @@ void InstantThread::run() {
                       error.what());
         }
         std::unique_lock lock(mutex_);
-        ++books_.faults;
+        ++stats_.faults;
         count_unprepared();
         if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
     }
 }
 
-std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish, std::uint64_t shown_pulse,
+std::optional<FrameSet> InstantThread::next_set(const InstantRequest& request, std::uint64_t shown_pulse,
                                                 double& share) {
-    const DriverTurn::Pause pause;
+    const DriverLock::Pause pause;
     share = 0;
-    if (!wish.pulse && !wish.is_held) {
+    if (!request.pulse && !request.is_held) {
         fetched_.reset();
         try {
             return sets_.take(patience);
@@ -199,63 +199,63 @@ std::optional<FrameSet> InstantThread::next_set(const InstantWish& wish, std::ui
         }
     }
     // Once only: what is shown stays, though the buffer drops its set meanwhile.
-    if (wish.pulse && wish.pulse != fetched_) {
-        fetched_ = wish.pulse;
-        if (std::optional<FrameSet> set = past_set(wish, shown_pulse, share)) return set;
+    if (request.pulse && request.pulse != fetched_) {
+        fetched_ = request.pulse;
+        if (std::optional<FrameSet> set = past_frame_set(request, shown_pulse, share)) return set;
     }
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, patience, [&] { return is_stopping_; });
     return std::nullopt;
 }
 
-std::optional<FrameSet> InstantThread::past_set(const InstantWish& wish, std::uint64_t shown_pulse,
+std::optional<FrameSet> InstantThread::past_frame_set(const InstantRequest& request, std::uint64_t shown_pulse,
                                                 double& share) {
-    const std::optional<std::uint64_t> there = past().pulse_at(*wish.pulse);
+    const std::optional<std::uint64_t> there = past().pulse_at(*request.pulse);
     if (!there) return std::nullopt;
-    const double passed = *wish.pulse - static_cast<double>(*there);
-    const double moment = 1.0 / wish.moments_a_pulse;
+    const double passed = *request.pulse - static_cast<double>(*there);
+    const double moment = 1.0 / request.moments_a_pulse;
     // A pulse that the past lacks is not made up for: then the one before it is shown. What was
     // filmed comes before what is made.
-    if (wish.moments_a_pulse > 1 && passed >= moment / 2 && passed < 1) share = passed;
+    if (request.moments_a_pulse > 1 && passed >= moment / 2 && passed < 1) share = passed;
     if (*there == shown_pulse &&
-        (wish.moments_a_pulse == 1 || std::abs(share - last_.share) < 0.999 * moment)) {
+        (request.moments_a_pulse == 1 || std::abs(share - last_.share) < 0.999 * moment)) {
         share = 0;
         return std::nullopt;
     }
-    return share > 0 ? between_.at(past(), *there, share) : past().at(*wish.pulse);
+    return share > 0 ? between_.at(past(), *there, share) : past().at(*request.pulse);
 }
 
 std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
-    const DriverTurn::Pause pause;
+    const DriverLock::Pause pause;
     std::vector<DepthView> views = depth_views_of(set, settings_.colours);
-    if (!settings_.harmonise) return views;
+    if (!settings_.compensate_gains) return views;
     if (is_counted) {
-        const double pulses = last_harmonised_ && set.trigger_index > *last_harmonised_
-                                  ? static_cast<double>(set.trigger_index - *last_harmonised_)
+        const double pulses = last_compensated_ && set.trigger_index > *last_compensated_
+                                  ? static_cast<double>(set.trigger_index - *last_compensated_)
                                   : 0;
-        harmoniser_.see(views, pulses / settings_.pulse_rate_hz);
-        last_harmonised_ = set.trigger_index;
+        gain_compensation_.see(views, pulses / settings_.pulse_rate_hz);
+        last_compensated_ = set.trigger_index;
     }
-    for (DepthView& view : views) harmoniser_.apply(view);
+    for (DepthView& view : views) gain_compensation_.apply(view);
     return views;
 }
 
-void InstantThread::ask_for_rigs(std::span<const DepthView> views, const InstantWish& wish) {
+void InstantThread::ask_for_rigs(std::span<const DepthView> views, const InstantRequest& request) {
     demand_.see(views);
-    if (wish.target.width_px == 0) return;
-    std::vector<VirtualView> targets{wish.target};
-    if (wish.preview) targets.push_back(*wish.preview);
+    if (request.target.width_px == 0) return;
+    std::vector<VirtualView> targets{request.target};
+    if (request.preview) targets.push_back(*request.preview);
     for (const RigDemand::Change& change : demand_.update(targets, MonotonicClock::now())) {
         log_info("asking rig {} to {} sending", change.rig, change.streaming ? "start" : "stop");
         sets_.ask(change.rig, change.streaming);
     }
 }
 
-void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
+void InstantThread::publish(ReadyInstant ready, const InstantRequest& request,
                             const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start) {
-    ready.instant = preparer->prepare(wish.target, wish.level);
-    if (wish.preview && wish.level.rank == 0)
-        ready.instant = joined(ready.instant, *preparer->prepare(*wish.preview, wish.level));
+    ready.instant = preparer->prepare(request.target, request.level);
+    if (request.preview && request.level.rank == 0)
+        ready.instant = joined(ready.instant, *preparer->prepare(*request.preview, request.level));
     ready.preparer = preparer;
     ready.generation = generations_.back().member.generation;
     Fence::insert().wait("an instant was waited for");
@@ -267,29 +267,29 @@ void InstantThread::publish(ReadyInstant ready, const InstantWish& wish,
     newest_ = std::make_shared<const ReadyInstant>(last_);
 }
 
-void InstantThread::tend_set(InstantPreparer* preparer) {
+void InstantThread::tend_background(InstantPreparer* preparer) {
     bool learns_anew = false;
-    std::vector<std::promise<LearntSet>> asked;
+    std::vector<std::promise<Background>> asked;
     {
         const std::lock_guard lock(mutex_);
         learns_anew = std::exchange(learns_anew_, false);
-        asked = std::exchange(asked_for_set_, {});
+        asked = std::exchange(asked_for_background_, {});
     }
-    SetMemory* memory = preparer ? preparer->set_memory() : nullptr;
+    BackgroundAccess* memory = preparer ? preparer->background_access() : nullptr;
     if (learns_anew) {
         // Also not after a reset of the GPU, nor for another synthesiser.
         settings_.set = nullptr;
         for (const auto& [synthesiser, each] : generations_.back().preparers)
-            if (SetMemory* one = each->set_memory()) one->learn_anew();
+            if (BackgroundAccess* one = each->background_access()) one->learn_anew();
     }
-    for (std::promise<LearntSet>& one : asked) {
+    for (std::promise<Background>& one : asked) {
         try {
             if (preparer && !memory)
                 fail("the synthesiser {} learns no set: choose another (--synth, F2)",
                      last_.synthesiser);
-            LearntSet set = memory ? memory->learnt() : LearntSet();
+            Background set = memory ? memory->learnt() : Background();
             if (set.rigs.empty()) fail("nothing is known of the set: no rig has shown any yet");
-            one.set_value(std::move(set));
+            one.background_value(std::move(set));
         } catch (const ContextLost&) {
             one.set_exception(std::make_exception_ptr(
                 Error("the GPU was reset while the set was read from it; save it again")));
@@ -322,19 +322,19 @@ std::shared_ptr<InstantPreparer> InstantThread::preparer_of(const Maker& maker,
     auto& known = generations_.back().preparers;
     if (const auto at = known.find(maker.synthesiser); at != known.end()) return at->second;
     std::shared_ptr<InstantPreparer> preparer = maker.make(shaders);
-    if (SetMemory* memory = preparer->set_memory()) memory->begin_with(settings_.set);
+    if (BackgroundAccess* memory = preparer->background_access()) memory->begin_with(settings_.set);
     return known[maker.synthesiser] = std::move(preparer);
 }
 
 void InstantThread::give_way_to_jump() const {
     if (!jumps_) return;
     const std::lock_guard lock(mutex_);
-    if (wish_.jumps != *jumps_) throw GaveWay();
+    if (request_.jumps != *jumps_) throw GaveWay();
 }
 
-bool InstantThread::unless_time_jumps(const InstantWish& wish, const std::function<void()>& work) {
+bool InstantThread::unless_time_jumps(const InstantRequest& request, const std::function<void()>& work) {
     bool is_done = true;
-    jumps_ = wish.jumps;
+    jumps_ = request.jumps;
     try {
         work();
     } catch (const GaveWay&) {
@@ -355,12 +355,12 @@ void InstantThread::count_unprepared() {
     unprepared_.reset();
 }
 
-void InstantThread::note_prepared(bool is_counted, const SetMemory* memory) {
+void InstantThread::note_prepared(bool is_counted, const BackgroundAccess* memory) {
     const std::lock_guard lock(mutex_);
-    if (last_.share > 0) ++books_.between;
+    if (last_.share > 0) ++stats_.between;
     if (is_counted) {
-        ++books_.prepared;
-        count_frames(*last_.set, books_.frames);
+        ++stats_.prepared;
+        count_frames(*last_.set, stats_.frames);
         for (const FrameSet::Slot& slot : last_.set->slots) {
             if (!slot.frame) continue;
             capture_ms_.add(slot.frame->times.capture_ms);
@@ -369,16 +369,16 @@ void InstantThread::note_prepared(bool is_counted, const SetMemory* memory) {
             pack_ms_.add(slot.frame->times.pack_ms);
         }
     }
-    books_.harmony = harmoniser_.rigs();
-    books_.sets = memory ? memory->states() : std::vector<RigSetState>();
+    stats_.gain_compensation = gain_compensation_.rigs();
+    stats_.sets = memory ? memory->states() : std::vector<RigBackgroundState>();
     prepare_ms_.add(last_.prepare_ms);
 }
 
-void InstantThread::rehearse(InstantPreparer& preparer, FrameSet& set, const InstantWish& wish) {
+void InstantThread::warm_up(InstantPreparer& preparer, FrameSet& set, const InstantRequest& request) {
     unprepared_ = set;
-    preparer.rehearse(for_rehearsal(views_of(set, false), set.slots.size()), wish.target);
-    is_rehearsed_ = true;
-    std::optional<FrameSet> newer = wish.pulse ? std::nullopt : sets_.take();
+    preparer.warm_up(for_warm_up(views_of(set, false), set.slots.size()), request.target);
+    is_warmed_up_ = true;
+    std::optional<FrameSet> newer = request.pulse ? std::nullopt : sets_.take();
     if (newer) {
         const std::lock_guard lock(mutex_);
         count_unprepared();
@@ -393,36 +393,36 @@ void InstantThread::prepare_instants() {
     else if (auto faulty = generations_.back().preparers.extract(last_.synthesiser))
         generations_.back().retired.push_back(std::move(faulty.mapped()));
     const ContextGroup::Member member = generations_.back().member;
-    const DriverTurn turn(contexts_->driver());
+    const DriverLock turn(contexts_->driver());
     const CurrentContext current(*member.context);
     require_context("instants were prepared");
     const SlicedDrawing slices(
         slice, &way_, [this] { give_way_to_jump(); }, least_preparing);
     const ShaderLibrary shaders;
     std::shared_ptr<InstantPreparer> preparer;
-    std::optional<InstantWish> prepared;  ///< what the newest instant was prepared for
-    MonotonicTime bettered{};
-    TimeShare improving(least_improving, longest_carried, MonotonicClock::now());
-    const auto improve = [&](const InstantWish& wish) {
+    std::optional<InstantRequest> prepared;  ///< what the newest instant was prepared for
+    MonotonicTime refined{};
+    TimeBudget improving(least_improving, longest_carried, MonotonicClock::now());
+    const auto improve = [&](const InstantRequest& request) {
         const MonotonicTime start = MonotonicClock::now();
-        (void)unless_time_jumps(wish, [&] { preparer->improve_a_step(wish.target); });
+        (void)unless_time_jumps(request, [&] { preparer->improve_a_step(request.target); });
         improving.spend(MonotonicClock::now() - start);
     };
     for (;;) {
-        InstantWish wish;
+        InstantRequest request;
         Maker maker;
         {
             const std::lock_guard lock(mutex_);
             if (is_stopping_) break;
             ++looks_;
             looked_.notify_all();
-            wish = wish_;
+            request = request_;
             maker = maker_;
         }
         if (contexts_->generation() != member.generation)
             throw ContextLost("another thread found the GPU reset");
         let_go_of_preparers();
-        tend_set(preparer.get());
+        tend_background(preparer.get());
         if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
             preparer = preparer_of(maker, shaders);
             last_.synthesiser = maker.synthesiser;
@@ -433,13 +433,13 @@ void InstantThread::prepare_instants() {
                 const MonotonicTime start = MonotonicClock::now();
                 preparer->cut();
                 preparer->take(views_of(*last_.set, false), 0);
-                publish(last_, wish, preparer, start);
-                prepared = wish;
+                publish(last_, request, preparer, start);
+                prepared = request;
             }
             is_retaking_ = false;
         }
         if (!preparer) {
-            const DriverTurn::Pause pause;
+            const DriverLock::Pause pause;
             std::unique_lock lock(mutex_);
             woken_.wait_for(lock, patience, [&] { return is_stopping_; });
             continue;
@@ -448,14 +448,14 @@ void InstantThread::prepare_instants() {
         const std::uint64_t shown = prepared && last_.set ? last_.set->trigger_index : no_pulse;
         MonotonicTime taken_up = MonotonicClock::now();
         double share = 0;
-        std::optional<FrameSet> set = next_set(wish, shown, share);
-        if (set && !is_rehearsed_) {
-            rehearse(*preparer, *set, wish);
+        std::optional<FrameSet> set = next_set(request, shown, share);
+        if (set && !is_warmed_up_) {
+            warm_up(*preparer, *set, request);
             taken_up = MonotonicClock::now();
         }
         const MonotonicTime start = MonotonicClock::now();
         if (set) {
-            const bool is_live = !wish.pulse;
+            const bool is_live = !request.pulse;
             // Of a take everything counts; of a stage's past it was counted when it was live.
             const bool is_counted = share == 0 && (is_live || settings_.take);
             if (is_counted) unprepared_ = *set;
@@ -468,9 +468,9 @@ void InstantThread::prepare_instants() {
             last_pulse_ = pulse;
             const std::vector<DepthView> views = views_of(*set, is_counted);
             // In the past the camera says nothing of what is needed live.
-            if (is_live) ask_for_rigs(views, wish);
+            if (is_live) ask_for_rigs(views, request);
             // What was jumped to is made ready in any case, so that a jog shows what it passes.
-            const bool is_sought = std::exchange(fetched_jumps_, wish.jumps) != wish.jumps;
+            const bool is_sought = std::exchange(fetched_jumps_, request.jumps) != request.jumps;
             const auto get_ready = [&] {
                 preparer->take(views, std::min(dt_s, longest_gap_s));
                 ReadyInstant next = last_;
@@ -480,27 +480,27 @@ void InstantThread::prepare_instants() {
                 next.is_live = is_live;
                 next.taken_up = taken_up;
                 next.fetch_ms = to_ms(start - taken_up);
-                publish(std::move(next), wish, preparer, start);
+                publish(std::move(next), request, preparer, start);
             };
             if (is_sought)
                 get_ready();
-            else if (!unless_time_jumps(wish, get_ready)) {
+            else if (!unless_time_jumps(request, get_ready)) {
                 const std::lock_guard lock(mutex_);
                 count_unprepared();
                 prepared.reset();
                 continue;
             }
-            prepared = wish;
+            prepared = request;
             unprepared_.reset();
-            note_prepared(is_counted, preparer->set_memory());
-            if (is_live && improving.has_some(MonotonicClock::now())) improve(wish);
-        } else if (prepared && (wish.pulse || wish.is_held) && is_better(wish, *prepared) &&
-                   start - bettered > betterings) {
-            if (unless_time_jumps(wish, [&] { publish(last_, wish, preparer, start); }))
-                prepared = wish;
-            bettered = start;
-        } else if (prepared && !wish.pulse && !wish.is_held) {
-            improve(wish);
+            note_prepared(is_counted, preparer->background_access());
+            if (is_live && improving.has_some(MonotonicClock::now())) improve(request);
+        } else if (prepared && (request.pulse || request.is_held) && is_better(request, *prepared) &&
+                   start - refined > refinements) {
+            if (unless_time_jumps(request, [&] { publish(last_, request, preparer, start); }))
+                prepared = request;
+            refined = start;
+        } else if (prepared && !request.pulse && !request.is_held) {
+            improve(request);
         }
     }
     // What is left of them goes with its preparer, on this context, or on none if that was lost.

@@ -17,7 +17,7 @@
 #include "common/gl/context/context_group.h"
 #include "common/gl/context/render_priority.h"
 #include "host_app/foreground/motion/interpolated_frame_sets.h"
-#include "host_app/frames/newest_set.h"
+#include "host_app/frames/newest_frame_set.h"
 #include "host_app/frames/replay_buffer.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/pipeline/rig_demand.h"
@@ -44,7 +44,7 @@ struct ReadyInstant {
 };
 
 /// What the programme wants of the pulses' clock.
-struct InstantWish {
+struct InstantRequest {
     /// Of the replay buffer: the newest set that is not later; nothing: what arrives.
     std::optional<double> pulse;
     /// Of the past: moments of a pulse that are made ready at most; those between two pulses are
@@ -74,12 +74,12 @@ class InstantThread {
     struct Settings {
         double pulse_rate_hz = 30;
         std::size_t replay_bytes = 0;
-        bool harmonise = true;
+        bool compensate_gains = true;
         std::map<std::string, ColourCorrection> colours = {};  ///< by rig
         /// Of a take, from which all is shown and learnt; null: the replay buffer's.
-        std::shared_ptr<const PastSets> take = nullptr;
+        std::shared_ptr<const PastFrameSets> take = nullptr;
         /// That rigs begin with, where it fits; null: with nothing.
-        std::shared_ptr<const LearntSet> set = nullptr;
+        std::shared_ptr<const Background> set = nullptr;
     };
     /// `contexts` must outlive it. `feed` is read from now on.
     InstantThread(Settings settings, StageFeed feed, ContextGroup& contexts);
@@ -89,15 +89,15 @@ class InstantThread {
 
     /// From now on instants are prepared for this synthesiser.
     void prepare_for(const std::string& synthesiser, MakePreparer make);
-    void wish(const InstantWish& wish);
+    void request(const InstantRequest& request);
     /// From the next instant on: what the rigs see is the set, whatever was known of it.
-    void learn_set_anew();
+    void learn_background_anew();
     /// What was learnt of the set until now, soon; Error where nothing was.
-    std::future<LearntSet> learnt_set();
+    std::future<Background> background();
     /// The newest that is ready; null before the first. Throws what the feed threw.
     std::shared_ptr<const ReadyInstant> newest() const;
 
-    std::optional<PastSets::Span> past_span() const { return past().span(); }
+    std::optional<PastFrameSets::Span> past_span() const { return past().span(); }
     std::optional<std::uint64_t> past_pulse_at(double pulse) const {
         return past().pulse_at(pulse);
     }
@@ -105,20 +105,20 @@ class InstantThread {
     /// Those that can render what is prepared.
     ContextGroup& contexts() { return *contexts_; }
     /// Who renders against a clock claims it, and preparing waits.
-    RightOfWay& right_of_way() { return way_; }
+    RenderPriority& render_priority() { return way_; }
 
-    struct Books {
+    struct Stats {
         std::uint64_t prepared = 0;        ///< live sets, or a take's
         std::uint64_t between = 0;         ///< of moments between pulses
         RigCounts frames;                  ///< of them
-        NewestSet::Superseded superseded;  ///< also what could not be prepared for a fault
-        std::map<std::string, ColourHarmoniser::Rig> harmony;
+        NewestFrameSet::Superseded superseded;  ///< also what could not be prepared for a fault
+        std::map<std::string, GainCompensation::Rig> gain_compensation;
         Percentiles prepare_ms;
         RigSteps rig_steps;
-        std::vector<RigSetState> sets;  ///< empty: none are learnt
+        std::vector<RigBackgroundState> sets;  ///< empty: none are learnt
         int faults = 0;
     };
-    Books books() const;
+    Stats stats() const;
     /// Ends the reading, and waits for what is being prepared, so that the books are complete;
     /// whatever nobody took counts as superseded.
     ReceiverStatus close();
@@ -128,8 +128,8 @@ class InstantThread {
         std::string synthesiser;
         MakePreparer make;
     };
-    const PastSets& past() const {
-        return settings_.take ? *settings_.take : static_cast<const PastSets&>(replay_);
+    const PastFrameSets& past() const {
+        return settings_.take ? *settings_.take : static_cast<const PastFrameSets&>(replay_);
     }
     /// Preparers with the context that their objects live on.
     struct Generation {
@@ -142,15 +142,15 @@ class InstantThread {
     void run();
     void prepare_instants();
     /// With the first set. That takes seconds: where a newer one came meanwhile, `set` is that.
-    void rehearse(InstantPreparer& preparer, FrameSet& set, const InstantWish& wish);
+    void warm_up(InstantPreparer& preparer, FrameSet& set, const InstantRequest& request);
     /// Counts what was prepared last.
-    void note_prepared(bool is_counted, const SetMemory* memory);
+    void note_prepared(bool is_counted, const BackgroundAccess* memory);
     /// As superseded. Precondition: mutex_ is held.
     void count_unprepared();
     /// Answers what was asked of the set.
-    void tend_set(InstantPreparer* preparer);
+    void tend_background(InstantPreparer* preparer);
     /// Does the work, or as much of it as was done when time jumped to elsewhere: then false.
-    bool unless_time_jumps(const InstantWish& wish, const std::function<void()>& work);
+    bool unless_time_jumps(const InstantRequest& request, const std::function<void()>& work);
     /// Throws GaveWay where time has jumped.
     void give_way_to_jump() const;
     /// Destroys those of lost generations, and retired ones, that nobody holds instants of any
@@ -159,32 +159,32 @@ class InstantThread {
     /// Makes the synthesiser's preparer where there is none yet.
     std::shared_ptr<InstantPreparer> preparer_of(const Maker& maker, const ShaderLibrary& shaders);
     /// `share`: that of ReadyInstant.
-    std::optional<FrameSet> next_set(const InstantWish& wish, std::uint64_t shown_pulse,
+    std::optional<FrameSet> next_set(const InstantRequest& request, std::uint64_t shown_pulse,
                                      double& share);
     /// Of the past, what is wished for, unless it is shown.
-    std::optional<FrameSet> past_set(const InstantWish& wish, std::uint64_t shown_pulse,
+    std::optional<FrameSet> past_frame_set(const InstantRequest& request, std::uint64_t shown_pulse,
                                      double& share);
     std::vector<DepthView> views_of(const FrameSet& set, bool is_counted);
     /// Asks the rigs that the views need to send, and the others to stop.
-    void ask_for_rigs(std::span<const DepthView> views, const InstantWish& wish);
+    void ask_for_rigs(std::span<const DepthView> views, const InstantRequest& request);
     /// `ready` but for its instant, which is prepared.
-    void publish(ReadyInstant ready, const InstantWish& wish,
+    void publish(ReadyInstant ready, const InstantRequest& request,
                  const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start);
 
     Settings settings_;
     ContextGroup* contexts_;
-    RightOfWay way_;
+    RenderPriority way_;
     ReplayBuffer replay_;
-    NewestSet sets_;
-    ColourHarmoniser harmoniser_;       ///< of the thread
+    NewestFrameSet sets_;
+    GainCompensation gain_compensation_;       ///< of the thread
     RigDemand demand_;                  ///< of the thread
-    BetweenSets between_;               ///< of the thread
+    InterpolatedFrameSets between_;               ///< of the thread
     std::optional<double> last_pulse_;  ///< with the share of it that had passed
-    std::optional<std::uint64_t> last_harmonised_;
+    std::optional<std::uint64_t> last_compensated_;
     std::optional<double> fetched_;        ///< the pulse that was looked up in the past last
     std::vector<Generation> generations_;  ///< of the thread; all but the last are lost
     bool is_retaking_ = false;             ///< of the thread: a new preparer takes what is shown
-    bool is_rehearsed_ = false;            ///< of the thread: with the first set
+    bool is_warmed_up_ = false;            ///< of the thread: with the first set
     ReadyInstant last_;                    ///< of the thread: what was prepared last
     std::optional<FrameSet> unprepared_;   ///< of the thread: the live set that is being prepared
     std::optional<std::uint64_t> jumps_;   ///< of the thread: what it does gives way to the next
@@ -193,16 +193,16 @@ class InstantThread {
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     Maker maker_;
-    InstantWish wish_;
+    InstantRequest request_;
     bool learns_anew_ = false;
-    std::vector<std::promise<LearntSet>> asked_for_set_;
+    std::vector<std::promise<Background>> asked_for_background_;
     bool is_stopping_ = false;
     std::uint64_t looks_ = 0;  ///< at what is wished, each with nothing in hand
     std::condition_variable looked_;
     std::shared_ptr<const ReadyInstant> newest_;
     std::exception_ptr failure_;
-    Books books_;
-    NewestSet::Superseded failed_;
+    Stats stats_;
+    NewestFrameSet::Superseded failed_;
     PercentileRecorder prepare_ms_, capture_ms_, rectify_ms_, match_ms_, pack_ms_;
     std::thread thread_;
 };

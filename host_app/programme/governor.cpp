@@ -93,12 +93,12 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
         return;
     }
     if (level_ == 0) return;
-    const std::optional<double>& better_ms = usual_ms_[level_ - 1];
+    const std::optional<double>& refine_ms = usual_ms_[level_ - 1];
     const double expected_ms = untried_ratio * *usual_ms;
-    const bool fits = std::min(better_ms.value_or(expected_ms), expected_ms) <= room * allowed_ms;
+    const bool fits = std::min(refine_ms.value_or(expected_ms), expected_ms) <= room * allowed_ms;
     // Where most of the time is the same at every level the next one takes less than expected: one
     // that was never tried is, once this one has room.
-    const bool is_worth_a_try = !better_ms && *usual_ms <= room * allowed_ms;
+    const bool is_worth_a_try = !refine_ms && *usual_ms <= room * allowed_ms;
     if (!fits && !is_worth_a_try) {
         fitting_since_.reset();
         return;
@@ -117,7 +117,7 @@ std::vector<double> LevelChooser::shares(MonotonicTime now) const {
     return shares;
 }
 
-QualityWish QualityWish::parse(const std::string& text) {
+QualityRequest QualityRequest::parse(const std::string& text) {
     if (text == "auto") return {};
     if (text == "best") return {0};
     std::size_t level = 0;
@@ -159,7 +159,7 @@ int Governor::moments_a_pulse(double speed) const {
     return std::max(1, static_cast<int>(std::min(most, fitting)));
 }
 
-Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish)
+Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& request)
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
       carried_picture_ms_(std::max(tick_ms_, std::min(longest_picture_ms, 0.5 * instant_ms_))),
@@ -168,13 +168,13 @@ Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish
       prepare_(prepare_levels().size(), preparing_share) {
     // What a GPU can do is found out from below: pictures that come in time first, better ones
     // then.
-    if (!wish.level) {
+    if (!request.level) {
         render_.begin_with_the_cheapest();
         prepare_.begin_with_the_cheapest();
         return;
     }
-    render_.fix(*wish.level);
-    prepare_.fix(*wish.level);
+    render_.fix(*request.level);
+    prepare_.fix(*request.level);
 }
 
 }  // namespace vantage

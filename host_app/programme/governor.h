@@ -52,10 +52,10 @@ class LevelChooser {
 };
 
 /// What `--quality` asks for.
-struct QualityWish {
+struct QualityRequest {
     std::optional<std::size_t> level;  ///< nothing: what fits
     /// "best", "auto" or a number from 0 (the best) on. Throws Error with the mend otherwise.
-    static QualityWish parse(const std::string& text);
+    static QualityRequest parse(const std::string& text);
 };
 
 /// Holds the programme's ticks and the stage's instants: measures what rendering and preparing
@@ -63,7 +63,7 @@ struct QualityWish {
 class Governor {
   public:
     /// `rate_hz` of the output; `pulse_rate_hz` of the stage.
-    Governor(double rate_hz, double pulse_rate_hz, const QualityWish& wish);
+    Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& request);
 
     const RenderLevel& render() const { return render_levels()[render_.level()]; }
     const PrepareLevel& prepare() const { return prepare_levels()[prepare_.level()]; }

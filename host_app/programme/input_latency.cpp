@@ -10,11 +10,11 @@ constexpr std::size_t most_waiting = 100;
 
 }  // namespace
 
-void HandWatch::saw(MonotonicTime input, std::uint64_t look, bool only_flies) {
+void InputLatency::saw(MonotonicTime input, std::uint64_t look, bool only_flies) {
     if (waiting_.size() < most_waiting) waiting_.push_back({input, look, only_flies});
 }
 
-void HandWatch::showed(std::uint64_t camera_look, std::uint64_t rendered_look, MonotonicTime now) {
+void InputLatency::showed(std::uint64_t camera_look, std::uint64_t rendered_look, MonotonicTime now) {
     const auto is_shown = [&](const Input& input) {
         return input.look <= (input.only_flies ? camera_look : rendered_look);
     };
@@ -24,7 +24,7 @@ void HandWatch::showed(std::uint64_t camera_look, std::uint64_t rendered_look, M
     std::erase_if(waiting_, is_shown);
 }
 
-bool HandWatch::is_waiting_for_rendering() const {
+bool InputLatency::is_waiting_for_rendering() const {
     return std::any_of(waiting_.begin(), waiting_.end(),
                        [](const Input& input) { return !input.only_flies; });
 }

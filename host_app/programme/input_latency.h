@@ -11,7 +11,7 @@ namespace vantage {
 
 /// Inputs of hands, each until the first picture with it is handed over. Whoever flies is asked in
 /// looks, which are numbered from 1 on.
-class HandWatch {
+class InputLatency {
   public:
     /// The earliest input that is new in this look. `only_flies`: it changes nothing but the
     /// camera, so that a picture which was carried on to that shows it.

@@ -22,7 +22,7 @@ bool is_same_picture(const PictureJob& a, const PictureJob& b) {
 }
 
 PictureMaker::PictureMaker(SynthesiserEntry synthesiser, PictureFormat format,
-                           ContextGroup& contexts, RightOfWay& way, Manner manner)
+                           ContextGroup& contexts, RenderPriority& way, Manner manner)
     : synthesiser_(std::move(synthesiser)),
       format_(format),
       contexts_(&contexts),
@@ -53,11 +53,11 @@ void PictureMaker::start(PictureJob job) {
     woken_.notify_all();
 }
 
-void PictureMaker::rehearse(PictureJob job) {
+void PictureMaker::warm_up(PictureJob job) {
     {
         const std::lock_guard lock(mutex_);
         job_ = std::move(job);
-        is_rehearsal_ = true;
+        is_warm_up_ = true;
     }
     woken_.notify_all();
 }
@@ -104,14 +104,14 @@ void PictureMaker::run() {
         }
         std::unique_lock lock(mutex_);
         ++faults_;
-        is_ready_ = is_rehearsal_ = false;
+        is_ready_ = is_warm_up_ = false;
         job_.reset();
         if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
     }
 }
 
 void PictureMaker::make_pictures(const ContextGroup::Member& member) {
-    const DriverTurn turn(contexts_->driver());
+    const DriverLock turn(contexts_->driver());
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
@@ -122,10 +122,10 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
         const std::lock_guard lock(mutex_);
         is_ready_ = true;
     }
-    std::optional<RightOfWay::Claim> claim;
+    std::optional<RenderPriority::Claim> claim;
     while (std::optional<Work> work = next_work(member.generation, claim)) {
         std::shared_ptr<MadePicture> picture;
-        if (work->is_rehearsal) {
+        if (work->is_warm_up) {
             for (const RenderLevel& level : render_levels()) {
                 work->job.level = level;
                 (void)made(painter, work->job);
@@ -143,8 +143,8 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
 }
 
 std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generation,
-                                                          std::optional<RightOfWay::Claim>& claim) {
-    const DriverTurn::Pause pause;
+                                                          std::optional<RenderPriority::Claim>& claim) {
+    const DriverLock::Pause pause;
     std::unique_lock lock(mutex_);
     for (;;) {
         woken_.wait(lock, [&] { return is_stopping_ || job_; });
@@ -154,7 +154,7 @@ std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generati
         if (job_->instant->generation == generation) {
             // Before the turn, which who prepares takes again and again.
             if (manner_ == Manner::at_once) claim.emplace(*way_);
-            return Work{*job_, std::exchange(is_rehearsal_, false)};
+            return Work{*job_, std::exchange(is_warm_up_, false)};
         }
         job_.reset();
     }

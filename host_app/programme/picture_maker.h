@@ -54,7 +54,7 @@ class PictureMaker {
     /// `contexts` and `way` must outlive the maker. Compiles at once; is_idle() tells when it is
     /// done.
     PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, ContextGroup& contexts,
-                 RightOfWay& way, Manner manner = Manner::at_once);
+                 RenderPriority& way, Manner manner = Manner::at_once);
     ~PictureMaker();
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
@@ -66,7 +66,7 @@ class PictureMaker {
     void start(PictureJob job);
     /// Makes pictures of the job at all levels, which nobody gets: see InstantPreparer::rehearse().
     /// Precondition: is_idle().
-    void rehearse(PictureJob job);
+    void warm_up(PictureJob job);
     /// In slices: waits between two of them, for as long as this is so.
     void pause(bool is_paused);
     /// What was finished since the last call.
@@ -77,7 +77,7 @@ class PictureMaker {
   private:
     struct Work {
         PictureJob job;
-        bool is_rehearsal = false;
+        bool is_warm_up = false;
     };
 
     void run();
@@ -86,19 +86,19 @@ class PictureMaker {
     /// Waits for it, and claims the way for what is made at once; nothing at the end. Throws
     /// ContextLost if this generation of contexts is.
     std::optional<Work> next_work(std::uint64_t generation,
-                                  std::optional<RightOfWay::Claim>& claim);
+                                  std::optional<RenderPriority::Claim>& claim);
     std::shared_ptr<MadePicture> made(ViewPainter& painter, const PictureJob& job) const;
 
     SynthesiserEntry synthesiser_;
     PictureFormat format_;
     ContextGroup* contexts_;
-    RightOfWay* way_;
+    RenderPriority* way_;
     Manner manner_;
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<PictureJob> job_;
     MonotonicTime started_{};
-    bool is_ready_ = false, is_stopping_ = false, is_paused_ = false, is_rehearsal_ = false;
+    bool is_ready_ = false, is_stopping_ = false, is_paused_ = false, is_warm_up_ = false;
     std::shared_ptr<const MadePicture> finished_;
     int faults_ = 0;
     std::thread thread_;

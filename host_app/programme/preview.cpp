@@ -19,7 +19,7 @@ PictureFormat half_of(const PictureFormat& format) {
 }  // namespace
 
 Preview::Preview(const PictureFormat& programme, double rate_hz, ContextGroup& contexts,
-                 RightOfWay& way)
+                 RenderPriority& way)
     : format_(half_of(programme)),
       tick_ms_(1000 / rate_hz),
       contexts_(&contexts),

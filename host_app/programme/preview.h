@@ -20,7 +20,7 @@ class Preview {
   public:
     /// Pictures have half the width and height of the programme's, and one eye.
     Preview(const PictureFormat& programme, double rate_hz, ContextGroup& contexts,
-            RightOfWay& way);
+            RenderPriority& way);
 
     /// To be called at every tick. `view`: what the camera on preview sees; nothing: there is none.
     /// `instant`: null before the first. `may_begin`: the programme rests.
@@ -44,7 +44,7 @@ class Preview {
     PictureFormat format_;
     double tick_ms_;
     ContextGroup* contexts_;
-    RightOfWay* way_;
+    RenderPriority* way_;
     LevelChooser level_;
     std::map<std::string, std::unique_ptr<PictureMaker>> makers_;  ///< by synthesiser, kept
     PictureMaker* maker_ = nullptr;  ///< in use; null: it was never asked for

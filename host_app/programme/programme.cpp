@@ -18,7 +18,7 @@ namespace {
 /// How often a tick looks whether the picture maker has become free.
 constexpr std::chrono::milliseconds look_period{2};
 /// For which the first tick waits.
-constexpr std::chrono::seconds longest_rehearsal{20}, rest_of_rehearsal{1};
+constexpr std::chrono::seconds max_warm_up{20}, rest_of_warm_up{1};
 /// A camera and an instant that were left alone for so long are worth the best picture.
 constexpr std::chrono::milliseconds rest{250};
 /// Pictures that the lead before a tick is judged by, fewest and most, and what is added to the
@@ -49,21 +49,21 @@ std::string title_of(const MadePicture& made, double time_s) {
 
 }  // namespace
 
-Programme::Programme(Settings settings, InstantThread& instants, Pilot& pilot)
+Programme::Programme(Settings settings, InstantThread& instants, CameraSource& camera_source)
     : settings_(std::move(settings)),
       instants_(instants),
-      pilot_(pilot),
+      camera_source_(camera_source),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       replay_(settings_.replay),
-      preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.right_of_way()),
+      preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.render_priority()),
       reprojector_({settings_.format.width_px, settings_.format.height_px}),
       source_map_(settings_.source_map),
       picture_time_(most_for_pictures, longest_carried, MonotonicClock::now()) {
     // The first instant is prepared for where the camera begins.
-    view_ = pilot_.step(0, transport().pulse()).view;
+    view_ = camera_source_.step(0, transport().pulse()).view;
     camera_ = view_.camera();
     forecast_.see(camera_, 0);
-    wish_for_instant(MonotonicClock::now());
+    request_instant(MonotonicClock::now());
     renderer_ = &renderer_of(find_synthesiser(settings_.synthesiser));
     const SynthesiserEntry& first = renderer_->synthesiser;
     instants_.prepare_for(first.name, first.make_preparer);
@@ -133,10 +133,10 @@ std::chrono::nanoseconds Programme::reprojection_lead() const {
     return from_s(std::min(lead_ms / 1000, 1 / settings_.rate_hz));
 }
 
-void Programme::rehearse() {
+void Programme::warm_up() {
     const std::shared_ptr<const ReadyInstant> instant = instants_.newest();
     if (!instant || instant->synthesiser != renderer_->synthesiser.name) return;
-    const MonotonicTime end = MonotonicClock::now() + longest_rehearsal;
+    const MonotonicTime end = MonotonicClock::now() + max_warm_up;
     const auto is_idle_in_time = [&] {
         while (!renderer_->maker->is_idle()) {
             if (is_stopping_ || MonotonicClock::now() > end) return false;
@@ -145,16 +145,16 @@ void Programme::rehearse() {
         return true;
     };
     if (!is_idle_in_time()) return;
-    renderer_->maker->rehearse({instant, camera_, governor_.render(), source_map_});
+    renderer_->maker->warm_up({instant, camera_, governor_.render(), source_map_});
     if (!is_idle_in_time() || !instant->is_live) return;
     // The first picture is to be of now.
-    const MonotonicTime patience = MonotonicClock::now() + rest_of_rehearsal;
+    const MonotonicTime patience = MonotonicClock::now() + rest_of_warm_up;
     while (!is_stopping_ && instants_.newest() == instant && MonotonicClock::now() < patience)
         std::this_thread::sleep_for(look_period);
 }
 
 void Programme::run() {
-    rehearse();
+    warm_up();
     const MonotonicTime start = MonotonicClock::now();
     TickClock clock(settings_.rate_hz, start);
     std::uint64_t tick = clock.next_tick(start);
@@ -172,7 +172,7 @@ void Programme::run() {
                 begin_picture();
                 is_begun = true;
             }
-            better_what_is_held(now);
+            refine_held_instant(now);
             if (now >= due) break;
             if (now >= carry && !std::exchange(is_carried, true)) begin_reprojection();
             const bool is_done = is_begun || !(was_due || seek_.is_on());
@@ -185,7 +185,7 @@ void Programme::run() {
         follow_preview();
         tick = next;
         const std::lock_guard lock(mutex_);
-        if (is_over_(books_.ticks, due_s)) return;
+        if (is_over_(stats_.ticks, due_s)) return;
         if (settings_.ends_with_past && transport().is_at_end() && shown_ &&
             instants_.past_pulse_at(*transport().pulse()) ==
                 shown_->job.instant->set->trigger_index)
@@ -194,17 +194,17 @@ void Programme::run() {
 }
 
 bool Programme::look(double time_s, MonotonicTime now) {
-    PilotStep step = pilot_.step(time_s, transport().pulse());
+    CameraStep step = camera_source_.step(time_s, transport().pulse());
     ++look_;
     instant_ = instants_.newest();
-    const std::optional<PastSets::Span> span = instants_.past_span();
+    const std::optional<PastFrameSets::Span> span = instants_.past_span();
     // Time begins with the first picture.
     if (shown_ && last_look_s_)
         replay_.advance(time_s - *last_look_s_, settings_.pulse_rate_hz, span);
     last_look_s_ = time_s;
     if (instant_) replay_.take(step.time, instant_->set->trigger_index, span);
     if (const std::optional<int> shot = replay_.take_shot()) {
-        const PilotStep flown = pilot_.fly_to_shot(*shot);
+        const CameraStep flown = camera_source_.fly_to_shot(*shot);
         step.view = flown.view;
         step.camera = flown.camera;
     }
@@ -219,7 +219,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
     // its own name. What only marks, or flies the preview, waits for no picture of the programme.
     if (step.hand && shown_ && !seek_.has_jumped(transport().jumps()) &&
         (flies || step.toggle_source_map))
-        hands_.saw(*step.hand, look_, !step.toggle_source_map);
+        operator_input_.saw(*step.hand, look_, !step.toggle_source_map);
     seek_.follow(transport().jumps(), past_pulse(),
                  shown_ ? std::optional(shown_->job.instant->set->trigger_index) : std::nullopt,
                  now);
@@ -233,7 +233,7 @@ bool Programme::look(double time_s, MonotonicTime now) {
     camera_before_ = std::exchange(camera_, camera);
     preview_view_ = step.preview;
     forecast_.see(camera_, time_s);
-    wish_for_instant(now);
+    request_instant(now);
     {
         const std::lock_guard lock(mutex_);
         state_.view = view_;
@@ -247,12 +247,12 @@ bool Programme::look(double time_s, MonotonicTime now) {
                                                              *transport().pulse()) /
                                                                 settings_.pulse_rate_hz))
                               : std::nullopt;
-        books_.render_shares = governor_.render_shares(now);
-        books_.prepare_shares = governor_.prepare_shares(now);
+        stats_.render_shares = governor_.render_shares(now);
+        stats_.prepare_shares = governor_.prepare_shares(now);
     }
     const bool is_due = is_picture_due();
     // An input that changes no picture waits for none.
-    if (!is_due) hands_.drop();
+    if (!is_due) operator_input_.drop();
     return is_due;
 }
 
@@ -284,12 +284,12 @@ bool Programme::is_worth_rendering() {
 
 bool Programme::has_picture_time(MonotonicTime now) {
     const bool has_some = picture_time_.has_some(now);
-    return has_some || !transport().is_moving() || is_hand_waiting_for_rendering();
+    return has_some || !transport().is_moving() || is_input_waiting_for_rendering();
 }
 
-bool Programme::is_hand_waiting_for_rendering() const {
-    if (!hands_.is_waiting() || !shown_) return false;
-    return hands_.is_waiting_for_rendering() ||
+bool Programme::is_input_waiting_for_rendering() const {
+    if (!operator_input_.is_waiting() || !shown_) return false;
+    return operator_input_.is_waiting_for_rendering() ||
            Reprojection::way(newest_rendered()->job.camera, camera_) > Reprojection::furthest;
 }
 
@@ -312,13 +312,13 @@ double Programme::shown_in_s() const {
     return prepare_s + 0.5 * std::max(prepare_s, 1 / settings_.pulse_rate_hz);
 }
 
-void Programme::wish_for_instant(MonotonicTime now) {
+void Programme::request_instant(MonotonicTime now) {
     const bool is_resting = !transport().is_moving() && now - changed_ > rest;
     const PrepareLevel& level = seek_.is_on() ? governor_.prepare_sought()
                                 : is_resting && !settings_.quality.level ? prepare_levels().front()
                                                                          : governor_.prepare();
     const cv::Size size(settings_.format.width_px, settings_.format.height_px);
-    instants_.wish(
+    instants_.request(
         {transport().pulse(), moments_a_pulse_, transport().is_held(),
          view_of(forecast_.in(shown_in_s()), size), level, transport().jumps(),
          preview_view_ ? std::optional(view_of(preview_view_->camera(), size)) : std::nullopt});
@@ -342,7 +342,7 @@ void Programme::take_finished() {
     if (std::shared_ptr<const MadePicture> fresh = renderer_->maker->take_finished()) {
         if (rendered_) {
             const std::lock_guard lock(mutex_);
-            ++books_.superseded;
+            ++stats_.superseded;
         }
         rendered_ = std::move(fresh);
     }
@@ -373,14 +373,14 @@ std::shared_ptr<const MadePicture> Programme::newest_carried() {
     return carried;
 }
 
-void Programme::better_what_is_held(MonotonicTime now) {
+void Programme::refine_held_instant(MonotonicTime now) {
     if (settings_.quality.level || transport().is_moving() || now - changed_ < rest || !instant_ ||
         !shown_ || shown_->job.level.rank == 0 || instant_->instant->level > 0)
         return;
     std::unique_ptr<PictureMaker>& still = renderer_->still;
     if (!still) {
         still = std::make_unique<PictureMaker>(renderer_->synthesiser, settings_.format,
-                                               instants_.contexts(), instants_.right_of_way(),
+                                               instants_.contexts(), instants_.render_priority(),
                                                PictureMaker::Manner::in_slices);
         return;
     }
@@ -395,7 +395,7 @@ Programme::Renderer& Programme::renderer_of(const SynthesiserEntry& synthesiser)
     if (!renderer.maker) {
         renderer.synthesiser = synthesiser;
         renderer.maker = std::make_unique<PictureMaker>(
-            synthesiser, settings_.format, instants_.contexts(), instants_.right_of_way());
+            synthesiser, settings_.format, instants_.contexts(), instants_.render_priority());
     }
     return renderer;
 }
@@ -414,8 +414,8 @@ void Programme::follow_preview() {
                     renderer_->maker->is_idle() && !seek_.is_on(), now);
     const std::lock_guard lock(mutex_);
     state_.preview.picture = preview_.picture();
-    if (books_.preview_pictures != preview_.pictures()) preview_ms_.add(preview_.last_make_ms());
-    books_.preview_pictures = state_.preview.pictures = preview_.pictures();
+    if (stats_.preview_pictures != preview_.pictures()) preview_ms_.add(preview_.last_make_ms());
+    stats_.preview_pictures = state_.preview.pictures = preview_.pictures();
 }
 
 void Programme::follow_synthesiser() {
@@ -480,9 +480,9 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
                 first_picture_ = now;
                 passed_ticks = 1;
             }
-            ++books_.pictures;
-            books_.faults = 0;
-            for (const auto& [name, one] : renderers_) books_.faults += one.maker->faults();
+            ++stats_.pictures;
+            stats_.faults = 0;
+            for (const auto& [name, one] : renderers_) stats_.faults += one.maker->faults();
             note(*rendered_, now);
             if (settings_.sound) note_sound_delay(*rendered_->job.instant);
             shown_ = handed_ = std::exchange(rendered_, nullptr);
@@ -498,18 +498,18 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         }
         if (!handed_) return;
         if (carried || is_new)
-            hands_.showed(handed_->job.look,
+            operator_input_.showed(handed_->job.look,
                           carried ? carried->rendered->job.look : shown_->job.look, now);
         if (carried)
             reprojected_way_.add(
                 Reprojection::way(carried->rendered->job.camera, carried->job.camera));
-        if (!is_new && was_due) ++(carried ? books_.reprojected : books_.repeated);
+        if (!is_new && was_due) ++(carried ? stats_.reprojected : stats_.repeated);
         state_.picture = handed_;
-        books_.ticks += passed_ticks;
-        books_.missed += passed_ticks - 1;
+        stats_.ticks += passed_ticks;
+        stats_.missed += passed_ticks - 1;
         late_ms_.add(ms_between(due, now));
-        books_.repeated += passed_ticks - 1;
-        books_.duration_s = ms_between(*first_picture_, now) / 1000;
+        stats_.repeated += passed_ticks - 1;
+        stats_.duration_s = ms_between(*first_picture_, now) / 1000;
     }
     give_to_sinks(*handed_, passed_ticks, due);
 }
@@ -560,22 +560,22 @@ ProgrammeState Programme::state() const {
     return state_;
 }
 
-ProgrammeBooks Programme::books() const {
+ProgrammeStats Programme::stats() const {
     const std::lock_guard lock(mutex_);
-    ProgrammeBooks books = books_;
-    books.sinks = sinks_.states();
-    books.late_ms = late_ms_.summary();
-    books.reprojected_way = reprojected_way_.summary();
-    books.interval_ms = interval_ms_.summary();
-    books.latency_ms = latency_ms_.summary();
-    books.hand_ms = hands_.all_ms();
-    books.seek_ms = seek_.all_ms();
-    books.seek_steps_ms = seek_.steps_ms();
-    books.rest_ms = rest_ms_.summary();
-    books.preview_ms = preview_ms_.summary();
-    books.render_ms = render_ms_.summary();
-    books.readback_ms = readback_ms_.summary();
-    return books;
+    ProgrammeStats stats = stats_;
+    stats.sinks = sinks_.states();
+    stats.late_ms = late_ms_.summary();
+    stats.reprojected_way = reprojected_way_.summary();
+    stats.interval_ms = interval_ms_.summary();
+    stats.latency_ms = latency_ms_.summary();
+    stats.input_ms = operator_input_.all_ms();
+    stats.seek_ms = seek_.all_ms();
+    stats.seek_steps_ms = seek_.steps_ms();
+    stats.rest_ms = rest_ms_.summary();
+    stats.preview_ms = preview_ms_.summary();
+    stats.render_ms = render_ms_.summary();
+    stats.readback_ms = readback_ms_.summary();
+    return stats;
 }
 
 }  // namespace vantage

@@ -31,7 +31,7 @@
 namespace vantage {
 
 /// What the programme counted and measured.
-struct ProgrammeBooks {
+struct ProgrammeStats {
     std::uint64_t ticks = 0;        ///< since the first picture
     std::uint64_t pictures = 0;     ///< ticks with a new one
     std::uint64_t reprojected = 0;  ///< ticks for which a new one was due and not ready, and which
@@ -46,7 +46,7 @@ struct ProgrammeBooks {
     double duration_s = 0;          ///< since the first picture
     Percentiles interval_ms;        ///< between two new pictures
     Percentiles latency_ms;         ///< from exposure to the hand-over of the first picture of it
-    Percentiles hand_ms;  ///< from an input that moves the camera or changes what is drawn to the
+    Percentiles input_ms;  ///< from an input that moves the camera or changes what is drawn to the
                           ///< hand-over of the first picture with it
     Percentiles seek_ms;  ///< from a jump in time to the hand-over of its instant's picture
     SeekSteps<Percentiles> seek_steps_ms;
@@ -72,7 +72,7 @@ struct ProgrammeState {
     bool source_map = false;
     TransportState time;
     ReplayState replay;
-    std::optional<PastSets::Span> past;  ///< that there is
+    std::optional<PastFrameSets::Span> past;  ///< that there is
     std::optional<double> behind_s;      ///< in a stage's past: how far
     std::string synthesiser;
     double latency_ms = 0;
@@ -92,7 +92,7 @@ class Programme {
         PictureFormat format;
         double rate_hz = 30, pulse_rate_hz = 30;
         std::string synthesiser = default_synthesiser;
-        QualityWish quality;
+        QualityRequest quality;
         bool source_map = false;                        ///< shown at first
         Replay replay = {};                             ///< at first
         bool ends_with_past = false;                    ///< once the end of what is played is shown
@@ -100,7 +100,7 @@ class Programme {
     };
     /// Draws on contexts of the instants' group. Runs from start() on. `pilot` and `instants` must
     /// outlive it.
-    Programme(Settings settings, InstantThread& instants, Pilot& pilot);
+    Programme(Settings settings, InstantThread& instants, CameraSource& camera_source);
     ~Programme();
     Programme(const Programme&) = delete;
     Programme& operator=(const Programme&) = delete;
@@ -115,7 +115,7 @@ class Programme {
     void stop();
 
     ProgrammeState state() const;
-    ProgrammeBooks books() const;
+    ProgrammeStats stats() const;
 
   private:
     /// Makes a synthesiser's pictures. Kept when another takes over: drivers give back little of
@@ -127,7 +127,7 @@ class Programme {
     };
     void run();
     /// Before the first tick: pictures at all levels of the newest instant, which nobody sees.
-    void rehearse();
+    void warm_up();
     /// Asks hands and plans; true if a picture is due.
     bool look(double time_s, MonotonicTime now);
     /// Of now.
@@ -147,11 +147,11 @@ class Programme {
     /// rest is for the instants beside them.
     bool has_picture_time(MonotonicTime now);
     /// What an operator asked for comes to light by a new picture alone: instants wait for that.
-    bool is_hand_waiting_for_rendering() const;
+    bool is_input_waiting_for_rendering() const;
     /// While a jump is waited for: what has become ready since the look is shown at the next tick,
     /// not a tick later. True if something has.
     bool take_up_sought();
-    void wish_for_instant(MonotonicTime now);
+    void request_instant(MonotonicTime now);
     /// Until the middle of the time for which an instant that is wished for now will be shown.
     double shown_in_s() const;
     void begin_picture();
@@ -165,7 +165,7 @@ class Programme {
     void begin_reprojection();
     /// Of the past, that time stands at; nothing: there is none.
     std::optional<std::uint64_t> past_pulse() const;
-    void better_what_is_held(MonotonicTime now);
+    void refine_held_instant(MonotonicTime now);
     /// The better picture of it, if that is ready.
     void take_still(MonotonicTime now);
     /// Compiles where it is asked for the first time.
@@ -191,7 +191,7 @@ class Programme {
 
     Settings settings_;
     InstantThread& instants_;
-    Pilot& pilot_;
+    CameraSource& camera_source_;
     PictureSinks sinks_;
     std::function<bool(std::uint64_t, double)> is_over_;
 
@@ -208,7 +208,7 @@ class Programme {
     OrbitView view_;
     CameraState camera_, camera_before_;  ///< of the last look and the one before
     CameraForecast forecast_;
-    HandWatch hands_;
+    InputLatency operator_input_;
     SeekWatch seek_;
     std::shared_ptr<const ReadyInstant> instant_;
     std::optional<PictureJob> begun_, begun_still_;
@@ -224,11 +224,11 @@ class Programme {
     bool source_map_ = false;
     int moments_a_pulse_ = 1;     ///< as InstantWish
     std::deque<double> make_ms_;  ///< of the last pictures
-    TimeShare picture_time_;      ///< beside instants
+    TimeBudget picture_time_;      ///< beside instants
 
     mutable std::mutex mutex_;
     ProgrammeState state_;
-    ProgrammeBooks books_;
+    ProgrammeStats stats_;
     PercentileRecorder reprojected_way_, late_ms_, interval_ms_, latency_ms_, rest_ms_, render_ms_,
         readback_ms_, preview_ms_;
     std::exception_ptr failure_;

@@ -76,7 +76,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
         SourceMap seen;
         seen.picture = map.download();
         for (const InstantRig& rig : instant.rigs) overlay_.name_rigs({rig.camera().name});
-        seen.shares = novelty_shares(last_eye_->download(), *renderer_->origins());
+        seen.shares = source_shares(last_eye_->download(), *renderer_->origins());
         seen.legend = overlay_.legend();
         *sources = std::move(seen);
         renderer_->note_origins(false);

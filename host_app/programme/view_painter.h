@@ -28,8 +28,8 @@ VirtualView view_of(const CameraState& camera, cv::Size size);
 /// The source map of a picture, for people and in numbers.
 struct SourceMap {
     ColourImage picture;
-    NoveltyShares shares;  ///< of two eyes, the right one's
-    std::vector<NoveltyOverlay::Key> legend;
+    SourceShares shares;  ///< of two eyes, the right one's
+    std::vector<SourceMapOverlay::Key> legend;
 };
 
 /// Renders whole pictures of instants and reads them back, on the context that was current at
@@ -53,7 +53,7 @@ class ViewPainter {
 
     PictureFormat format_;
     std::unique_ptr<ViewRenderer> renderer_;
-    NoveltyOverlay overlay_;
+    SourceMapOverlay overlay_;
     EyeMosaic mosaic_;
     const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
     std::string lacking_;                ///< for the last picture

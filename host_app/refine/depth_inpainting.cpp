@@ -10,14 +10,14 @@ constexpr std::size_t halvings = 6;
 
 }  // namespace
 
-DepthCloser::DepthCloser(const ShaderLibrary& library)
-    : guess_(library, "depth_guess.frag"),
+DepthInpainting::DepthInpainting(const ShaderLibrary& library)
+    : inpaint_(library, "depth_inpaint.frag"),
       pull_(library, "depth_pull.frag"),
       push_(library, "depth_push.frag") {}
 
-DepthCloser::Pyramid& DepthCloser::pyramid(cv::Size size) {
+DepthInpainting::Pyramid& DepthInpainting::pyramid(cv::Size size) {
     Pyramid& pyramid = pyramids_[{size.width, size.height}];
-    pyramid.guessed.resize(size);
+    pyramid.inpainted.resize(size);
     while (pyramid.levels.size() < halvings) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
         Level& level = pyramid.levels.emplace_back();
@@ -27,21 +27,21 @@ DepthCloser::Pyramid& DepthCloser::pyramid(cv::Size size) {
     return pyramid;
 }
 
-void DepthCloser::close(const Texture& depth_m, const Texture& measured_m, const Texture& picture,
+void DepthInpainting::close(const Texture& depth_m, const Texture& measured_m, const Texture& picture,
                         const Framebuffer& closed) {
     const Pyramid& pyramid = this->pyramid(depth_m.size());
     const std::vector<Level>& levels = pyramid.levels;
-    Program& guess = guess_.use();
-    guess.set("depth_map", 0);
-    guess.set("measured", 1);
-    guess.set("picture", 2);
-    guess.set("edge_ratio", depth_edge_ratio);
+    Program& inpaint = inpaint_.use();
+    inpaint.set("depth_map", 0);
+    inpaint.set("measured", 1);
+    inpaint.set("picture", 2);
+    inpaint.set("edge_ratio", depth_edge_ratio);
     depth_m.bind(0);
     measured_m.bind(1);
     picture.bind(2);
-    guess_.draw(pyramid.guessed.target());
-    const Texture& guessed = pyramid.guessed.texture();
-    const Texture* fine = &guessed;
+    inpaint_.draw(pyramid.inpainted.target());
+    const Texture& inpainted = pyramid.inpainted.texture();
+    const Texture* fine = &inpainted;
     for (const Level& level : levels) {
         pull_.use().set("depth_map", 0);
         fine->bind(0);
@@ -53,7 +53,7 @@ void DepthCloser::close(const Texture& depth_m, const Texture& measured_m, const
         Program& program = push_.use();
         program.set("depth_map", 0);
         program.set("coarse", 1);
-        (i == 0 ? guessed : levels[i - 1].pulled.texture()).bind(0);
+        (i == 0 ? inpainted : levels[i - 1].pulled.texture()).bind(0);
         coarse->bind(1);
         push_.draw(i == 0 ? closed : levels[i - 1].pushed.target());
         if (i > 0) coarse = &levels[i - 1].pushed.texture();

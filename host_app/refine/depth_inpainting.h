@@ -12,9 +12,9 @@ namespace vantage {
 /// rig knows better: from the nearest known pixels of like colour, the farther side's first, for
 /// what a stereo rig cannot match is mostly background that one of its two cameras does not see;
 /// where none is near, by pull and push on inverse depth.
-class DepthCloser {
+class DepthInpainting {
   public:
-    explicit DepthCloser(const ShaderLibrary& library);
+    explicit DepthInpainting(const ShaderLibrary& library);
 
     /// `depth_m`: r32f, 0 = unknown, negative = guessed, and left so; `measured_m`: before other
     /// rigs carved some of it away; `picture`: the same rig's.
@@ -28,12 +28,12 @@ class DepthCloser {
         DrawnTexture pulled{TextureFormat::r32f}, pushed{TextureFormat::r32f};
     };
     struct Pyramid {
-        DrawnTexture guessed{TextureFormat::r32f};
+        DrawnTexture inpainted{TextureFormat::r32f};
         std::vector<Level> levels;
     };
     Pyramid& pyramid(cv::Size size);
 
-    FullscreenPass guess_, pull_, push_;
+    FullscreenPass inpaint_, pull_, push_;
     std::map<std::pair<int, int>, Pyramid> pyramids_;  ///< by size; rigs of one size share theirs
 };
 

@@ -9,9 +9,9 @@ namespace vantage {
 /// such mixed pixels are the halos around the foreground and its ghosts on the background. This
 /// notes how far each pixel's colour can be trusted, so that a rig that sees the place clear of
 /// edges prevails over one that does not.
-class EdgeTrust {
+class EdgeConfidence {
   public:
-    explicit EdgeTrust(const ShaderLibrary& library) : pass_(library, "edge_trust.frag") {}
+    explicit EdgeConfidence(const ShaderLibrary& library) : pass_(library, "edge_confidence.frag") {}
 
     /// Fills the surface's trust(), from its depth.
     void judge(RigSurface& surface);

@@ -144,7 +144,7 @@ class Ratios {
     /// Nothing if there are too few, or if they do not agree.
     std::optional<double> typical(int channel) {
         std::vector<double>& values = logs_[static_cast<std::size_t>(channel)];
-        if (count() < ColourHarmoniser::least_samples) return std::nullopt;
+        if (count() < GainCompensation::least_samples) return std::nullopt;
         const double middle = median(values);
         std::vector<double> off = values;
         for (double& value : off) value = std::abs(value - middle);
@@ -197,7 +197,7 @@ void compare(const Looked& from, const Lookup& to, bool swapped, Ratios& ratios)
 
 }  // namespace
 
-void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
+void GainCompensation::see(std::span<const DepthView> views, double dt_s) {
     since_look_s_ += std::max(dt_s, 0.0);
     if (since_look_s_ < look_period_s) return;
     // After a long pause the light may be another one; that is no reason to jump.
@@ -257,7 +257,7 @@ void ColourHarmoniser::see(std::span<const DepthView> views, double dt_s) {
     }
 }
 
-void ColourHarmoniser::apply(DepthView& view) const {
+void GainCompensation::apply(DepthView& view) const {
     const auto rig = rigs_.find(view.name);
     if (rig == rigs_.end() || rig->second.log_gain.cwiseAbs().maxCoeff() <= unseen) return;
     Eigen::Matrix3d& matrix = view.colour_correction.matrix;

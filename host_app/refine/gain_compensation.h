@@ -17,7 +17,7 @@ namespace vantage {
 /// approach their goal exponentially, and no faster than `slew_per_s`. Robust means leave out gloss
 /// and what moves. The rigs' mean gain stays 1, so that the whole stage does not drift; without
 /// enough evidence a rig's gain stays as it is, and a rig that was away goes on with its last one.
-class ColourHarmoniser {
+class GainCompensation {
   public:
     static constexpr double slew_per_s = 0.02;  ///< of the gains' logarithms
     static constexpr double time_constant_s = 3;

@@ -74,14 +74,14 @@ bool shows_floor(std::span<const ComparedView> views) {
     return static_cast<double>(on_floor) > floor_share * static_cast<double>(all);
 }
 
-RigConsensus::Sweep::Sweep(cv::Size size)
-    : unlike{Texture(TextureFormat::rgba8, size.width, size.height),
+MultiViewRefinement::Sweep::Sweep(cv::Size size)
+    : cost{Texture(TextureFormat::rgba8, size.width, size.height),
              Texture(TextureFormat::rgba8, size.width, size.height),
              Texture(TextureFormat::rgba8, size.width, size.height),
              Texture(TextureFormat::rgba8, size.width, size.height)},
-      target({&unlike[0], &unlike[1], &unlike[2], &unlike[3]}) {}
+      target({&cost[0], &cost[1], &cost[2], &cost[3]}) {}
 
-RigConsensus::RigConsensus(const ShaderLibrary& library)
+MultiViewRefinement::MultiViewRefinement(const ShaderLibrary& library)
     : halve_(library, "rig_smooth.frag", {{"SCALE", "2"}}),
       smooth_(library, "rig_smooth.frag"),
       refine_(library, "rig_refine.frag") {
@@ -98,7 +98,7 @@ RigConsensus::RigConsensus(const ShaderLibrary& library)
     whole_.upload(cv::Mat1b(1, 1, uchar{255}));
 }
 
-std::deque<RigConsensus::Step> RigConsensus::in_steps(const std::function<void()>& work) {
+std::deque<MultiViewRefinement::Step> MultiViewRefinement::in_steps(const std::function<void()>& work) {
     std::deque<Step> steps;
     steps_ = &steps;
     work();
@@ -106,18 +106,18 @@ std::deque<RigConsensus::Step> RigConsensus::in_steps(const std::function<void()
     return steps;
 }
 
-void RigConsensus::then(Step step) {
+void MultiViewRefinement::then(Step step) {
     if (steps_)
         steps_->push_back(std::move(step));
     else
         step();
 }
 
-void RigConsensus::draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look) {
+void MultiViewRefinement::draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look) {
     pass.draw(target, *look->tiles, static_cast<GLuint>(unit), look->picture);
 }
 
-void RigConsensus::bind_view(Program& program, const Texture& depth_m,
+void MultiViewRefinement::bind_view(Program& program, const Texture& depth_m,
                              const ComparedView& view) const {
     program.set("depth_map", 0);
     program.set("picture", 1);
@@ -126,7 +126,7 @@ void RigConsensus::bind_view(Program& program, const Texture& depth_m,
     view.colour->bind(1);
 }
 
-int RigConsensus::bind_others(Program& program, const Texture& depth_m, const Look& look) const {
+int MultiViewRefinement::bind_others(Program& program, const Texture& depth_m, const Look& look) const {
     const ComparedView& view = look->view;
     bind_view(program, depth_m, view);
     const VirtualView camera = depth_camera(view, depth_m.size());
@@ -150,7 +150,7 @@ int RigConsensus::bind_others(Program& program, const Texture& depth_m, const Lo
     return unit;
 }
 
-double RigConsensus::parallax_px(const Look& look) {
+double MultiViewRefinement::parallax_px(const Look& look) {
     constexpr double small = 0.01;
     const ComparedView& view = look->view;
     const VirtualView camera = depth_camera(view, view.depth_m->size());
@@ -170,18 +170,18 @@ double RigConsensus::parallax_px(const Look& look) {
     return largest;
 }
 
-bool RigConsensus::tell_news(const ComparedView& view, double parallax_px) {
+bool MultiViewRefinement::tell_news(const ComparedView& view, double parallax_px) {
     const double own_px = own_parallax_px(view);
     return own_px > 0 && parallax_px > least_news * own_px;
 }
 
-void RigConsensus::smooth(TilePass& pass, const Texture& depth_m, const Look& look,
+void MultiViewRefinement::smooth(TilePass& pass, const Texture& depth_m, const Look& look,
                           const Framebuffer& target) const {
     bind_view(pass.use(), depth_m, look->view);
     draw(pass, target, 2, look);
 }
 
-void RigConsensus::sweep(const Look& look, double relative_step) {
+void MultiViewRefinement::sweep(const Look& look, double relative_step) {
     const ComparedView& view = look->view;
     const cv::Size size = half_.texture().size();
     // Asked for before anything is bound: making a texture binds it.
@@ -199,18 +199,18 @@ void RigConsensus::sweep(const Look& look, double relative_step) {
     refine.set("relative_step", static_cast<float>(relative_step));
     for (int i = 0; i < 4; ++i) {
         refine.set(fmt::format("unlike[{}]", i), 2 + i);
-        costs_->unlike[static_cast<std::size_t>(i)].bind(2 + i);
+        costs_->cost[static_cast<std::size_t>(i)].bind(2 + i);
     }
     draw(refine_, refined, 6, look);
     half_.finish();
 }
 
-void RigConsensus::refine(const Look& look, double parallax_px) {
+void MultiViewRefinement::refine(const Look& look, double parallax_px) {
     const cv::Size size = look->view.depth_m->size(),
                    half((size.width + 1) / 2, (size.height + 1) / 2);
     then([=, this] {
         half_before_.resize(half);
-        if (!costs_ || costs_->unlike[0].size() != half) costs_ = std::make_unique<Sweep>(half);
+        if (!costs_ || costs_->cost[0].size() != half) costs_ = std::make_unique<Sweep>(half);
         smooth(halve_, *look->view.depth_m, look, half_before_.target());
         smooth(smooth_, half_before_.texture(), look, half_.next_target(half));
         half_.finish();
@@ -223,7 +223,7 @@ void RigConsensus::refine(const Look& look, double parallax_px) {
     });
 }
 
-void RigConsensus::compare(const Look& look, double parallax_px) {
+void MultiViewRefinement::compare(const Look& look, double parallax_px) {
     const Texture& depth_m = *look->view.depth_m;
     agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
     TilePass& comparing = agreement_pass_[look->others.size() - 1];
@@ -234,7 +234,7 @@ void RigConsensus::compare(const Look& look, double parallax_px) {
     agreement_.generate_mipmaps();
 }
 
-RigConsensus::Look RigConsensus::look_at(const ComparedView& view,
+MultiViewRefinement::Look MultiViewRefinement::look_at(const ComparedView& view,
                                          std::span<const ComparedView> all, std::size_t most,
                                          const Texture* tiles) const {
     std::vector<const ComparedView*> looked_at;
@@ -250,7 +250,7 @@ RigConsensus::Look RigConsensus::look_at(const ComparedView& view,
     return look;
 }
 
-const Texture& RigConsensus::move_and_carve(const Look& look) {
+const Texture& MultiViewRefinement::move_and_carve(const Look& look) {
     const Texture& depth_m = *look->view.depth_m;
     if (look->others.empty()) return depth_m;
     // Before anything is bound: making a texture binds it.
@@ -284,7 +284,7 @@ const Texture& RigConsensus::move_and_carve(const Look& look) {
     return carved;
 }
 
-const Texture& RigConsensus::better(const Look& look) {
+const Texture& MultiViewRefinement::better(const Look& look) {
     const Texture& judged = move_and_carve(look);
     if (look->others.empty() || &judged == &result_.texture()) return judged;
     then([=, this] {
@@ -299,23 +299,23 @@ const Texture& RigConsensus::better(const Look& look) {
     return result_.texture();
 }
 
-const Texture& RigConsensus::better(const ComparedView& view, std::span<const ComparedView> all) {
+const Texture& MultiViewRefinement::better(const ComparedView& view, std::span<const ComparedView> all) {
     return better(look_at(view, all, max_others));
 }
 
-const Texture& RigConsensus::better_performers(const ComparedView& view,
+const Texture& MultiViewRefinement::refine_foreground(const ComparedView& view,
                                                std::span<const ComparedView> all,
                                                const Texture& tiles) {
     return move_and_carve(look_at(view, all, max_others, &tiles));
 }
 
-const Texture& RigConsensus::better_set(const ComparedView& view,
+const Texture& MultiViewRefinement::refine_background(const ComparedView& view,
                                         std::span<const ComparedView> all) {
     const Look look = look_at(view, all, max_others);
-    const Texture& bettered = better(look);
-    if (look->others.empty() || !shows_floor(all)) return bettered;
-    with_floor_.resize(bettered.size());
-    then([=, this, &bettered] {
+    const Texture& refined = better(look);
+    if (look->others.empty() || !shows_floor(all)) return refined;
+    with_floor_.resize(refined.size());
+    then([=, this, &refined] {
         TilePass& standing = floor_[look->others.size() - 1];
         Program& program = standing.use();
         const int unit = bind_others(program, *look->view.depth_m, look);
@@ -326,7 +326,7 @@ const Texture& RigConsensus::better_set(const ComparedView& view,
         program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
         program.set("softness", agreeing_softness);
         program.set("before", unit);
-        bettered.bind(unit);
+        refined.bind(unit);
         draw(standing, with_floor_.target(), unit + 1, look);
     });
     return with_floor_.texture();

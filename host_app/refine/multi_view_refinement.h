@@ -49,7 +49,7 @@ bool shows_floor(std::span<const ComparedView> views);
 ///
 /// The set's depth is held against the stage's floor too, y = 0 of the world, if enough of what the
 /// rigs measure lies on it: where the pictures speak as well for the floor, that is the depth.
-class RigConsensus {
+class MultiViewRefinement {
   public:
     /// Rigs that one is compared with at the most.
     static constexpr std::size_t max_others = 3;
@@ -57,7 +57,7 @@ class RigConsensus {
     /// A pass or two, or a part of one.
     using Step = std::function<void()>;
 
-    explicit RigConsensus(const ShaderLibrary& library);
+    explicit MultiViewRefinement(const ShaderLibrary& library);
 
     /// What `work` asks of better_set() is not drawn, but is the steps that are returned: to be
     /// done in order, and before anything else is asked of this. Textures that were returned to
@@ -72,15 +72,15 @@ class RigConsensus {
     const Texture& better(const ComparedView& view, std::span<const ComparedView> all);
     /// The same of performers, whose depth is 0 outside some tiles of the view's picture (see
     /// TilePass): moved and carved, but nothing takes over the depth of its neighbours.
-    const Texture& better_performers(const ComparedView& view, std::span<const ComparedView> all,
+    const Texture& refine_foreground(const ComparedView& view, std::span<const ComparedView> all,
                                      const Texture& tiles);
     /// The same of the set, which may have a floor.
-    const Texture& better_set(const ComparedView& view, std::span<const ComparedView> all);
+    const Texture& refine_background(const ComparedView& view, std::span<const ComparedView> all);
 
   private:
     /// How unlike the pictures are at sixteen depths, four a texture.
     struct Sweep {
-        std::array<Texture, 4> unlike;
+        std::array<Texture, 4> cost;
         Framebuffer target;
         explicit Sweep(cv::Size size);
     };

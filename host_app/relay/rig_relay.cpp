@@ -25,7 +25,7 @@ namespace vantage {
 namespace {
 
 /// So often the rigs are told what hosts have come to ask for.
-constexpr std::chrono::milliseconds wish_period{50};
+constexpr std::chrono::milliseconds request_period{50};
 constexpr const char* option_name = "--listen";
 constexpr int highest_port = 65535;
 
@@ -85,7 +85,7 @@ struct RigRelay::Impl {
         FrameServer server;
         std::uint64_t report_id = 0;
         std::shared_ptr<const std::string> report;  ///< the last that was passed on
-        std::uint64_t dropped = 0, thinned = 0;     ///< that hosts were told of
+        std::uint64_t dropped = 0, skipped = 0;     ///< that hosts were told of
         // Under the mutex.
         Rig shown;
     };
@@ -137,7 +137,7 @@ struct RigRelay::Impl {
             items.push_back({rig->link.socket().handle(), 0, ZMQ_POLLIN, 0});
             items.push_back({rig->link.monitor().handle(), 0, ZMQ_POLLIN, 0});
         }
-        wait_for(items, wish_period);
+        wait_for(items, request_period);
         wake.clear();
         const MonotonicTime now = MonotonicClock::now();
         for (const auto& rig : rigs) turn(*rig, now);
@@ -174,8 +174,8 @@ struct RigRelay::Impl {
                  const RigLink::View& view) {
         const std::uint64_t dropped = view.link.send_dropped + view.lost;
         const std::uint64_t missed = dropped - std::exchange(rig.dropped, dropped);
-        const std::uint64_t thinned =
-            view.link.thinned - std::exchange(rig.thinned, view.link.thinned);
+        const std::uint64_t skipped =
+            view.link.skipped - std::exchange(rig.skipped, view.link.skipped);
         std::string away;
         if (!view.connected) {
             const std::string trouble = trouble_of(view);
@@ -185,29 +185,29 @@ struct RigRelay::Impl {
         rig.server.check();
         rig.server.change([&](HostLinks& links) {
             links.set_away(std::move(away));
-            links.miss(missed, thinned);
+            links.miss(missed, skipped);
             if (view.heard) links.relay(view.session, view.since_start, view.sync, view.health);
             if (delivery && delivery->frame) links.pass_on(delivery->frame);
             if (view.report != rig.report) links.reported(view.report);
         });
         rig.report = view.report;
-        if (delivery || missed + thinned > 0) rig.server.wake();
+        if (delivery || missed + skipped > 0) rig.server.wake();
     }
 
     void tell_rig(Relayed& rig, MonotonicTime now) {
-        RigLink::Wish wish;
+        RigLink::Request request;
         bool wants_report = false;
         rig.server.change([&](const HostLinks& links) {
             const HostLinks::Demand demand = links.demand();
-            wish.streaming = demand.streaming;
-            wish.rate_divisor = demand.rate_divisor;
+            request.streaming = demand.streaming;
+            request.rate_divisor = demand.rate_divisor;
             wants_report = links.wants_report();
         });
         if (!wants_report) rig.report_id = 0;
         if (wants_report && rig.report_id == 0) rig.report_id = random_id();
-        wish.report_id = rig.report_id;
-        wish.first_pulse = rig.server.announced_pulse();
-        rig.link.tick(wish, now);
+        request.report_id = rig.report_id;
+        request.first_pulse = rig.server.announced_pulse();
+        rig.link.tick(request, now);
     }
 
     zmq::context_t context;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/frames/past_sets.h"
+#include "host_app/frames/past_frame_sets.h"
 
 namespace vantage {
 
@@ -47,6 +47,6 @@ struct ClipBook {
 
 /// How much of a clip there is to be played.
 enum class ClipPresence { whole, part, gone };
-ClipPresence presence_of(const Clip& clip, const std::optional<PastSets::Span>& span);
+ClipPresence presence_of(const Clip& clip, const std::optional<PastFrameSets::Span>& span);
 
 }  // namespace vantage

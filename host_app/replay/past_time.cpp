@@ -17,7 +17,7 @@ std::string with_colons(std::string code) {
     return code;
 }
 
-std::uint64_t pulse_of_seconds(const std::string& words, const PastSets::Span& past,
+std::uint64_t pulse_of_seconds(const std::string& words, const PastFrameSets::Span& past,
                                double pulse_rate_hz) {
     double seconds = 0;
     const char* last = words.data() + words.size();
@@ -35,7 +35,7 @@ std::uint64_t pulse_of_seconds(const std::string& words, const PastSets::Span& p
 
 }  // namespace
 
-std::uint64_t pulse_in_past(const std::string& words, const PastSets::Span& past,
+std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span& past,
                             double pulse_rate_hz, int tai_offset_s) {
     const std::string wanted = with_colons(words);
     if (wanted.find(':') == std::string::npos) return pulse_of_seconds(words, past, pulse_rate_hz);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host_app/frames/past_sets.h"
+#include "host_app/frames/past_frame_sets.h"
 
 namespace vantage {
 
@@ -11,7 +11,7 @@ namespace vantage {
 /// house's time code (without frames the first of the second; drop-frame code with any mark),
 /// "12.5", seconds after its beginning, "-3", before its end. `tai_offset_s`: as TimecodeClock's.
 /// Throws Error if the words are none of these, or the time is not in it.
-std::uint64_t pulse_in_past(const std::string& words, const PastSets::Span& past,
+std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span& past,
                             double pulse_rate_hz, int tai_offset_s);
 
 }  // namespace vantage

@@ -106,12 +106,12 @@ ReplayState Replay::state() const {
 
 void Replay::take(const TransportInput& input, std::uint64_t shown_pulse, const Span& span) {
     if (input.to_live || input.to_pulse || input.at_pulse) leave_piece();
-    TransportInput hands = input;
-    hands.pulses = input.pulses * (fast_jog_ ? fast_jog_times : 1) + input.shuttle_pulses;
-    hands.shuttle_pulses = 0;
-    hands.calls.clear();
+    TransportInput operator_input = input;
+    operator_input.pulses = input.pulses * (fast_jog_ ? fast_jog_times : 1) + input.shuttle_pulses;
+    operator_input.shuttle_pulses = 0;
+    operator_input.calls.clear();
     const bool was_playing = plays();
-    transport_.take(hands, shown_pulse, span);
+    transport_.take(operator_input, shown_pulse, span);
     if (plays() && !was_playing)
         last_cue_ = Cue{mode(), *transport_.pulse(), clip_, list_.playing().value_or(0)};
     if (clip_ != 0 && !transport_.pulse()) hold_lost();
@@ -435,7 +435,7 @@ void Replay::hold_lost() {
     say(fmt::format("{} has left the replay buffer: its last picture is held", lost));
 }
 
-void Replay::follow_piece(const PastSets::Span& span) {
+void Replay::follow_piece(const PastFrameSets::Span& span) {
     const Clip& clip = book_->clips.at(clip_);
     const bool is_gone = clip.out <= span.oldest;
     const bool is_over = transport_.overrun_s() && list_.playing() && !is_list_over_;

@@ -39,9 +39,9 @@ class Replay {
 
     /// What hands want, of the pulse that is shown.
     void take(const TransportInput& input, std::uint64_t shown_pulse,
-              const std::optional<PastSets::Span>& span);
+              const std::optional<PastFrameSets::Span>& span);
     /// Time goes by: see Transport; from the end of an entry to the next one without a gap.
-    void advance(double dt_s, double pulse_rate_hz, const std::optional<PastSets::Span>& span);
+    void advance(double dt_s, double pulse_rate_hz, const std::optional<PastFrameSets::Span>& span);
 
     const Transport& transport() const { return transport_; }
     const ClipBook& book() const { return *book_; }
@@ -54,7 +54,7 @@ class Replay {
     static constexpr double asks_for_s = 3;
 
   private:
-    using Span = std::optional<PastSets::Span>;
+    using Span = std::optional<PastFrameSets::Span>;
     /// Where playing began.
     struct Cue {
         ReplayMode mode = ReplayMode::past;
@@ -81,7 +81,7 @@ class Replay {
     /// Of the list, one that plays no more: the one that stands in its place, or nothing.
     void replace_playing(const Span& span);
     /// What plays has come to its end, or is lost to the buffer.
-    void follow_piece(const PastSets::Span& span);
+    void follow_piece(const PastFrameSets::Span& span);
     void hold_lost();
     void leave_piece();
     /// What is cued or played is played at what its entry or clip says now.

@@ -30,7 +30,7 @@ void Transport::mark(std::optional<std::uint64_t> in, std::optional<std::uint64_
     state_.out = out;
 }
 
-Transport::Reach Transport::reach(const PastSets::Span& span) const {
+Transport::Reach Transport::reach(const PastFrameSets::Span& span) const {
     Reach reach{as_pulse(span.oldest), as_pulse(span.newest)};
     if (piece_) {
         reach.least = std::max(reach.least, piece_->least);
@@ -40,7 +40,7 @@ Transport::Reach Transport::reach(const PastSets::Span& span) const {
 }
 
 void Transport::enter(const TransportPiece& piece, double pulse, double speed, bool plays,
-                      const PastSets::Span& span) {
+                      const PastFrameSets::Span& span) {
     if (!piece_) before_ = {state_.in, state_.out, state_.loops};
     piece_ = piece;
     mark(piece.in, piece.out);
@@ -58,14 +58,14 @@ void Transport::leave() {
     state_.loops = before_.loops;
 }
 
-void Transport::stand_at(double pulse, const PastSets::Span& span) {
+void Transport::stand_at(double pulse, const PastFrameSets::Span& span) {
     state_.speed = 0;
     is_at_end_ = false;
     overrun_s_.reset();
     go_to(pulse, span);
 }
 
-void Transport::play(double speed, std::uint64_t shown_pulse, const PastSets::Span& span) {
+void Transport::play(double speed, std::uint64_t shown_pulse, const PastFrameSets::Span& span) {
     if (!state_.pulse) go_to(as_pulse(shown_pulse), span);
     is_at_end_ = false;
     overrun_s_.reset();
@@ -79,7 +79,7 @@ void Transport::hold_what_is_shown() {
 }
 
 void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
-                     const std::optional<PastSets::Span>& span) {
+                     const std::optional<PastFrameSets::Span>& span) {
     if (input.is_any()) {
         is_at_end_ = false;
         overrun_s_.reset();
@@ -128,7 +128,7 @@ void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
     }
 }
 
-void Transport::lead(double pulse, const PastSets::Span& span) {
+void Transport::lead(double pulse, const PastFrameSets::Span& span) {
     const double there = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
     const double way = there - state_.pulse.value_or(there);
     is_led_on_ = way != 0;
@@ -157,7 +157,7 @@ void Transport::to_live() {
     state_.is_held = false;
 }
 
-void Transport::go_to(double pulse, const PastSets::Span& span) {
+void Transport::go_to(double pulse, const PastFrameSets::Span& span) {
     const auto [least, most] = reach(span);
     state_.pulse = std::clamp(pulse, least, most);
     ++jumps_;
@@ -186,7 +186,7 @@ void Transport::arrive(double at, double again_at) {
 }
 
 void Transport::advance(double dt_s, double pulse_rate_hz,
-                        const std::optional<PastSets::Span>& span) {
+                        const std::optional<PastFrameSets::Span>& span) {
     if (!span || !state_.pulse || is_led_) return;
     const auto [oldest, newest] = reach(*span);
     const double before = *state_.pulse;

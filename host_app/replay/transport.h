@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host_app/frames/past_sets.h"
+#include "host_app/frames/past_frame_sets.h"
 #include "host_app/replay/transport_input.h"
 
 namespace vantage {
@@ -37,21 +37,21 @@ class Transport {
 
     /// What hands want, of the pulse that is shown.
     void take(const TransportInput& input, std::uint64_t shown_pulse,
-              const std::optional<PastSets::Span>& span);
+              const std::optional<PastFrameSets::Span>& span);
     /// Time goes by. At the out mark, or the end of what there is, it stops, or begins again at the
     /// in mark where it loops; playing that comes up to the newest pulse of a stage is live again.
-    void advance(double dt_s, double pulse_rate_hz, const std::optional<PastSets::Span>& span);
+    void advance(double dt_s, double pulse_rate_hz, const std::optional<PastFrameSets::Span>& span);
 
     /// To a pulse of the piece, whose marks stand in place of those there were; it `plays` from
     /// there or will at this speed. The piece does not loop at first.
     void enter(const TransportPiece& piece, double pulse, double speed, bool plays,
-               const PastSets::Span& span);
+               const PastFrameSets::Span& span);
     /// The marks of before the first enter() are back; where the programme is stays.
     void leave();
     /// There, and stand.
-    void stand_at(double pulse, const PastSets::Span& span);
+    void stand_at(double pulse, const PastFrameSets::Span& span);
     /// At this speed from now on; from live from the pulse that is shown.
-    void play(double speed, std::uint64_t shown_pulse, const PastSets::Span& span);
+    void play(double speed, std::uint64_t shown_pulse, const PastFrameSets::Span& span);
     /// Of what plays.
     void set_speed(double speed) { state_.speed = last_speed_ = speed; }
     /// The instant that is shown, though the past may not have it any more.
@@ -87,11 +87,11 @@ class Transport {
     struct Reach {
         double least, most;
     };
-    Reach reach(const PastSets::Span& span) const;
-    void lead(double pulse, const PastSets::Span& span);
+    Reach reach(const PastFrameSets::Span& span) const;
+    void lead(double pulse, const PastFrameSets::Span& span);
     void toggle_hold();
     void to_live();
-    void go_to(double pulse, const PastSets::Span& span);
+    void go_to(double pulse, const PastFrameSets::Span& span);
     void change_speed(int steps);
     void arrive(double at, double again_at);
 

@@ -11,12 +11,12 @@ namespace vantage {
 
 /// Saves what a session has learnt of its set, on a thread of its own: neither programme nor
 /// session waits for the file. One at a time.
-class SetDesk {
+class BackgroundSaver {
   public:
     /// With a `path` sets are saved there, the second as PATH-2; without one where the program was
     /// started, named for the time. The show must outlive it. Throws Error for a path that cannot
     /// be written.
-    SetDesk(LiveShow& show, std::filesystem::path path);
+    BackgroundSaver(LiveShow& show, std::filesystem::path path);
 
     /// Begins to save; what is wrong with that shows in the log and state.
     void save();
@@ -30,7 +30,7 @@ class SetDesk {
     State state() const;
 
   private:
-    void write(std::future<LearntSet> set, const std::filesystem::path& path);
+    void write(std::future<Background> set, const std::filesystem::path& path);
 
     LiveShow& show_;
     std::filesystem::path path_;

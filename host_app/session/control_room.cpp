@@ -12,12 +12,12 @@ constexpr std::chrono::milliseconds timecode_period{250};
 
 ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
     if (urls.empty()) return;
-    desk_.emplace(urls, ControlBench{show.controls().hands(), show.controls().tracked(), tally_,
+    desk_.emplace(urls, ControlBench{show.controls().operator_input(), show.controls().tracked(), tally_,
                                      lamps_, ltc_});
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
-                             const std::string& saved_set, MonotonicTime now) {
+                             const std::string& saved_background, MonotonicTime now) {
     if (!desk_) return;
     const ProgrammeState state = show.state();
     const FlightControls::Lines lines = show.controls().lines();
@@ -31,13 +31,13 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
     lamps.set = -1;
-    for (const RigSetState& set : show.instant_books().sets)
+    for (const RigBackgroundState& set : show.instant_stats().sets)
         lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
-    lamps.saved_set = saved_set;
+    lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
     lamps.preview_tally = tally.preview;
-    lamps.hands_preview = lines.preview.has_value();
+    lamps.input_flies_preview = lines.preview.has_value();
     lamps.fly_to_preview = lines.preview ? lines.preview->fly_progress.value_or(-1) : -1;
     lamps.fly_to_preview_s = lines.fly_to_preview_s;
     lamps.tracked = lines.is_tracked;
@@ -52,7 +52,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.synthesiser = state.synthesiser;
     lamps.render_level = state.render_level();
     lamps.prepare_level = state.prepare_level();
-    lamps.repeated_ticks = static_cast<double>(show.books().repeated);
+    lamps.repeated_ticks = static_cast<double>(show.stats().repeated);
     show_replay(state);
     lamps.film = false;
     const std::vector<OutputState> outputs = show.outputs().states();

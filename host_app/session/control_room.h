@@ -6,7 +6,7 @@
 
 #include "common/take/take_recorder.h"
 #include "host_app/control/ports/control_ports.h"
-#include "host_app/output/set_timecode.h"
+#include "host_app/output/frame_set_timecode.h"
 #include "host_app/session/live_show.h"
 
 namespace vantage {
@@ -19,7 +19,7 @@ class ControlRoom {
 
     /// To be called often, from the session's thread. `take`: nothing: none can be recorded.
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
-                    const std::string& saved_set, MonotonicTime now);
+                    const std::string& saved_background, MonotonicTime now);
     Tally::State tally() const { return tally_.state(); }
     LtcBoard::State ltc() const { return ltc_.state(); }
     /// What the ports have counted so far.
@@ -36,7 +36,7 @@ class ControlRoom {
     std::optional<SetTimecode> timecodes_;
     ShowLamps shown_;
     MonotonicTime timecode_shown_{};
-    std::optional<ControlDesk> desk_;
+    std::optional<ControlPorts> desk_;
 };
 
 }  // namespace vantage

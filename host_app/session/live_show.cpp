@@ -63,15 +63,15 @@ std::string checked_renderer(ContextGroup& contexts) {
 }
 
 /// The pulse at which a take begins.
-std::optional<double> begin_of(const PastSets* take) {
+std::optional<double> begin_of(const PastFrameSets* take) {
     if (!take) return std::nullopt;
-    const std::optional<PastSets::Span> span = take->span();
+    const std::optional<PastFrameSets::Span> span = take->span();
     return span ? std::optional(static_cast<double>(span->oldest)) : std::nullopt;
 }
 
 const LiveSettings& checked(const LiveSettings& settings) {
     const SynthesiserEntry entry = find_synthesiser(settings.synthesiser);
-    if (settings.source_map) NoveltyOverlay::require(entry.tells_origins, entry.name);
+    if (settings.source_map) SourceMapOverlay::require(entry.tells_origins, entry.name);
     if (settings.format.stereoscopy)
         (void)settings.format.stereoscopy->settled(
             view_of(CameraState{}, {settings.format.width_px, settings.format.height_px}), 1);
@@ -80,7 +80,7 @@ const LiveSettings& checked(const LiveSettings& settings) {
 
 }  // namespace
 
-OutputDesk::Settings output_settings(const LiveSettings& settings) {
+OutputSupervisor::Settings output_settings(const LiveSettings& settings) {
     return {.format = {.width_px = settings.format.width_px,
                        .height_px = settings.format.height_px,
                        .rate_hz = settings.rate_hz,
@@ -92,13 +92,13 @@ OutputDesk::Settings output_settings(const LiveSettings& settings) {
 }
 
 LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
-                   JogDeck* deck)
+                   JogDevices* deck)
     : settings_(checked(settings)),
       plan_(plan),
       renderer_(checked_renderer(contexts_)),
       instants_({.pulse_rate_hz = settings.pulse_rate_hz,
                  .replay_bytes = settings.replay_bytes,
-                 .harmonise = settings.harmonise,
+                 .compensate_gains = settings.compensate_gains,
                  .colours = settings.colours,
                  .take = settings.take,
                  .set = settings.set},
@@ -127,7 +127,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
 
 bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
     const MonotonicTime deadline = MonotonicClock::now() + limit;
-    const auto newest_set = [&]() -> const FrameSet* {
+    const auto newest_frame_set = [&]() -> const FrameSet* {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         return ready ? ready->set.get() : nullptr;
     };
@@ -136,7 +136,7 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
     while (MonotonicClock::now() < deadline) {
         if (stop.wait_for(std::chrono::milliseconds(20))) {
             log_info("interrupted while waiting for the rigs, before anything was flown: {}",
-                     states_of_missing(status(), newest_set()));
+                     states_of_missing(status(), newest_frame_set()));
             return false;
         }
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
@@ -146,9 +146,9 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         if (!now.rigs.empty() &&
             std::all_of(now.rigs.begin(), now.rigs.end(),
                         [](const RigStatus& rig) { return !rig.refused.empty(); }))
-            fail("every rig refuses this host: {}", states_of_missing(now, newest_set()));
+            fail("every rig refuses this host: {}", states_of_missing(now, newest_frame_set()));
         if (MonotonicClock::now() - said >= waiting_report_period) {
-            log_info("still waiting for frames: {}", states_of_missing(now, newest_set()));
+            log_info("still waiting for frames: {}", states_of_missing(now, newest_frame_set()));
             said = MonotonicClock::now();
         }
     }
@@ -157,11 +157,11 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         fail("no frame of any rig came within {:g} s; are the rigs running? ({})", limit_s,
              states_of_missing(status(), nullptr));
     log_warning("after {:g} s these rigs are missing: {}", limit_s,
-                states_of_missing(status(), newest_set()));
+                states_of_missing(status(), newest_frame_set()));
     return true;
 }
 
-bool LiveShow::wait_for_first_set(StopSignal& stop) {
+bool LiveShow::wait_for_first_frame_set(StopSignal& stop) {
     while (!instants_.newest())
         if (stop.wait_for(std::chrono::milliseconds(5))) return false;
     return true;
@@ -231,11 +231,11 @@ SignalState LiveShow::signal_of(const ReceiverStatus& status, const ProgrammeSta
 
 LiveReport LiveShow::report() const {
     const ReceiverStatus status = last_status_.value_or(this->status());
-    const InstantThread::Books instants = instants_.books();
+    const InstantThread::Stats instants = instants_.stats();
     LiveReport report;
     report.format = settings_.format;
     report.rate_hz = settings_.rate_hz;
-    report.programme = programme_.books();
+    report.programme = programme_.stats();
     const ProgrammeState state = programme_.state();
     report.synthesiser = state.synthesiser;
     report.view = state.view;
@@ -254,10 +254,10 @@ LiveReport LiveShow::report() const {
     report.rig_steps = instants.rig_steps;
     report.faults = instants.faults + report.programme.faults;
     report.contexts_lost = contexts_.losses();
-    report.sets_closed = status.sets;
-    report.sets_complete = status.complete_sets;
-    report.sets_dropped = status.sets_dropped;
-    report.sets_superseded = instants.superseded.sets;
+    report.frame_sets_closed = status.sets;
+    report.frame_sets_complete = status.complete_frame_sets;
+    report.frame_sets_dropped = status.frame_sets_dropped;
+    report.frame_sets_superseded = instants.superseded.sets;
     const auto count_of = [](const RigCounts& counts, const std::string& rig) {
         const auto found = counts.find(rig);
         return found == counts.end() ? 0 : found->second;
@@ -265,9 +265,9 @@ LiveReport LiveShow::report() const {
     for (const RigStatus& rig : status.rigs) {
         RigAccount account{rig, count_of(instants.frames, rig.rig),
                            count_of(instants.superseded.frames, rig.rig)};
-        if (const auto harmony = instants.harmony.find(rig.rig); harmony != instants.harmony.end())
-            account.harmony = harmony->second;
-        for (const RigSetState& set : instants.sets)
+        if (const auto gain_compensation = instants.gain_compensation.find(rig.rig); gain_compensation != instants.gain_compensation.end())
+            account.gain_compensation = gain_compensation->second;
+        for (const RigBackgroundState& set : instants.sets)
             if (set.rig == rig.rig) account.set = set;
         report.rigs.push_back(std::move(account));
     }
@@ -279,7 +279,7 @@ LiveReport LiveShow::report() const {
                 view_of(state.picture->job.camera,
                         {settings_.format.width_px, settings_.format.height_px}),
                 state.picture->job.camera.focus_m);
-        if (state.picture->sources) report.novelty = state.picture->sources->shares;
+        if (state.picture->sources) report.source_map = state.picture->sources->shares;
     }
     if (settings_.sound) report.sound = settings_.sound->state();
     report.outputs = outputs_.states();

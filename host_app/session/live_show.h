@@ -25,25 +25,25 @@ struct LiveSettings {
     double pulse_rate_hz = 30;     ///< of the stage
     std::size_t replay_bytes = 0;  ///< of frames kept to go back to; 0: none
     std::string synthesiser = default_synthesiser;
-    QualityWish quality;
+    QualityRequest quality;
     bool source_map = false;                ///< shown at first
     std::vector<std::string> outputs = {};  ///< URLs and files (see OutputUrl)
     std::string encoder = {};               ///< of the outputs; empty: chosen by trying
     bool overwrites = false;                ///< a film that is there may be replaced
     std::filesystem::path contact_sheet;    ///< empty: none
     bool free_flight = false;               ///< hands may leave the corridor
-    bool harmonise = true;                  ///< the rigs' colours, by a ColourHarmoniser
+    bool compensate_gains = true;                  ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
     SyncProof sync_proof = {};                             ///< of a live stage
-    std::shared_ptr<const LearntSet> set = nullptr;        ///< that rigs begin with; null: none
-    std::shared_ptr<const PastSets> take = nullptr;        ///< that is played; null: a live stage
+    std::shared_ptr<const Background> set = nullptr;        ///< that rigs begin with; null: none
+    std::shared_ptr<const PastFrameSets> take = nullptr;        ///< that is played; null: a live stage
     Replay replay = {};                                    ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
     std::shared_ptr<PictureSound> sound = nullptr;         ///< of the programme; null: none
 };
 
 /// The outputs that these settings ask for.
-OutputDesk::Settings output_settings(const LiveSettings& settings);
+OutputSupervisor::Settings output_settings(const LiveSettings& settings);
 
 /// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
 /// books of all of them. All work is done on threads and OpenGL contexts of its own.
@@ -52,7 +52,7 @@ class LiveShow {
     /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
     /// or there can be no stereoscopic picture of this width, or an output cannot be.
     /// Without a deck no wheel flies; else it must outlive the show.
-    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDeck* deck);
+    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDevices* deck);
 
     /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
     /// there and says which are missing. Throws Error, with every rig's state, if none came, and at
@@ -60,7 +60,7 @@ class LiveShow {
     bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
 
     /// Of a take: until its first instant is ready. False: the program was asked to stop meanwhile.
-    bool wait_for_first_set(StopSignal& stop);
+    bool wait_for_first_frame_set(StopSignal& stop);
 
     /// Another output. Before start().
     void add(std::unique_ptr<PictureSink> sink) { programme_.add(std::move(sink)); }
@@ -75,8 +75,8 @@ class LiveShow {
     LiveReport report() const;
 
     const LiveSettings& settings() const { return settings_; }
-    OutputDesk& outputs() { return outputs_; }
-    const OutputDesk& outputs() const { return outputs_; }
+    OutputSupervisor& outputs() { return outputs_; }
+    const OutputSupervisor& outputs() const { return outputs_; }
     FlightControls& controls() { return controls_; }
     const FlightControls& controls() const { return controls_; }
     /// Null until the stage is known.
@@ -84,15 +84,15 @@ class LiveShow {
     /// Where the rigs stand; nothing until the stage is known.
     std::optional<StagePlaces> places() const { return stage_corridor_.places(); }
     ProgrammeState state() const { return programme_.state(); }
-    ProgrammeBooks books() const { return programme_.books(); }
-    InstantThread::Books instant_books() const { return instants_.books(); }
+    ProgrammeStats stats() const { return programme_.stats(); }
+    InstantThread::Stats instant_stats() const { return instants_.stats(); }
     ReceiverStatus status() const { return instants_.status(); }
     /// Of now; after finish(), as it was when that began.
     SignalState signal() const { return last_signal_.value_or(signal_of(status(), state())); }
     std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
     /// As InstantThread's.
-    void learn_set_anew() { instants_.learn_set_anew(); }
-    std::future<LearntSet> learnt_set() { return instants_.learnt_set(); }
+    void learn_background_anew() { instants_.learn_background_anew(); }
+    std::future<Background> background() { return instants_.background(); }
 
   private:
     std::optional<OrbitView> rig_view(int number) const;
@@ -108,7 +108,7 @@ class LiveShow {
     InstantThread instants_;
     StageCorridor stage_corridor_;
     FlightControls controls_;
-    OutputDesk outputs_;
+    OutputSupervisor outputs_;
     Programme programme_;
     std::optional<MonotonicTime> framing_since_;  ///< of the programme's thread
     std::optional<ReceiverStatus> last_status_;

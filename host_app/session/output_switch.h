@@ -12,7 +12,7 @@ namespace vantage {
 /// second press within three seconds.
 class OutputSwitch {
   public:
-    explicit OutputSwitch(OutputDesk& desk) : desk_(desk) {}
+    explicit OutputSwitch(OutputSupervisor& desk) : desk_(desk) {}
 
     /// `number`: from 1 on; of one that there is not question() says so.
     void press(int number, MonotonicTime now);
@@ -25,7 +25,7 @@ class OutputSwitch {
         std::string words;
         MonotonicTime until;
     };
-    OutputDesk& desk_;
+    OutputSupervisor& desk_;
     std::optional<Asked> asked_;
 };
 

@@ -18,7 +18,7 @@
 #include "host_app/metrics/open_metrics.h"
 #include "host_app/output/media/picture_encoder.h"
 #include "host_app/output/picture_target.h"
-#include "host_app/output/set_timecode.h"
+#include "host_app/output/frame_set_timecode.h"
 #include "host_app/replay/past_time.h"
 #include "host_app/session/corridor_watch.h"
 #include "host_app/session/options/help_words.h"
@@ -50,15 +50,15 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         .rate_hz = PulseGrid(rate.empty() ? pulse_rate_hz : parse_rate(rate)).rate_hz(),
         .pulse_rate_hz = pulse_rate_hz,
         .synthesiser = synthesiser.empty() ? view.synthesiser : synthesiser,
-        .quality = QualityWish::parse(quality),
-        .source_map = novelty,
+        .quality = QualityRequest::parse(quality),
+        .source_map = source_map,
         .outputs = {},
         .encoder = encoder,
         .overwrites = overwrite,
         .contact_sheet = contact_sheet,
         .free_flight = free_flight,
-        .harmonise = harmonise};
-    if (!set.empty()) settings.set = std::make_shared<const LearntSet>(load_set(set));
+        .compensate_gains = compensate_gains};
+    if (!set.empty()) settings.set = std::make_shared<const Background>(load_set(set));
     if (!size.empty()) {
         const cv::Size wanted = parse_size(size);
         settings.format.width_px = wanted.width;
@@ -70,7 +70,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         else
             settings.outputs.push_back(url);
     if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
-    OutputDesk::check(output_settings(settings));
+    OutputSupervisor::check(output_settings(settings));
     (void)find_synthesiser(settings.synthesiser);
     return settings;
 }
@@ -120,9 +120,9 @@ FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights
     return plan;
 }
 
-std::unique_ptr<JogDeck> ShowOptions::make_deck() const {
+std::unique_ptr<JogDevices> ShowOptions::make_deck() const {
     if (!jog.value_or(!headless)) return nullptr;
-    return std::make_unique<JogDeck>(make_system_jog_bus(), load_all_wheel_profiles(wheels));
+    return std::make_unique<JogDevices>(make_system_jog_bus(), load_all_wheel_profiles(wheels));
 }
 
 void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
@@ -187,7 +187,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_option("--set", set,
                        "Begin with this set, which was learnt before (.vset): rigs whose "
                        "calibration is another learn theirs anew");
-    command.add_option("--save-set", saved_set,
+    command.add_option("--save-set", saved_background,
                        "Save what was learnt of the set here at the end, or with the key J; "
                        "without this the key names the file for the time");
     command.add_option("--encoder", encoder,
@@ -211,10 +211,10 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
     command.add_flag("--overwrite", overwrite,
                      "Let films and pictures replace files that are there");
     command.add_flag_callback(
-        "--no-harmonise", [this] { harmonise = false; },
+        "--no-harmonise", [this] { compensate_gains = false; },
         "Leave the rigs' colours as the calibration makes them; without this, small gains take out "
         "slowly what differs where rigs show the same surface");
-    command.add_flag("--novelty", novelty,
+    command.add_flag("--novelty", source_map,
                      "Show which rigs the pixels come from, a colour a rig, what none has seen "
                      "hatched (key N); on screen and in snapshots, never in films");
     command
@@ -235,7 +235,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& default_rate) {
 void ShowSession::run(StopSignal& stop) {
     for (const std::string& url : options.outputs)
         if (is_freed_url(url)) show.add(make_freed_sink(url));
-    SetDesk sets(show, options.saved_set);
+    BackgroundSaver sets(show, options.saved_background);
     ControlRoom room(options.controls, show);
     if (!options.metrics.empty()) metrics.emplace(options.metrics);
     if (options.headless)
@@ -246,21 +246,21 @@ void ShowSession::run(StopSignal& stop) {
 
 /// Ends the files, prints the summary, writes the last picture if there was one. Throws Error with
 /// the names of outputs that failed, a take among them.
-void ShowSession::finish(ControlRoom& room, SetDesk& sets, const CorridorWatch& corridor,
+void ShowSession::finish(ControlRoom& room, BackgroundSaver& sets, const CorridorWatch& corridor,
                          const std::function<ColourImage()>& last_picture) {
-    if (!options.saved_set.empty() && sets.state().path.empty()) sets.save();
+    if (!options.saved_background.empty() && sets.state().path.empty()) sets.save();
     sets.finish();
     show.finish();
     if (takes) takes->finish();
     show.controls().end_recording();
     for (const std::string& wheel : show.controls().wheels().unsaved())
         log_warning("the map of {} was changed and not saved: it is gone", wheel);
-    keep_flights(show.controls().take_wishes());
+    keep_flights(show.controls().take_requests());
     flights.finish();
     clips.follow(show.state().replay.book, MonotonicClock::now());
     clips.finish();
     LiveReport report = report_now();
-    report.saved_set = sets.state().path;
+    report.saved_background = sets.state().path;
     report.played = played;
     report.ports = room.close();
     report.uncovered = corridor.uncovered_parts();
@@ -281,9 +281,9 @@ void ShowSession::finish(ControlRoom& room, SetDesk& sets, const CorridorWatch& 
         fail("the programme went to its end without an output: {}", fmt::join(failures, "; "));
 }
 
-void ShowSession::keep_flights(const SessionWishes& wishes) {
-    if (wishes.change) flights.keep(*wishes.change);
-    if (!wishes.flight.empty()) flights.simplify(wishes.flight, wishes.limits);
+void ShowSession::keep_flights(const SessionRequests& requests) {
+    if (requests.change) flights.keep(*requests.change);
+    if (!requests.flight.empty()) flights.simplify(requests.flight, requests.limits);
 }
 
 /// To a time that somebody has typed.
@@ -324,23 +324,23 @@ void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
 
 /// Finds surfaces for hands that name them by a place in the picture, and the performer whom the
 /// pivot goes with.
-void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
+void ShowSession::find_pivots(const SessionRequests& requests, MonotonicTime now) {
     FlightControls& controls = show.controls();
     const std::vector<FlightControls::Following> following = controls.lines().following;
-    if (!wishes.pick && following.empty()) return;
+    if (!requests.pick && following.empty()) return;
     const ProgrammeState programme = show.state();
     if (!programme.picture) return;
     // Hands pick in the picture of the camera that they fly.
     const MadePicture& seen =
         programme.preview.picture ? *programme.preview.picture : *programme.picture;
-    if (wishes.pick) {
+    if (requests.pick) {
         const PictureFormat& format = show.settings().format;
         FlightInput input;
         input.pivot_m =
             surface_at(*seen.job.instant->set, seen.job.camera,
-                       static_cast<double>(format.height_px) / format.width_px, *wishes.pick);
+                       static_cast<double>(format.height_px) / format.width_px, *requests.pick);
         if (input.pivot_m)
-            controls.hands().put(input, now);
+            controls.operator_input().put(input, now);
         else
             log_info("no rig has a depth there: the pivot stays");
     }
@@ -348,29 +348,29 @@ void ShowSession::find_pivots(const SessionWishes& wishes, MonotonicTime now) {
     if (following.empty() || set.complete == followed) return;
     followed = set.complete;
     for (const auto& [camera, pivot_m] : following)
-        if (const auto there_m = performer_near(set, pivot_m)) controls.follow({camera, *there_m});
+        if (const auto there_m = foreground_near(set, pivot_m)) controls.follow({camera, *there_m});
 }
 
 /// What hands asked for beyond the programme itself.
-void ShowSession::follow_wishes(OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
+void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& sets, ControlRoom& room,
                                 MonotonicTime now) {
-    const SessionWishes wishes = show.controls().take_wishes();
-    keep_flights(wishes);
-    find_pivots(wishes, now);
-    if (!wishes.cue_time.empty()) cue_time(wishes.cue_time);
+    const SessionRequests requests = show.controls().take_requests();
+    keep_flights(requests);
+    find_pivots(requests, now);
+    if (!requests.cue_time.empty()) cue_time(requests.cue_time);
     follow_replay(now);
     if (std::optional<Move> move = flights.follow(now))
         show.controls().keep_flight(*std::move(move));
-    if (takes && wishes.toggle_take) takes->toggle();
-    for (const int number : wishes.outputs) outputs.press(number, now);
-    if (wishes.learn_set) show.learn_set_anew();
-    if (wishes.save_set) sets.save();
+    if (takes && requests.toggle_take) takes->toggle();
+    for (const int number : requests.outputs) outputs.press(number, now);
+    if (requests.learn_background) show.learn_background_anew();
+    if (requests.save_background) sets.save();
     show_metrics(room, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt, sets.state().path,
                     now);
 }
 
-void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets) {
+void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSaver& sets) {
     if (!wait(stop)) return;
     // A disk that is too slow is to be known before the first picture.
     while (takes && takes->state().phase == TakePhase::opening &&
@@ -384,7 +384,7 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, SetDesk& set
     ScreenWindows screens(false);
     const std::chrono::milliseconds look(show.outputs().screens().empty() ? 20 : 4);
     while (!show.is_over() && !stop.wait_for(look)) {
-        follow_wishes(outputs, sets, room, MonotonicClock::now());
+        follow_requests(outputs, sets, room, MonotonicClock::now());
         screens.follow(show.outputs().screens());
         progress.tell(show);
         corridor.tell(show);
@@ -395,7 +395,7 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, SetDesk& set
     });
 }
 
-void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets) {
+void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, BackgroundSaver& sets) {
     // Room for the desk around the picture, whatever the picture's size.
     constexpr int least_width_px = 1280, least_height_px = 720;
     const PictureFormat& format = show.settings().format;
@@ -421,9 +421,9 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& se
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
         if (const std::optional<double> pulse = window.take_seek()) show.controls().seek(*pulse);
         for (const WheelCall& call : window.take_wheel_calls()) show.controls().wheels().obey(call);
-        follow_wishes(outputs, sets, room, now);
+        follow_requests(outputs, sets, room, now);
         screens.follow(show.outputs().screens());
-        show.controls().hands().put(input, now);
+        show.controls().operator_input().put(input, now);
         last = now;
         const ProgrammeState programme = show.state();
         const bool is_new = programme.picture != shown;

@@ -26,7 +26,7 @@ namespace vantage {
 struct ShowOptions {
     std::string path, flight, clips, desk, snapshot, film, contact_sheet, size, synthesiser, wheels,
         encoder, rate;
-    std::string set, saved_set;
+    std::string set, saved_background;
     std::string metrics;  ///< where they are told; empty: nowhere
     std::string audio;    ///< where sound comes from; empty: nowhere
     std::optional<double> audio_delay_ms;
@@ -34,7 +34,7 @@ struct ShowOptions {
     std::string quality = "auto";
     std::uint64_t frames = 0;
     double seconds = 0;
-    bool headless = false, json = false, novelty = false, harmonise = true, overwrite = false;
+    bool headless = false, json = false, source_map = false, compensate_gains = true, overwrite = false;
     bool free_flight = false;
     StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
@@ -51,7 +51,7 @@ struct ShowOptions {
     ClipStore clip_store(const std::string& beside, double pulse_rate_hz) const;
     /// Likewise, as load_desk(). Nothing: there is no window.
     std::optional<DeskStore> desk_store(const std::string& beside) const;
-    std::unique_ptr<JogDeck> make_deck() const;
+    std::unique_ptr<JogDevices> make_deck() const;
     /// What `--audio` asks for, else what `source` is; null: no sound. `tap`: for a take. Throws
     /// Error as open_sound().
     std::shared_ptr<PictureSound> sound(double rate_hz, const SoundTap& tap,
@@ -63,11 +63,11 @@ struct ShowSession {
     const ShowOptions& options;
     LiveShow& show;
     const FlightPlan& plan;
-    const JogDeck* deck;
+    const JogDevices* deck;
     FlightStore& flights;
     ClipStore& clips;
     std::optional<DeskStore> desk;
-    TakeDesk* takes;     ///< null: nothing can be recorded
+    TakeControl* takes;     ///< null: nothing can be recorded
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.
     std::function<bool(StopSignal&)> wait;
@@ -79,17 +79,17 @@ struct ShowSession {
     void run(StopSignal& stop);
 
   private:
-    void run_headless(StopSignal& stop, ControlRoom& room, SetDesk& sets);
-    void run_in_window(StopSignal& stop, ControlRoom& room, SetDesk& sets);
-    void keep_flights(const SessionWishes& wishes);
+    void run_headless(StopSignal& stop, ControlRoom& room, BackgroundSaver& sets);
+    void run_in_window(StopSignal& stop, ControlRoom& room, BackgroundSaver& sets);
+    void keep_flights(const SessionRequests& requests);
     void cue_time(const std::string& words);
     void follow_replay(MonotonicTime now);
     LiveReport report_now() const;
     void show_metrics(const ControlRoom& room, MonotonicTime now);
-    void find_pivots(const SessionWishes& wishes, MonotonicTime now);
-    void follow_wishes(class OutputSwitch& outputs, SetDesk& sets, ControlRoom& room,
+    void find_pivots(const SessionRequests& requests, MonotonicTime now);
+    void follow_requests(class OutputSwitch& outputs, BackgroundSaver& sets, ControlRoom& room,
                        MonotonicTime now);
-    void finish(ControlRoom& room, SetDesk& sets, const class CorridorWatch& corridor,
+    void finish(ControlRoom& room, BackgroundSaver& sets, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);
 };
 

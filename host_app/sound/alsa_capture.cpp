@@ -47,7 +47,7 @@ float value_of(const std::uint8_t* bytes, int format) {
 
 }  // namespace
 
-void AlsaCapture::Closer::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
+void AlsaCapture::Inpainting::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
 
 AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right) : name_(name) {
     // ALSA would print it too.
@@ -78,13 +78,13 @@ AlsaCapture::~AlsaCapture() = default;
 
 void AlsaCapture::choose_format() {
     snd_pcm_t* device = device_.get();
-    snd_pcm_hw_params_t* wish = nullptr;
-    snd_pcm_hw_params_alloca(&wish);
-    int code = snd_pcm_hw_params_any(device, wish);
-    if (code >= 0) code = snd_pcm_hw_params_set_access(device, wish, SND_PCM_ACCESS_RW_INTERLEAVED);
+    snd_pcm_hw_params_t* request = nullptr;
+    snd_pcm_hw_params_alloca(&request);
+    int code = snd_pcm_hw_params_any(device, request);
+    if (code >= 0) code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
     if (code < 0) refuse("it has no way to be read", code);
     const auto format = std::find_if(formats.begin(), formats.end(), [&](snd_pcm_format_t each) {
-        return snd_pcm_hw_params_set_format(device, wish, each) == 0;
+        return snd_pcm_hw_params_set_format(device, request, each) == 0;
     });
     if (format == formats.end())
         fail("the sound device {} has samples of 16, 24 or 32 bits in no form that is known",
@@ -93,11 +93,11 @@ void AlsaCapture::choose_format() {
     rate_hz_ = sound_rate_hz;
     channels_ = sound_channels;
     unsigned buffer = buffer_us, period = period_us;
-    snd_pcm_hw_params_set_rate_near(device, wish, &rate_hz_, nullptr);
-    snd_pcm_hw_params_set_channels_near(device, wish, &channels_);
-    snd_pcm_hw_params_set_buffer_time_near(device, wish, &buffer, nullptr);
-    snd_pcm_hw_params_set_period_time_near(device, wish, &period, nullptr);
-    if (code = snd_pcm_hw_params(device, wish); code < 0) refuse("it takes no settings", code);
+    snd_pcm_hw_params_set_rate_near(device, request, &rate_hz_, nullptr);
+    snd_pcm_hw_params_set_channels_near(device, request, &channels_);
+    snd_pcm_hw_params_set_buffer_time_near(device, request, &buffer, nullptr);
+    snd_pcm_hw_params_set_period_time_near(device, request, &period, nullptr);
+    if (code = snd_pcm_hw_params(device, request); code < 0) refuse("it takes no settings", code);
 }
 
 AlsaCapture::Piece AlsaCapture::read(std::chrono::milliseconds most) {

@@ -29,7 +29,7 @@ class AlsaCapture {
     Piece read(std::chrono::milliseconds most);
 
   private:
-    struct Closer {
+    struct Inpainting {
         void operator()(_snd_pcm* device) const;
     };
     void choose_format();
@@ -37,7 +37,7 @@ class AlsaCapture {
     [[noreturn]] void refuse(const char* what, int code) const;
 
     std::string name_;
-    std::unique_ptr<_snd_pcm, Closer> device_;
+    std::unique_ptr<_snd_pcm, Inpainting> device_;
     int format_ = 0;
     unsigned rate_hz_ = 0, channels_ = 0;
     std::size_t left_ = 0, right_ = 0;

@@ -86,14 +86,14 @@ class AlsaSound final : public SoundSource {
             if (tap_) tap_(block);
         }
         {
-            const SoundPlacer::Books& books = placer_.books();
+            const SoundPlacer::Stats& stats = placer_.stats();
             const std::lock_guard lock(mutex_);
-            state_.heard = books.heard;
-            state_.lost = books.lost;
-            state_.dropped = books.dropped;
-            state_.inserted = books.inserted;
-            state_.removed = books.removed;
-            state_.drift_ppm = books.drift_ppm();
+            state_.heard = stats.heard;
+            state_.lost = stats.lost;
+            state_.dropped = stats.dropped;
+            state_.inserted = stats.inserted;
+            state_.removed = stats.removed;
+            state_.drift_ppm = stats.drift_ppm();
         }
         // Some devices that are none give as fast as they are asked.
         const std::chrono::nanoseconds early =

@@ -20,14 +20,14 @@ SoundBlock SoundPlacer::place(std::span<const float> block, TaiTime heard_until)
     const auto count = static_cast<std::int64_t>(block.size() / sound_channels);
     const std::int64_t end = sound_sample_at(heard_until);
     if (!next_) next_ = end - count;
-    books_.heard += static_cast<std::uint64_t>(count);
+    stats_.heard += static_cast<std::uint64_t>(count);
     const std::int64_t late = end - (*next_ + count);
     if (late < -break_samples) {
-        books_.dropped += static_cast<std::uint64_t>(count);
+        stats_.dropped += static_cast<std::uint64_t>(count);
         return {*next_, {}};
     }
     if (late > break_samples) {
-        books_.lost += static_cast<std::uint64_t>(late);
+        stats_.lost += static_cast<std::uint64_t>(late);
         *next_ += late;
         late_ = 0;
     } else {
@@ -38,7 +38,7 @@ SoundBlock SoundPlacer::place(std::span<const float> block, TaiTime heard_until)
     if (std::abs(late_) > mended_samples) {
         mend = late_ > 0 ? 1 + count / mend_share : -1 - count / mend_share;
         late_ -= static_cast<double>(mend);
-        (mend > 0 ? books_.inserted : books_.removed) += static_cast<std::uint64_t>(std::abs(mend));
+        (mend > 0 ? stats_.inserted : stats_.removed) += static_cast<std::uint64_t>(std::abs(mend));
     }
     SoundBlock placed{
         *next_,

@@ -14,7 +14,7 @@ class SoundPlacer {
     /// system needed to say so. Empty: it came far too early, and is dropped.
     SoundBlock place(std::span<const float> block, TaiTime heard_until);
 
-    struct Books {
+    struct Stats {
         std::uint64_t heard = 0, lost = 0, dropped = 0, inserted = 0, removed = 0;
         /// Of the device's clock, ahead of this computer's.
         double drift_ppm() const {
@@ -24,12 +24,12 @@ class SoundPlacer {
                              static_cast<double>(heard);
         }
     };
-    const Books& books() const { return books_; }
+    const Stats& stats() const { return stats_; }
 
   private:
     std::optional<std::int64_t> next_;
     double late_ = 0;  ///< by how many samples blocks come after their place, over some seconds
-    Books books_;
+    Stats stats_;
 };
 
 }  // namespace vantage

@@ -11,8 +11,8 @@ namespace vantage {
 
 /// What a rig has learnt of the depth of its set, rgba32f in two copies, of which the one before is
 /// read while the next is drawn, and what the newest instant shows against it, rgba8 (see
-/// set_see.frag). The first channel of the former is the set's depth in metres.
-class SetState {
+/// background_compare.frag). The first channel of the former is the set's depth in metres.
+class BackgroundState {
   public:
     /// Whether state() and seen() hold anything.
     bool is_drawn() const { return is_drawn_; }

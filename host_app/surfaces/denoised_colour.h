@@ -11,7 +11,7 @@ namespace vantage {
 /// A rig's picture without the noise that stands still, and the mean of instants that it is made
 /// of: rgba8 with a mip chain, and rgba16f in two copies, of which the one before is read while the
 /// next is drawn. The mean's alpha counts its instants, and falls where the picture changes.
-class SteadyColour {
+class DenoisedColour {
   public:
     /// Whether picture() and mean() hold anything.
     bool is_drawn() const { return is_drawn_; }

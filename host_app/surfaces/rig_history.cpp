@@ -11,7 +11,7 @@ constexpr std::size_t most_right_pictures = 16;
 }  // namespace
 
 void RigHistory::forget() {
-    steady_colour_.forget();
+    denoised_colour_.forget();
     set_.forget();
     learnt_instants_ = 0;
     model_.reset();
@@ -32,11 +32,11 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
         colour_ && colour_->size() == view.colour.size() && depth().size() == view.depth_size() &&
         camera_.K == view.K &&
         camera_.world_from_camera.matrix() == view.world_from_camera.matrix();
-    dt_s_ = is_same_camera && !is_set_learnt_ ? dt_s_ + dt_s : dt_s;
+    dt_s_ = is_same_camera && !is_background_learnt_ ? dt_s_ + dt_s : dt_s;
     if (!is_same_camera) forget();
     if (!prepared_rank_) hide();
     prepared_rank_.reset();
-    is_colour_steady_ = is_set_learnt_ = false;
+    is_colour_denoised_ = is_background_learnt_ = false;
     if (view.right_jpeg && (right_jpegs_.empty() || right_jpegs_.back() != view.right_jpeg))
         right_jpegs_.push_back(view.right_jpeg);
     if (right_jpegs_.size() > most_right_pictures) right_jpegs_.pop_front();
@@ -49,7 +49,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     samples_ = surface_samples(view);
 }
 
-void RigHistory::set_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+void RigHistory::background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
                            const ColourImage& colour) {
     const auto texture = [](TextureFormat format, const cv::Mat& image) {
         Texture filled(format, image.cols, image.rows);

@@ -35,37 +35,37 @@ class RigHistory {
     /// rgba8: fresh_colour(), without mip levels, or, trilinear, what finish_colour() saw drawn of
     /// it since.
     const Texture& colour() const {
-        return is_colour_steady_ ? steady_colour_.picture() : fresh_colour();
+        return is_colour_denoised_ ? denoised_colour_.picture() : fresh_colour();
     }
     const Texture& fresh_colour() const { return *colour_; }
-    bool has_colour_before() const { return steady_colour_.is_drawn(); }
+    bool has_colour_before() const { return denoised_colour_.is_drawn(); }
     /// Precondition: has_colour_before(). After finish_colour() that of this upload.
-    const Texture& colour_mean() const { return steady_colour_.mean(); }
-    const Framebuffer& next_colour_target() { return steady_colour_.next_target(colour_->size()); }
+    const Texture& colour_mean() const { return denoised_colour_.mean(); }
+    const Framebuffer& next_colour_target() { return denoised_colour_.next_target(colour_->size()); }
     void finish_colour() {
-        steady_colour_.finish();
-        is_colour_steady_ = true;
+        denoised_colour_.finish();
+        is_colour_denoised_ = true;
     }
     /// Before finish_colour()'s picture is read at coarser levels.
-    void generate_mipmaps() { steady_colour_.generate_mipmaps(); }
+    void generate_mipmaps() { denoised_colour_.generate_mipmaps(); }
     /// The set's depth in the first channel; depth() itself where none was learnt of this upload.
-    const Texture& steady_depth() const { return is_set_learnt_ ? set_.state() : depth(); }
-    const SetState& set_state() const { return set_; }
-    SetState& set_to_learn() {
+    const Texture& steady_depth() const { return is_background_learnt_ ? set_.state() : depth(); }
+    const BackgroundState& background_state() const { return set_; }
+    BackgroundState& set_to_learn() {
         set_.resize(depth().size());
         return set_;
     }
     void finish_set() {
         set_.finish();
-        is_set_learnt_ = true;
+        is_background_learnt_ = true;
         ++learnt_instants_;
     }
     /// Begins with what was learnt before: the states of both, as they are read back.
-    void restore(const cv::Mat4f& set_state, const cv::Mat& colour_mean, int instants) {
+    void restore(const cv::Mat4f& background_state, const cv::Mat& colour_mean, int instants) {
         set_.resize(depth().size());
-        set_.restore(set_state);
-        steady_colour_.resize(colour_->size());
-        steady_colour_.restore(colour_mean);
+        set_.restore(background_state);
+        denoised_colour_.resize(colour_->size());
+        denoised_colour_.restore(colour_mean);
         learnt_instants_ = instants;
     }
     /// Instants that the set was learnt of.
@@ -80,7 +80,7 @@ class RigHistory {
         int made = 0;       ///< learnt_instants() by then
     };
     const std::optional<Model>& model() const { return model_; }
-    void set_model(const Model& model) {
+    void background_model(const Model& model) {
         model_ = model;
         shape_made_s_.reset();
     }
@@ -100,7 +100,7 @@ class RigHistory {
     };
     const std::optional<Match>& match() const { return match_; }
     /// All of one size: the depth's, or a part of it.
-    void set_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+    void background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
                    const ColourImage& colour);
     /// The set's depth with what of the match still holds, to be drawn and read.
     DrawnTexture& matched_depth() { return matched_depth_; }
@@ -112,8 +112,8 @@ class RigHistory {
     DrawnTexture& matte_tiles() { return matte_tiles_; }
     const Texture& matte_tiles() const { return matte_tiles_.texture(); }
     /// Their depth, r32f, metres, 0 = none, negative beyond the matte.
-    DrawnTexture& performer_depth() { return performer_depth_; }
-    const Texture& performer_depth() const { return performer_depth_.texture(); }
+    DrawnTexture& foreground_depth() { return foreground_depth_; }
+    const Texture& foreground_depth() const { return foreground_depth_.texture(); }
 
     /// Since the upload before, or the last one that was learnt of.
     double dt_s() const { return dt_s_; }
@@ -146,8 +146,8 @@ class RigHistory {
     DrawnTexture depth_{TextureFormat::r32f};
     std::unique_ptr<ColourCorrector> corrector_;  ///< null until a view needs one
     std::unique_ptr<DepthUploader> uploader_;     ///< likewise
-    SteadyColour steady_colour_;
-    SetState set_;
+    DenoisedColour denoised_colour_;
+    BackgroundState set_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
     std::optional<double> shape_made_s_;
@@ -156,8 +156,8 @@ class RigHistory {
     DrawnTexture matched_depth_{TextureFormat::r32f};
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};
     DrawnTexture matte_tiles_{TextureFormat::r8};
-    DrawnTexture performer_depth_{TextureFormat::r32f};
-    bool is_colour_steady_ = false, is_set_learnt_ = false;
+    DrawnTexture foreground_depth_{TextureFormat::r32f};
+    bool is_colour_denoised_ = false, is_background_learnt_ = false;
     std::shared_ptr<const RigSurface> surface_, performers_;
     std::optional<int> prepared_rank_;
     float presence_ = 1;

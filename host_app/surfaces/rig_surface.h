@@ -22,7 +22,7 @@ class RigSurface {
     /// What does not change with the colours.
     struct Shape {
         DrawnTexture depth{TextureFormat::r32f};
-        DrawnTexture trust{TextureFormat::r8};
+        DrawnTexture confidence{TextureFormat::r8};
         bool has_rims = false, has_fine_grid = true;
         std::optional<IndirectTriangles> triangles, coarse_triangles, rims;
         cv::Size grid_size;
@@ -35,7 +35,7 @@ class RigSurface {
         : shapes_(std::move(shapes)) {}
 
     /// Trust in a colour that is not seen now but was before: less than in any that is.
-    static constexpr float remembered_trust = 4.0f / 255;
+    static constexpr float remembered_confidence = 4.0f / 255;
 
     /// Camera, name and sizes; its pictures are empty.
     const DepthView& camera() const { return camera_; }
@@ -73,7 +73,7 @@ class RigSurface {
                 std::unique_ptr<DepthUploader>& uploader);
     const Framebuffer& depth_target() const { return shape_->depth.target(); }
     /// r8, of the picture's size: how far the depth lets its colours be trusted (see EdgeTrust).
-    DrawnTexture& trust() { return shape_->trust; }
+    DrawnTexture& confidence() { return shape_->confidence; }
     const Framebuffer& colour_target() const { return colour_.target(); }
     void finish_colour() { colour_.generate_mipmaps(); }
     const IndirectTriangles& rims_to_build();

@@ -26,7 +26,7 @@ cv::Vec3b of_hue(double hue) {
 
 }  // namespace
 
-cv::Vec3b novelty_colour(std::size_t rig) {
+cv::Vec3b source_colour(std::size_t rig) {
     // Told apart by those too who see colours differently (Okabe and Ito, 2008), but for its black.
     constexpr unsigned char palette[][3] = {{230, 159, 0},   {86, 180, 233}, {0, 158, 115},
                                             {240, 228, 66},  {0, 114, 178},  {213, 94, 0},
@@ -36,15 +36,15 @@ cv::Vec3b novelty_colour(std::size_t rig) {
     return of_hue(std::fmod(golden_turn * static_cast<double>(rig), 1.0));
 }
 
-nlohmann::ordered_json to_json(const NoveltyShares& shares) {
+nlohmann::ordered_json to_json(const SourceShares& shares) {
     return {{"rigs", shares.rigs}, {"filled", shares.filled}, {"remembered", shares.remembered}};
 }
 
-NoveltyShares novelty_shares(const ColourImage& picture, const PixelOrigins& origins) {
+SourceShares source_shares(const ColourImage& picture, const PixelOrigins& origins) {
     const ColourImage shares = origins.shares->download();
     assert(shares.size() == picture.size());
     cv::Vec4d sum(0, 0, 0, 0);
-    NoveltyShares result;
+    SourceShares result;
     for (const std::string& rig : origins.rigs) result.rigs[rig] = 0;
     const auto pixels = static_cast<double>(picture.total());
     for (int y = 0; y < picture.rows; ++y)
@@ -66,7 +66,7 @@ NoveltyShares novelty_shares(const ColourImage& picture, const PixelOrigins& ori
     return result;
 }
 
-void NoveltyOverlay::require(bool can_tell, const std::string& name) {
+void SourceMapOverlay::require(bool can_tell, const std::string& name) {
     if (!can_tell)
         fail(
             "the synthesiser '{}' cannot tell which rig a pixel comes from, so that there is no "
@@ -74,18 +74,18 @@ void NoveltyOverlay::require(bool can_tell, const std::string& name) {
             name, default_synthesiser);
 }
 
-void NoveltyOverlay::name_rigs(const std::vector<std::string>& rigs) {
+void SourceMapOverlay::name_rigs(const std::vector<std::string>& rigs) {
     for (const std::string& rig : rigs) colour_of(rig);
 }
 
-cv::Vec3b NoveltyOverlay::colour_of(const std::string& rig) {
+cv::Vec3b SourceMapOverlay::colour_of(const std::string& rig) {
     const auto known = std::find_if(legend_.begin(), legend_.end(),
                                     [&](const Key& key) { return key.rig == rig; });
     if (known != legend_.end()) return known->colour;
-    return legend_.emplace_back(Key{rig, novelty_colour(legend_.size())}).colour;
+    return legend_.emplace_back(Key{rig, source_colour(legend_.size())}).colour;
 }
 
-const Texture& NoveltyOverlay::lay(const Texture& picture, const PixelOrigins& origins) {
+const Texture& SourceMapOverlay::lay(const Texture& picture, const PixelOrigins& origins) {
     assert(origins.rigs.size() <= PixelOrigins::max_rigs);
     // Before anything is bound: making a texture binds it.
     overlaid_.resize(picture.size());
@@ -94,11 +94,11 @@ const Texture& NoveltyOverlay::lay(const Texture& picture, const PixelOrigins& o
     program.set("shares", 1);
     for (std::size_t i = 0; i < origins.rigs.size(); ++i)
         program.set(fmt::format("rig_colour[{}]", i), as_float(colour_of(origins.rigs[i])));
-    program.set("filled_colour", as_float({novelty_filled_colour[0], novelty_filled_colour[1],
-                                           novelty_filled_colour[2]}));
+    program.set("filled_colour", as_float({source_map_inpainted_colour[0], source_map_inpainted_colour[1],
+                                           source_map_inpainted_colour[2]}));
     program.set("remembered_colour",
-                as_float({novelty_remembered_colour[0], novelty_remembered_colour[1],
-                          novelty_remembered_colour[2]}));
+                as_float({source_map_remembered_colour[0], source_map_remembered_colour[1],
+                          source_map_remembered_colour[2]}));
     program.set("remembered_alpha", remembered_alpha / 255.0f);
     picture.bind(0);
     origins.shares->bind(1);

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds longest_wait{100};
 
 }  // namespace
 
-std::vector<FetchBooks> KeptFetch::run(const StageConfig& stage,
+std::vector<FetchStats> KeptFetch::run(const StageConfig& stage,
                                        const std::function<bool()>& is_stopped,
                                        const Progress& progress) const {
     for (const std::string& name : rigs)
@@ -45,12 +45,12 @@ std::vector<FetchBooks> KeptFetch::run(const StageConfig& stage,
             std::move(files), patience));
     }
 
-    const auto books = [&] {
-        std::vector<FetchBooks> all;
-        for (const auto& fetch : fetches) all.push_back(fetch->books());
+    const auto stats = [&] {
+        std::vector<FetchStats> all;
+        for (const auto& fetch : fetches) all.push_back(fetch->stats());
         return all;
     };
-    const auto is_done = [](const auto& fetch) { return fetch->books().is_done; };
+    const auto is_done = [](const auto& fetch) { return fetch->stats().is_done; };
     BandwidthBudget budget(bytes_s);
     MonotonicTime next_progress = MonotonicClock::now() + progress_period;
     for (std::size_t turn = 0;
@@ -61,7 +61,7 @@ std::vector<FetchBooks> KeptFetch::run(const StageConfig& stage,
             fetches[(turn + i) % fetches.size()]->turn(budget, now);
         if (now >= next_progress) {
             next_progress = now + progress_period;
-            progress(books());
+            progress(stats());
         }
         std::vector<zmq::pollitem_t> items;
         for (const auto& fetch : fetches) {
@@ -73,7 +73,7 @@ std::vector<FetchBooks> KeptFetch::run(const StageConfig& stage,
                                          : longest_wait);
     }
     for (const auto& fetch : fetches) fetch->finish();
-    return books();
+    return stats();
 }
 
 }  // namespace vantage

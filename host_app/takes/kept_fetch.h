@@ -22,11 +22,11 @@ struct KeptFetch {
     double bytes_s = 20e6;                   ///< of all rigs together
     std::chrono::nanoseconds patience = std::chrono::seconds(10);  ///< with a rig that is silent
 
-    using Progress = std::function<void(const std::vector<FetchBooks>&)>;
+    using Progress = std::function<void(const std::vector<FetchStats>&)>;
     /// Brings it, all rigs side by side, and comes back when every rig has given what it keeps or
     /// came to an end otherwise, or when `is_stopped`. `progress` is called now and then. Throws
     /// Error for keys, endpoints and names that cannot be, and if the disk fails.
-    std::vector<FetchBooks> run(const StageConfig& stage, const std::function<bool()>& is_stopped,
+    std::vector<FetchStats> run(const StageConfig& stage, const std::function<bool()>& is_stopped,
                                 const Progress& progress) const;
 };
 

@@ -22,29 +22,29 @@ RigFetch::RigFetch(zmq::context_t& context, const StageConfig::Rig& rig,
       plan_(std::move(plan)),
       files_(std::move(files)),
       patience_(patience) {
-    books_.rig = rig.name;
+    stats_.rig = rig.name;
 }
 
 void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
     link_.watch(now);
     while (const std::optional<RigLink::Delivery> delivery = link_.receive(now))
-        if (!books_.is_done) take_in(*delivery, budget);
-    if (!books_.is_done) look_at(link_.view(now), now);
-    if (wish_ && !books_.is_done) {
-        const std::uint64_t most = std::min(window, wish_->to_pulse - next_pulse_);
-        while (wish_->granted < received_ + most && budget.may_spend(now)) {
-            ++wish_->granted;
+        if (!stats_.is_done) take_in(*delivery, budget);
+    if (!stats_.is_done) look_at(link_.view(now), now);
+    if (request_ && !stats_.is_done) {
+        const std::uint64_t most = std::min(window, request_->to_pulse - next_pulse_);
+        while (request_->granted < received_ + most && budget.may_spend(now)) {
+            ++request_->granted;
             budget.spend(expected_bytes_);
         }
     }
-    RigLink::Wish wish;
-    wish.streaming = false;
-    wish.fetch = books_.is_done ? std::nullopt : wish_;
-    link_.tick(wish, now);
+    RigLink::Request request;
+    request.streaming = false;
+    request.fetch = stats_.is_done ? std::nullopt : request_;
+    link_.tick(request, now);
 }
 
 void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget) {
-    if (!delivery.kept || !wish_ || delivery.message.fetch->id != wish_->id) return;
+    if (!delivery.kept || !request_ || delivery.message.fetch->id != request_->id) return;
     // Some were lost on the way, or the rig was started anew and begins again.
     if (delivery.message.fetch->sent != received_ + 1) {
         ask_anew();
@@ -58,23 +58,23 @@ void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budge
     try {
         frame = decode_kept_frame(*delivery.kept);
         const std::uint64_t pulse = frame.frame.record.pulse;
-        if (frame.rig.name != books_.rig || received_ > wish_->granted || pulse < next_pulse_ ||
-            pulse >= wish_->to_pulse)
+        if (frame.rig.name != stats_.rig || received_ > request_->granted || pulse < next_pulse_ ||
+            pulse >= request_->to_pulse)
             fail("it is of rig {} and pulse {}, and was not asked for", frame.rig.name, pulse);
         if (PulseGrid(frame.pulse_rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz())
             fail("it is of {:g} pulses a second, and the stage has {:g}", frame.pulse_rate_hz,
                  rate_hz_);
     } catch (const Error& error) {
-        end(fmt::format("a frame that rig {} keeps is refused: {}", books_.rig, error.what()));
+        end(fmt::format("a frame that rig {} keeps is refused: {}", stats_.rig, error.what()));
         return;
     }
     files_.add(frame);
     const std::uint64_t pulse = frame.frame.record.pulse;
-    books_.not_kept += pulse - next_pulse_;
-    books_.seen += pulse + 1 - next_pulse_;
+    stats_.not_kept += pulse - next_pulse_;
+    stats_.seen += pulse + 1 - next_pulse_;
     next_pulse_ = pulse + 1;
-    ++books_.frames;
-    books_.bytes += delivery.kept->bytes();
+    ++stats_.frames;
+    stats_.bytes += delivery.kept->bytes();
 }
 
 void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
@@ -87,7 +87,7 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
                     ? view.refused
                     : fmt::format("rig {} does not answer; the same command goes on where this one "
                                   "ended when it does",
-                                  books_.rig));
+                                  stats_.rig));
         return;
     }
     if (!parts_) {
@@ -96,42 +96,42 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
             end(
                 fmt::format("rig {} works at {:g} pulses a second and the stage at {:g}: make "
                             "rate_hz agree",
-                            books_.rig, view.sync.rate_hz, rate_hz_));
+                            stats_.rig, view.sync.rate_hz, rate_hz_));
             return;
         }
         const std::vector<PulseRange> parts = plan_(view.sync.tai_offset_s);
         std::uint64_t wanted = 0;
         for (const PulseRange& part : parts) wanted += part.pulses();
-        books_.wanted = wanted;
+        stats_.wanted = wanted;
         parts_.emplace(parts.begin(), parts.end());
         next_part();
         return;
     }
-    if (!wish_ || !view.fetch || view.fetch->id != wish_->id) return;
+    if (!request_ || !view.fetch || view.fetch->id != request_->id) return;
     if (!view.fetch->trouble.empty()) {
         end(view.fetch->trouble);
     } else if (view.fetch->sent != received_) {
         ask_anew();
     } else if (view.fetch->is_over) {
-        books_.not_kept += wish_->to_pulse - next_pulse_;
-        books_.seen += wish_->to_pulse - next_pulse_;
+        stats_.not_kept += request_->to_pulse - next_pulse_;
+        stats_.seen += request_->to_pulse - next_pulse_;
         parts_->pop_front();
         next_part();
     }
 }
 
 void RigFetch::ask_anew() {
-    wish_ = FetchWish{random_id(), next_pulse_, parts_->front().to, 0};
+    request_ = FetchRequest{random_id(), next_pulse_, parts_->front().to, 0};
     received_ = 0;
-    if (next_pulse_ < wish_->to_pulse) return;
+    if (next_pulse_ < request_->to_pulse) return;
     parts_->pop_front();
     next_part();
 }
 
 void RigFetch::next_part() {
-    wish_.reset();
+    request_.reset();
     if (parts_->empty()) {
-        books_.is_done = true;
+        stats_.is_done = true;
         return;
     }
     next_pulse_ = parts_->front().from;
@@ -139,14 +139,14 @@ void RigFetch::next_part() {
 }
 
 void RigFetch::end(std::string trouble) {
-    books_.trouble = std::move(trouble);
-    books_.is_done = true;
+    stats_.trouble = std::move(trouble);
+    stats_.is_done = true;
 }
 
 void RigFetch::finish() {
     files_.finish();
-    books_.files = files_.files();
-    books_.there = files_.there().size();
+    stats_.files = files_.files();
+    stats_.there = files_.there().size();
 }
 
 }  // namespace vantage

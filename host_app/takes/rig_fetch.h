@@ -16,7 +16,7 @@
 namespace vantage {
 
 /// What became of the fetch from one rig.
-struct FetchBooks {
+struct FetchStats {
     std::string rig;
     std::uint64_t wanted = 0;    ///< pulses that were asked of the rig
     std::uint64_t frames = 0;    ///< that came
@@ -46,7 +46,7 @@ class RigFetch {
     void turn(BandwidthBudget& budget, MonotonicTime now);
     /// Closes the file at hand.
     void finish();
-    const FetchBooks& books() const { return books_; }
+    const FetchStats& stats() const { return stats_; }
 
   private:
     void take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget);
@@ -61,12 +61,12 @@ class RigFetch {
     FetchedFiles files_;
     std::chrono::nanoseconds patience_;
     std::optional<std::deque<PulseRange>> parts_;  ///< still to come, the first is under way
-    std::optional<FetchWish> wish_;
+    std::optional<FetchRequest> request_;
     std::uint64_t received_ = 0;  ///< for the wish
     std::uint64_t next_pulse_ = 0;
     double expected_bytes_ = 0;  ///< of a frame: the last one's
     std::optional<MonotonicTime> silent_since_;
-    FetchBooks books_;
+    FetchStats stats_;
 };
 
 }  // namespace vantage

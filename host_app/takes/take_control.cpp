@@ -54,7 +54,7 @@ class CameraSink final : public PictureSink {
 
 }  // namespace
 
-TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
+TakeControl::TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
                    std::filesystem::path path, std::filesystem::path folder,
                    std::chrono::nanoseconds pre_roll, bool has_sound)
     : path_(std::move(path)),
@@ -66,45 +66,45 @@ TakeDesk::TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_
         fail("takes cannot go to {}: there is no such folder; make it", folder_.string());
 }
 
-FrameTap TakeDesk::tap() {
+FrameTap TakeControl::tap() {
     return [this](const ArrivedFrame& frame) { recorder_.offer(frame); };
 }
 
-std::function<void(const SoundBlock&)> TakeDesk::sound_tap() {
+std::function<void(const SoundBlock&)> TakeControl::sound_tap() {
     if (!has_sound_) return {};
     return [this](const SoundBlock& sound) { recorder_.offer(sound); };
 }
 
-StageFeed TakeDesk::feed(StageFeed feed) {
+StageFeed TakeControl::feed(StageFeed feed) {
     if (!feed.ask) return feed;
     ask_ = feed.ask;
     look_at_ = feed.look_at;
-    for (const RigStatus& rig : feed.status().rigs) wishes_[rig.rig] = true;
+    for (const RigStatus& rig : feed.status().rigs) requests_[rig.rig] = true;
     feed.ask = [this](const std::string& rig, bool streaming) {
         const std::lock_guard lock(mutex_);
-        wishes_[rig] = streaming;
+        requests_[rig] = streaming;
         ask_(rig, streaming || wants_all());
         if (look_at_) look_at_(rig, streaming);
     };
     return feed;
 }
 
-std::unique_ptr<PictureSink> TakeDesk::camera_sink() {
+std::unique_ptr<PictureSink> TakeControl::camera_sink() {
     return std::make_unique<CameraSink>(recorder_);
 }
 
-void TakeDesk::ask_all() {
+void TakeControl::ask_all() {
     const std::lock_guard lock(mutex_);
     const bool all = wants_all();
-    for (const auto& [rig, streaming] : wishes_) ask_(rig, streaming || all);
+    for (const auto& [rig, streaming] : requests_) ask_(rig, streaming || all);
 }
 
-void TakeDesk::begin(const std::filesystem::path& path) {
+void TakeControl::begin(const std::filesystem::path& path) {
     recorder_.begin(path);
     ask_all();
 }
 
-void TakeDesk::toggle() {
+void TakeControl::toggle() {
     try {
         if (!recorder_.is_running()) {
             begin(free_path(path_.empty() ? folder_ / name_for_now("take", ".mkv") : path_));

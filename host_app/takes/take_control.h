@@ -16,12 +16,12 @@ namespace vantage {
 
 /// Begins and ends a live session's takes. While one runs, and always where takes have a pre-roll,
 /// every rig is asked for its frames, also those that the programme does not need now. Thread-safe.
-class TakeDesk {
+class TakeControl {
   public:
     /// `stage_file` is attached to every take, and the rigs' colour files are. Without a `path`
     /// takes are named for the time at which they begin and go to `folder`, which has to be there;
     /// with one the second is PATH-2. Throws Error without that folder.
-    TakeDesk(const StageConfig& stage, const std::filesystem::path& stage_file,
+    TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
              std::filesystem::path path, std::filesystem::path folder,
              std::chrono::nanoseconds pre_roll, bool has_sound = false);
 
@@ -54,7 +54,7 @@ class TakeDesk {
     TakeRecorder recorder_;
     std::mutex mutex_;
     std::function<void(const std::string&, bool)> ask_, look_at_;
-    std::map<std::string, bool> wishes_;  ///< of the programme: whether it needs a rig's frames
+    std::map<std::string, bool> requests_;  ///< of the programme: whether it needs a rig's frames
 };
 
 }  // namespace vantage

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-TakeSets::TakeSets(std::shared_ptr<const TakeReader> take) : take_(std::move(take)) {
+TakeFrameSets::TakeFrameSets(std::shared_ptr<const TakeReader> take) : take_(std::move(take)) {
     for (std::size_t i = 0; i < take_->facts().rigs.size(); ++i) {
         rigs_.push_back(std::make_unique<Rig>());
         rigs_.back()->name = take_->facts().rigs[i].name;
@@ -20,27 +20,27 @@ TakeSets::TakeSets(std::shared_ptr<const TakeReader> take) : take_(std::move(tak
     if (pulses_.empty()) fail("{} holds no frame", take_->path().string());
 }
 
-TakeSets::~TakeSets() {
+TakeFrameSets::~TakeFrameSets() {
     if (ahead_) ahead_->set.wait();
     if (given_up_.valid()) given_up_.wait();
 }
 
-std::size_t TakeSets::place_of(double pulse) const {
+std::size_t TakeFrameSets::place_of(double pulse) const {
     const auto later = std::upper_bound(
         pulses_.begin(), pulses_.end(), pulse,
         [](double wanted, std::uint64_t each) { return wanted < static_cast<double>(each); });
     return later == pulses_.begin() ? 0 : static_cast<std::size_t>(later - pulses_.begin()) - 1;
 }
 
-std::optional<std::uint64_t> TakeSets::pulse_at(double pulse) const {
+std::optional<std::uint64_t> TakeFrameSets::pulse_at(double pulse) const {
     return pulses_[place_of(pulse)];
 }
 
-std::optional<PastSets::Span> TakeSets::span() const {
+std::optional<PastFrameSets::Span> TakeFrameSets::span() const {
     return Span{pulses_.front(), pulses_.back(), pulses_.size(), take_->bytes()};
 }
 
-std::optional<FrameSet> TakeSets::take_ahead(std::uint64_t pulse) const {
+std::optional<FrameSet> TakeFrameSets::take_ahead(std::uint64_t pulse) const {
     std::optional<Ahead> ahead;
     {
         const std::lock_guard lock(mutex_);
@@ -54,7 +54,7 @@ std::optional<FrameSet> TakeSets::take_ahead(std::uint64_t pulse) const {
     return ahead ? std::optional(ahead->set.get()) : std::nullopt;
 }
 
-void TakeSets::decode_ahead(std::uint64_t pulse) const {
+void TakeFrameSets::decode_ahead(std::uint64_t pulse) const {
     const std::lock_guard lock(mutex_);
     if (ahead_) return;
     if (given_up_.valid() &&
@@ -66,7 +66,7 @@ void TakeSets::decode_ahead(std::uint64_t pulse) const {
                    })};
 }
 
-std::optional<FrameSet> TakeSets::at(double pulse) const {
+std::optional<FrameSet> TakeFrameSets::at(double pulse) const {
     const std::size_t place = place_of(pulse);
     const auto here = static_cast<std::ptrdiff_t>(place);
     std::ptrdiff_t stride = 0, stride_before = 0;
@@ -84,7 +84,7 @@ std::optional<FrameSet> TakeSets::at(double pulse) const {
     return set;
 }
 
-FrameSet TakeSets::decode(std::uint64_t pulse, const Unwanted& unwanted) const {
+FrameSet TakeFrameSets::decode(std::uint64_t pulse, const Unwanted& unwanted) const {
     std::vector<std::future<std::shared_ptr<const RigFrame>>> frames;
     for (std::size_t rig = 0; rig < rigs_.size(); ++rig)
         frames.push_back(std::async(std::launch::async, [this, rig, pulse, &unwanted] {
@@ -100,7 +100,7 @@ FrameSet TakeSets::decode(std::uint64_t pulse, const Unwanted& unwanted) const {
     return set;
 }
 
-std::shared_ptr<const RigFrame> TakeSets::decode(std::size_t number, std::uint64_t pulse,
+std::shared_ptr<const RigFrame> TakeFrameSets::decode(std::size_t number, std::uint64_t pulse,
                                                  const Unwanted& unwanted) const {
     const std::vector<TakeReader::Frame>& frames = take_->frames(number);
     const auto frame = std::lower_bound(

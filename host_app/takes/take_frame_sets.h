@@ -9,7 +9,7 @@
 
 #include "common/take/format/frame_storage.h"
 #include "common/take/take_reader.h"
-#include "host_app/frames/past_sets.h"
+#include "host_app/frames/past_frame_sets.h"
 #include "host_app/frames/stage_feed.h"
 
 namespace vantage {
@@ -17,11 +17,11 @@ namespace vantage {
 /// The frame sets of a take, decoded a rig a thread. While it goes in even steps the next set is
 /// decoded before it is asked for; after a jump the set that was asked for comes first and alone.
 /// A frame that is damaged is absent from its set, and told of once in the log.
-class TakeSets final : public PastSets {
+class TakeFrameSets final : public PastFrameSets {
   public:
     /// Throws Error if the take holds no frame.
-    explicit TakeSets(std::shared_ptr<const TakeReader> take);
-    ~TakeSets() override;
+    explicit TakeFrameSets(std::shared_ptr<const TakeReader> take);
+    ~TakeFrameSets() override;
 
     std::optional<std::uint64_t> pulse_at(double pulse) const override;
     std::optional<FrameSet> at(double pulse) const override;

@@ -99,7 +99,7 @@ CameraIntake::Counts GpuStage::lent_pictures() const {
 }
 
 RigFrame GpuStage::process(StereoFrame frame) {
-    const DriverTurn turn(context_.driver());
+    const DriverLock turn(context_.driver());
     shaders_.poll();
     RigFrame result;
     const MonotonicTime start = MonotonicClock::now();

@@ -14,8 +14,8 @@ std::vector<std::string> become_realtime(int priority, std::string_view what) {
     if (priority == 0) {
         report.push_back(fmt::format("{} run without real-time priority, as configured", what));
     } else {
-        const sched_param wish{.sched_priority = priority};
-        const int refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wish);
+        const sched_param request{.sched_priority = priority};
+        const int refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &request);
         report.push_back(
             refused == 0
                 ? fmt::format("{} run with SCHED_FIFO priority {}", what, priority)

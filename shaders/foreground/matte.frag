@@ -1,9 +1,9 @@
 // Which pixels show what stands before the set. What cannot be told at a pixel is told by those around it that look
 // like it. Drawn only where anything is apart (see matte_tiles.frag).
-#include "set_kinds.glsl"
+#include "background_kinds.glsl"
 
 uniform sampler2D picture;  // this instant's
-uniform sampler2D seen;     // from set_see.frag
+uniform sampler2D seen;     // from background_compare.frag
 
 layout(location = 0) out float performer;  // 0 or 1
 
@@ -22,26 +22,26 @@ void main() {
     performer = 0.0;
     vec3 seen_here = textureLod(seen, uv, 0.0).rgb;
     float own = seen_here.r;
-    float before = 0.0, count = 0.0, like_before = 0.0, like_set = 0.0;
+    float before = 0.0, count = 0.0, like_before = 0.0, like_background = 0.0;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
             ivec2 there = clamp(at + step_px * ivec2(x, y), ivec2(0), size - 1);
             float kind = textureLod(seen, (vec2(there) + 0.5) * texel, 0.0).r;
-            float is_before = is_kind(kind, before_set) ? 1.0 : 0.0, is_set = is_kind(kind, untold) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
-            float is_known = is_kind(kind, new_set) ? 0.0 : is_set;
+            float is_before = is_kind(kind, before_background) ? 1.0 : 0.0, is_set = is_kind(kind, untold) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
+            float is_known = is_kind(kind, new_background) ? 0.0 : is_set;
             before += is_before;
             count += is_before + is_set;
             vec3 off = abs(texelFetch(picture, there, 0).rgb - now);
             float w = exp(-(off.r + off.g + off.b) / (3.0 * like_colour)) + 1e-3;
             like_before += w * is_before;
-            like_set += w * is_known;
+            like_background += w * is_known;
         }
     if (is_kind(own, uncovered)) performer = 1.0;
     if (before == 0.0 || performer > 0.0) return;
     float around = before / max(count, 1.0);
-    bool is_performer = is_kind(own, before_set) ? around > least_around && (seen_here.b > like_set_here || like_before > like_set)
-                        : is_kind(own, untold)   ? like_before > like_set
-                        : is_kind(own, new_set)  ? around > new_around && like_before > like_set
+    bool is_foreground = is_kind(own, before_background) ? around > least_around && (seen_here.b > like_set_here || like_before > like_background)
+                        : is_kind(own, untold)   ? like_before > like_background
+                        : is_kind(own, new_background)  ? around > new_around && like_before > like_background
                                                  : around > most_around;
-    performer = is_performer ? 1.0 : 0.0;
+    performer = is_foreground ? 1.0 : 0.0;
 }

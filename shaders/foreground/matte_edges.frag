@@ -4,7 +4,7 @@
 // hard edge.
 uniform sampler2D hard;        // from matte.frag: 0 or 1
 uniform sampler2D picture;     // this instant's
-uniform sampler2D set_colour;  // mean of the instants that showed the set
+uniform sampler2D background_colour;  // mean of the instants that showed the set
 
 layout(location = 0) out float share;  // of the pixel, that is before the set
 
@@ -38,7 +38,7 @@ void main() {
     vec2 inside = inward_px * inward * inversesqrt(dot(inward, inward));
     if (around(inside) < whole) inside *= 0.6;
     if (around(inside) < whole) return;
-    vec3 behind = textureLod(set_colour, uv, 0.0).rgb;
+    vec3 behind = textureLod(background_colour, uv, 0.0).rgb;
     vec3 span = textureLod(picture, uv + texel * inside, 0.0).rgb - behind;
     vec3 own = textureLod(picture, uv, 0.0).rgb - behind;
     float apart = dot(span, span);

@@ -1,7 +1,7 @@
 // Which tiles of a rig's picture a matte may reach: those within its reach of anything that is apart from the set.
-#include "set_kinds.glsl"
+#include "background_kinds.glsl"
 
-uniform sampler2D seen;      // from set_see.frag
+uniform sampler2D seen;      // from background_compare.frag
 uniform vec2 tile_share;     // of the picture that a tile spans
 uniform vec2 margin_share;   // of the picture, that a matte reaches beyond what is apart
 

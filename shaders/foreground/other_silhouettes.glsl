@@ -4,7 +4,7 @@
 
 #if OTHERS
 uniform sampler2D other_matte[OTHERS];   // their performers' share
-uniform sampler2D other_set[OTHERS];     // depth of their sets, metres
+uniform sampler2D other_background[OTHERS];     // depth of their sets, metres
 uniform mat4 other_from_pixel[OTHERS];   // the other's (u * z, v * z, z, 1) from this depth map's
 uniform vec2 other_size[OTHERS];         // of its picture, px
 
@@ -29,7 +29,7 @@ int look_at_silhouettes(vec2 pixel, float z) {
 #if OTHERS
     int its;
 #define LOOK(i)                                                              \
-    its = look_at_silhouette(i, other_matte[i], other_set[i], pixel, z);     \
+    its = look_at_silhouette(i, other_matte[i], other_background[i], pixel, z);     \
     if (its < 0) return -1;                                                  \
     all += its;
     FOR_OTHERS(LOOK)

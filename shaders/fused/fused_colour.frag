@@ -21,11 +21,11 @@ layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
 // Doubts, in units of each other.
-const float unlike_doubt = 8.0;   // per squared difference of the rigs' colours (0..1)
-const float lonely_doubt = 0.3;   // only one rig shows the surface
-const float fringe_doubt = 3.0;   // only one rig shows it, and that one beside the surface's edge
-const float through_doubt = 0.5;  // per rig that sees through it
-const float hidden_doubt = 0.35;   // it lies behind one that a rig shows right here
+const float cost_penalty = 8.0;   // per squared difference of the rigs' colours (0..1)
+const float unchecked_penalty = 0.3;   // only one rig shows the surface
+const float fringe_penalty = 3.0;   // only one rig shows it, and that one beside the surface's edge
+const float see_through_penalty = 0.5;  // per rig that sees through it
+const float hidden_penalty = 0.35;   // it lies behind one that a rig shows right here
 const float decisiveness = 4.0;   // how fast a surface fades with its doubt
 const float blur_px = 0.75;         // standard deviation of what lens and sensor spread
 const float direct_support = 0.01;
@@ -46,7 +46,7 @@ struct Evidence {
     float apart;     // from the nearest line of sight that supports it
     float say;       // of the next rig, 0..1
     float seen;      // how well that one sees it that does best, 0..1
-    float trust;     // the most in a rig's colour, 0..1
+    float confidence;     // the most in a rig's colour, 0..1
 };
 
 // The share of a rig's four pixels around a point that lie on its surface.
@@ -104,7 +104,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     float weight = e.say * seen * finer * finer * closeness(away);
     e.seen = max(e.seen, seen);
     e.apart = min(e.apart, away);
-    e.trust = max(e.trust, middle.a);
+    e.confidence = max(e.confidence, middle.a);
     // The most useful rigs come first; finesse is lost on what hardly counts beside them.
     vec3 c = middle.rgb;
     if (weight > least_share * e.weight) {
@@ -163,8 +163,8 @@ float doubt(Evidence e) {
     vec3 mean = e.sum / e.weight;
     vec3 variance = max(e.squares / e.weight - mean * mean, 0.0);
     float lonely = clamp(2.0 - e.rigs, 0.0, 1.0);
-    return unlike_doubt * dot(variance, vec3(1.0)) + lonely * (e.direct > direct_support ? lonely_doubt : fringe_doubt) +
-           through_doubt * e.through;
+    return cost_penalty * dot(variance, vec3(1.0)) + lonely * (e.direct > direct_support ? unchecked_penalty : fringe_penalty) +
+           see_through_penalty * e.through;
 }
 
 // Whether a rig sees the point and nothing there: what it shows on that line of sight is farther.
@@ -225,12 +225,12 @@ void main() {
     Evidence a = gather(pixel, z, slope, true), b = gather(pixel, other, vec2(0.0), true);
     float doubt_a = doubt(a), doubt_b = doubt(b);
     if (z < other)
-        doubt_b += hidden_doubt * step(direct_support, a.direct);
+        doubt_b += hidden_penalty * step(direct_support, a.direct);
     else
-        doubt_a += hidden_doubt * step(direct_support, b.direct);
-    float least_doubt = min(doubt_a, doubt_b);
-    float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (doubt_a - least_doubt)) : 0.0;
-    float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (doubt_b - least_doubt)) : 0.0;
+        doubt_a += hidden_penalty * step(direct_support, b.direct);
+    float min_penalty = min(doubt_a, doubt_b);
+    float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (doubt_a - min_penalty)) : 0.0;
+    float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (doubt_b - min_penalty)) : 0.0;
     // Where nothing was drawn, only the surface behind reaches in, and only if a rig shows it right here.
     if (near.own == 0.0) {
         if (z < other || a.direct == 0.0) wa = 0.0;
@@ -241,7 +241,7 @@ void main() {
     bool is_known = near.own > 0.0;
     if (wa > wb ? a.apart > far_aside && !is_clear(pixel, z) : b.apart > far_aside && !is_clear(pixel, other))
         is_known = false;
-    tell(vec4(c / (wa + wb), alpha_of(is_known, wa > wb ? a.trust : b.trust)), wa > wb ? z : other,
+    tell(vec4(c / (wa + wb), alpha_of(is_known, wa > wb ? a.confidence : b.confidence)), wa > wb ? z : other,
          (wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
              (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
 }
@@ -263,6 +263,6 @@ void main() {
     if (e.weight == 0.0) return;
     bool is_known = own > 0.0 && (e.apart <= far_aside || is_clear(pixel, z));
 #endif
-    tell(vec4(e.sum / e.weight, alpha_of(is_known, e.trust)), z, e.shares / e.weight);
+    tell(vec4(e.sum / e.weight, alpha_of(is_known, e.confidence)), z, e.shares / e.weight);
 }
 #endif

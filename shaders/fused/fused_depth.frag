@@ -13,7 +13,7 @@ layout(location = 0) out float fused_depth;  // metres, 0 = nothing, negative = 
 
 const float alike = 0.06;  // range of the rigs' colours (0..1, mean of channels) at one surface, at most
 
-bool is_guess(int i, sampler2D map, vec2 pixel, float z) {
+bool is_inpainted(int i, sampler2D map, vec2 pixel, float z) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     return all(lessThanEqual(textureGather(map, (q.xy / q.z + 0.5) / colour_size[i]), vec4(0.0)));
 }
@@ -54,13 +54,13 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
     float z[LAYERS], candidates[LAYERS];
-    float measured = nothing, guessed = nothing;
+    float measured = nothing, inpainted = nothing;
 #define LOOK(i)                                                 \
     z[i] = layer_z(layer_depth[i], at);                         \
     candidates[i] = nothing;                                    \
     if (z[i] < nothing) {                                       \
-        if (is_guess(i, source_depth[i], pixel, z[i]))          \
-            guessed = min(guessed, z[i]);                       \
+        if (is_inpainted(i, source_depth[i], pixel, z[i]))          \
+            inpainted = min(inpainted, z[i]);                       \
         else                                                    \
             candidates[i] = z[i];                               \
     }                                                           \
@@ -97,7 +97,7 @@ void main() {
         if (is_voted_for) measured = next;
     }
 #endif
-    float nearest = measured < nothing ? measured : guessed;
+    float nearest = measured < nothing ? measured : inpainted;
     if (nearest == nothing) return;
     float sum = 0.0, weights = 0.0;
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);

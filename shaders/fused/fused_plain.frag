@@ -13,7 +13,7 @@ layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
 void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec3 sum, inout float weight, inout vec4 shares,
-         inout float trust) {
+         inout float confidence) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
@@ -31,7 +31,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
     sum += w * seen.rgb;
     weight += w;
     shares[i] += w;
-    trust = max(trust, seen.a);
+    confidence = max(confidence, seen.a);
 }
 
 void main() {
@@ -43,11 +43,11 @@ void main() {
     if (z == 0.0) return;
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
-    float weight = 0.0, trust = 0.0;
-#define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sum, weight, shares, trust);
+    float weight = 0.0, confidence = 0.0;
+#define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sum, weight, shares, confidence);
     FOR_LAYERS(ADD)
     if (weight == 0.0) return;
-    fused = vec4(sum / weight, alpha_of(own > 0.0, trust));
+    fused = vec4(sum / weight, alpha_of(own > 0.0, confidence));
     fused_z = z;
     tell_origins(shares / weight);
 }

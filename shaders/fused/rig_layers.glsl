@@ -52,11 +52,11 @@ float detail_level(mat4 source_from_target, float z, float source_z) {
 }
 
 // Whether a surface is covered: what no rig sees now, but one remembers, is not.
-uniform float remembered_trust;  // a colour's alpha, up to which it is only remembered
+uniform float remembered_confidence;  // a colour's alpha, up to which it is only remembered
 uniform float remembered_alpha;  // of a picture
 
-float alpha_of(bool is_known, float trust) {
-    return !is_known ? 0.25 : trust > remembered_trust + 0.5 / 255.0 ? 1.0 : remembered_alpha;
+float alpha_of(bool is_known, float confidence) {
+    return !is_known ? 0.25 : confidence > remembered_confidence + 0.5 / 255.0 ? 1.0 : remembered_alpha;
 }
 
 #if ORIGINS

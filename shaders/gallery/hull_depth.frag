@@ -3,8 +3,8 @@
 // them, the hull begins.
 #include "hull_rigs.glsl"
 
-uniform sampler2D set_behind;  // depth of the set in this view, metres, 0 = none
-uniform float has_set;         // 0: no set bounds the lines
+uniform sampler2D background_behind;  // depth of the set in this view, metres, 0 = none
+uniform float has_background;         // 0: no set bounds the lines
 uniform vec2 range_m;          // from and to which depth they are followed
 
 layout(location = 0) out float hull_m;  // 0 = none
@@ -34,8 +34,8 @@ vec4 at_inverse(vec2 pixel, float inverse_m) {
 void main() {
     hull_m = 0.0;
     vec2 pixel = gl_FragCoord.xy - 0.5, range = range_m;
-    if (has_set > 0.0) {
-        float behind = texelFetch(set_behind, ivec2(gl_FragCoord.xy), 0).r;
+    if (has_background > 0.0) {
+        float behind = texelFetch(background_behind, ivec2(gl_FragCoord.xy), 0).r;
         if (behind > 0.0) range.y = min(range.y, behind);
     }
     if (range.y <= range.x) return;

@@ -4,7 +4,7 @@
 #endif
 
 uniform sampler2D matte[RIGS];           // the performers' share of a rig's pixels
-uniform sampler2D set_depth[RIGS];       // of its set, metres, 0 = unknown
+uniform sampler2D background_depth[RIGS];       // of its set, metres, 0 = unknown
 uniform mat4 pixel_from_target[RIGS];    // the rigs' (u * z, v * z, z, 1) from the virtual camera's
 uniform vec2 picture_size[RIGS];         // px
 
@@ -38,7 +38,7 @@ int in_silhouette(int i, sampler2D its_matte, sampler2D its_set, vec4 target_poi
 bool in_hull(vec4 target_point) {
     int rigs = 0, told;
 #define TELL(i)                                                               \
-    told = in_silhouette(i, matte[i], set_depth[i], target_point);            \
+    told = in_silhouette(i, matte[i], background_depth[i], target_point);            \
     if (told == 0) return false;                                              \
     rigs += max(told, 0);
     FOR_RIGS(TELL)

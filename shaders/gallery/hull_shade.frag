@@ -7,8 +7,8 @@ uniform sampler2D rig_hull[RIGS];   // of the rigs' own, metres, of another size
 uniform sampler2D colour[RIGS];
 uniform vec3 centre[RIGS];          // of the rig, in the virtual camera's coordinates
 uniform mat3 ray_from_pixel;        // of the virtual camera
-uniform sampler2D set_colour;       // of the set in this view
-uniform sampler2D set_behind;       // its depth, metres
+uniform sampler2D background_colour;       // of the set in this view
+uniform sampler2D background_behind;       // its depth, metres
 
 layout(location = 0) out vec4 shaded;
 layout(location = 1) out float shaded_z;
@@ -23,8 +23,8 @@ float hull_of_rig(sampler2D its_hull, vec2 uv) {
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    shaded = texelFetch(set_colour, at, 0);
-    shaded_z = texelFetch(set_behind, at, 0).r;
+    shaded = texelFetch(background_colour, at, 0);
+    shaded_z = texelFetch(background_behind, at, 0).r;
     float z = texelFetch(hull, at, 0).r;
     if (z == 0.0) return;
     vec2 pixel = vec2(at);

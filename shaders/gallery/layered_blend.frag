@@ -5,7 +5,7 @@
 uniform float softness;  // relative depth within which two surfaces are one
 
 const float shown = 0.3;          // share of a pixel from which on it shows the main layer's surface
-const float guessed_alpha = 0.25;
+const float inpainted_alpha = 0.25;
 
 layout(location = 0) out vec4 blended;
 layout(location = 1) out float blended_z;
@@ -29,7 +29,7 @@ void main() {
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
     float z[LAYERS], weight[LAYERS];
     vec4 c[LAYERS];
-    float back = nothing, guessed_back = nothing, front = nothing;
+    float back = nothing, inpainted_back = nothing, front = nothing;
 #define LOOK(i)                                                          \
     z[i] = layer_z(layer_depth[i], at);                                  \
     c[i] = look(i, colour[i], min(z[i], 1e6), pixel, ray, weight[i]);    \
@@ -38,11 +38,11 @@ void main() {
     else if (c[i].a >= shown)                                            \
         back = min(back, z[i]);                                          \
     else                                                                 \
-        guessed_back = min(guessed_back, z[i]);
+        inpainted_back = min(inpainted_back, z[i]);
     FOR_LAYERS(LOOK)
     // What a main layer only guesses behind its own strip counts where nobody sees it.
     bool is_seen = back < nothing;
-    if (!is_seen) back = guessed_back;
+    if (!is_seen) back = inpainted_back;
     vec4 behind = vec4(0.0), before = vec4(0.0), shares = vec4(0.0);
     float matte = 0.0;
 #define ADD(i)                                                       \
@@ -74,6 +74,6 @@ void main() {
         return;
     }
     vec3 b = behind.rgb / behind.a;
-    blended = vec4(share > 0.0 ? mix(b, before.rgb / before.a, share) : b, is_seen || share >= 0.5 ? 1.0 : guessed_alpha);
+    blended = vec4(share > 0.0 ? mix(b, before.rgb / before.a, share) : b, is_seen || share >= 0.5 ? 1.0 : inpainted_alpha);
     blended_z = share > 0.5 ? front : back;
 }

@@ -2,7 +2,7 @@
 // performers, cut out and standing on the floor as upright billboards.
 const int most_cut_outs = 8;
 
-uniform sampler2D set_colour;    // of the rig
+uniform sampler2D background_colour;    // of the rig
 uniform sampler2D picture;       // this instant's
 uniform sampler2D matte;         // the performers' share
 uniform sampler2D numbers;       // of the cut-out that a pixel belongs to, from 1 on, over 255
@@ -39,7 +39,7 @@ void main() {
     z = 0.0;
     float behind = min(meets(floor_plane, ray), meets(back_plane, ray));
     if (behind < nothing && place(pixel, behind, uv)) {
-        colour = vec4(textureLod(set_colour, uv, 0.0).rgb, 1.0);
+        colour = vec4(textureLod(background_colour, uv, 0.0).rgb, 1.0);
         z = behind;
     }
     float nearest = nothing;

@@ -20,7 +20,7 @@ const float window_px = 1.0;     // from the middle to the sides of what is comp
 const float like_colour = 0.1;   // mean difference (0..1) at which a pixel's weight is 1/e
 // Mean colour differences (0..1): what shows one surface at most, what shows two at least, and beyond which nothing is
 // more unlike. A neighbour's depth has to leave less than this share of the difference so far.
-const float good = 0.08, bad = 0.09, most_unlike = 0.15, better = 0.6;
+const float good = 0.08, bad = 0.09, max_cost = 0.15, better = 0.6;
 const float same_depth = 0.008;  // relative difference of two that need not both be tried
 const float unseen = 1.0;
 
@@ -41,16 +41,16 @@ void look(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout ve
     float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
     bool is_hidden = all(lessThan(there, vec4(q.z * (1.0 - tolerance)))) && all(greaterThan(there, vec4(0.0)));
     if (is_hidden) return;
-    float unlike = 0.0;
+    float cost = 0.0;
     for (int k = 0; k < 5; ++k) {
         vec4 p = other_from_pixel[i] * vec4((pixel + aside(k)) * z, z, 1.0);
         vec3 off = abs(textureLod(colours, (p.xy / p.z + 0.5) * texel, 0.0).rgb - window[k]);
-        unlike += weights[k] * min(dot(off, vec3(1.0 / 3.0)), most_unlike);
+        cost += weights[k] * min(dot(off, vec3(1.0 / 3.0)), max_cost);
     }
-    sum += vec2(unlike, 1.0);
+    sum += vec2(cost, 1.0);
 }
 
-float unlike_at(vec2 pixel, float z) {
+float cost_at(vec2 pixel, float z) {
     vec2 sum = vec2(0.0);
 #define LOOK(i) look(i, other_depth[i], other_colour[i], pixel, z, sum);
     FOR_OTHERS(LOOK)
@@ -75,7 +75,7 @@ void main() {
     if (own.g != 0.0) return;
     vec2 pixel = vec2(at);
     look_around(pixel);
-    float so_far = own.r > 0.0 ? unlike_at(pixel, own.r) : unseen;
+    float so_far = own.r > 0.0 ? cost_at(pixel, own.r) : unseen;
     // The depths around that differ, the nearest pixels' first.
     float depths[MOST_DEPTHS];
     int count = 0;
@@ -89,10 +89,10 @@ void main() {
         for (int c = 0; c < count; ++c) is_new = is_new && abs(z - depths[c]) > same_depth * z;
         if (is_new) depths[count++] = z;
     }
-    float least = min(good, better * min(so_far, most_unlike));
+    float least = min(good, better * min(so_far, max_cost));
     for (int c = 0; c < count; ++c) {
-        float unlike = unlike_at(pixel, depths[c]);
-        if (unlike < least) least = unlike, adopted = depths[c];
+        float cost = cost_at(pixel, depths[c]);
+        if (cost < least) least = cost, adopted = depths[c];
     }
     if (adopted == own.r && so_far > bad && so_far < unseen) adopted = -own.r;
 }

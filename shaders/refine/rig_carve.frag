@@ -31,7 +31,7 @@ const float faulty = 0.002;
 #endif
 const float window_px = 0.75;   // from the middle to the sides of what is compared
 const float like_colour = 0.05; // mean difference (0..1) of pictures of one surface, at most
-const float most_unlike = 0.2;  // beyond which nothing is more unlike: one edge does not decide
+const float max_cost = 0.2;  // beyond which nothing is more unlike: one edge does not decide
 
 #if MOVES
 uniform sampler2D half_before;  // metres: the half-size map before it was refined, and after; 0 = unknown
@@ -65,14 +65,14 @@ float moved(ivec2 at, float z, vec4 share) {
 // Whether what a rig shows around a place looks like what this one shows around a pixel.
 bool is_alike(sampler2D colours, vec2 uv, vec2 texel, vec2 pixel) {
     vec2 own_texel = 1.0 / vec2(textureSize(depth_map, 0));
-    float unlike = 0.0;
+    float cost = 0.0;
     for (int k = 0; k < 9; ++k) {
         vec2 aside = window_px * (vec2(k % 3, k / 3) - 1.0);
         vec3 own = textureLod(picture, (pixel + 0.5 + aside) * own_texel, 0.0).rgb;
         vec3 off = abs(own - textureLod(colours, uv + aside * texel, 0.0).rgb);
-        unlike += min(dot(off, vec3(1.0 / 3.0)), most_unlike);
+        cost += min(dot(off, vec3(1.0 / 3.0)), max_cost);
     }
-    return unlike < 9.0 * like_colour;
+    return cost < 9.0 * like_colour;
 }
 
 void examine(int i, sampler2D map, sampler2D colours, vec2 pixel, float z, inout float support, inout float through, inout float looks) {

@@ -12,7 +12,7 @@ const float window_px = 1.5;     // from the middle to the sides of what is comp
 const float like_colour = 0.1;   // mean difference (0..1) at which a pixel's weight is 1/e
 // Mean colour differences (0..1): beyond which nothing is more unlike, by which the floor may be more unlike than the
 // pixel's own depth, and what may be the floor though that depth is far from it.
-const float most_unlike = 0.15, grace = 0.01, alike = 0.06;
+const float max_cost = 0.15, grace = 0.01, alike = 0.06;
 const float near = 2.0;          // deviations of a measured depth
 
 vec3 window[9];    // this rig's picture around the pixel
@@ -44,19 +44,19 @@ void look(int i, sampler2D map, sampler2D colours, vec2 pixel, vec3 plane, inout
     float tolerance = softness + 4.0 * (other_spread[i] * q.z + spread * z);
     bool is_hidden = all(lessThan(there, vec4(q.z * (1.0 - tolerance)))) && all(greaterThan(there, vec4(0.0)));
     if (is_hidden) return;
-    float unlike = 0.0;
+    float cost = 0.0;
     for (int k = 0; k < 9; ++k) {
         vec2 at = pixel + aside(k);
         float zk = 1.0 / dot(plane, vec3(at, 1.0));
         vec4 p = other_from_pixel[i] * vec4(at * zk, zk, 1.0);
         vec3 off = abs(textureLod(colours, (p.xy / p.z + 0.5) * texel, 0.0).rgb - window[k]);
-        unlike += weights[k] * min(dot(off, vec3(1.0 / 3.0)), most_unlike);
+        cost += weights[k] * min(dot(off, vec3(1.0 / 3.0)), max_cost);
     }
-    sum += vec2(unlike, 1.0);
+    sum += vec2(cost, 1.0);
 }
 
 // 1 where no other rig sees it.
-float unlike_on(vec2 pixel, vec3 plane) {
+float cost_on(vec2 pixel, vec3 plane) {
     vec2 sum = vec2(0.0);
 #define LOOK(i) look(i, other_depth[i], other_colour[i], pixel, plane, sum);
     FOR_OTHERS(LOOK)
@@ -71,7 +71,7 @@ void main() {
     const float horizon = 1e-3;
     if (own <= 0.0 || nearness < horizon) return;
     look_around(pixel);
-    float on_floor = unlike_on(pixel, floor_plane);
+    float on_floor = cost_on(pixel, floor_plane);
     if (on_floor > alike && abs(nearness - 1.0 / own) > near * spread) return;
-    if (on_floor < unlike_on(pixel, vec3(0.0, 0.0, 1.0 / own)) + grace) with_floor = 1.0 / nearness;
+    if (on_floor < cost_on(pixel, vec3(0.0, 0.0, 1.0 / own)) + grace) with_floor = 1.0 / nearness;
 }

@@ -33,8 +33,8 @@ void main() {
         for (int x = low.x; x <= high.x; x += 2) {
             float z = texelFetch(depth_map, ivec2(x, y), 0).r;
             if (max(z, own) > min(z, own) * edge_ratio) continue;
-            vec3 unlike = abs(textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb - colour);
-            float w = exp(-dot(unlike, vec3(1.0 / 3.0)) / like_colour) + 1e-4;
+            vec3 cost = abs(textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb - colour);
+            float w = exp(-dot(cost, vec3(1.0 / 3.0)) / like_colour) + 1e-4;
             sum += w / z;
             weights += w;
         }

@@ -26,9 +26,9 @@ struct Cross {
 // A candidate is as unlike as it is far (in quarters of a coarse pixel) and looks different.
 #define TRY(d, l, far)                          \
     {                                           \
-        int unlike = abs(luma - (l)) + (far);   \
-        if (unlike < least) best = (d);         \
-        least = min(least, unlike);             \
+        int cost = abs(luma - (l)) + (far);   \
+        if (cost < least) best = (d);         \
+        least = min(least, cost);             \
     }
 uint chosen(Cross c, int luma, int i, int j) {
     int left_far = i == 0 ? 4 : 6, right_far = 10 - left_far, above_far = j == 0 ? 4 : 6, below_far = 10 - above_far;

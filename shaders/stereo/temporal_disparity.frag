@@ -7,7 +7,7 @@ uniform highp usampler2D state;      // the last frame's: mean disparity in 1/10
 layout(std430, binding = 0) readonly buffer Exposure { int gain_4096; };  // of the picture since the last frame
 uniform int has_state;
 
-layout(location = 0) out uint steadied;
+layout(location = 0) out uint denoised;
 layout(location = 1) out uint next_state;
 
 // See temporal_reference.h.
@@ -58,6 +58,6 @@ void main() {
             votes = votes_before > 0 ? votes_before - 1 : FIRST_VOTES;
         }
     }
-    steadied = now == 0 ? 0u : uint(max((mean + 16) >> 5, 1));
+    denoised = now == 0 ? 0u : uint(max((mean + 16) >> 5, 1));
     next_state = (uint(mean) << 13) | (uint(votes) << 8) | uint(luma);
 }

@@ -10,8 +10,8 @@
 namespace vantage {
 namespace {
 
-constexpr int debris_box_px = 5;
-constexpr double debris_from = 24;
+constexpr int outlier_box_px = 5;
+constexpr double outlier_threshold = 24;
 
 cv::Mat error_of(const ColourImage& picture, const ColourImage& truth) {
     cv::Mat error;
@@ -30,22 +30,22 @@ cv::Mat largest(const cv::Mat& colours) {
 
 }  // namespace
 
-double debris(const ColourImage& picture, const ColourImage& truth) {
+double outliers(const ColourImage& picture, const ColourImage& truth) {
     // What is only softer or shifted by less than the box averages out.
     cv::Mat error;
-    cv::blur(error_of(picture, truth), error, {debris_box_px, debris_box_px});
+    cv::blur(error_of(picture, truth), error, {outlier_box_px, outlier_box_px});
     error = cv::abs(error);
-    return cv::countNonZero(largest(error) > debris_from) / static_cast<double>(picture.total());
+    return cv::countNonZero(largest(error) > outlier_threshold) / static_cast<double>(picture.total());
 }
 
 void Fidelity::add(const ColourImage& picture, const ColourImage& truth) {
     psnr_db_ += vantage::psnr_db(picture, truth);
     ssim_ += vantage::ssim(picture, truth);
-    debris_ += vantage::debris(picture, truth);
+    outliers_ += vantage::outliers(picture, truth);
     ++pictures_;
 }
 
-void Wavering::add(const ColourImage& before, const ColourImage& truth_before,
+void Flicker::add(const ColourImage& before, const ColourImage& truth_before,
                    const ColourImage& now, const ColourImage& truth_now, const cv::Mat1b& mask) {
     cv::Mat change;
     cv::absdiff(error_of(before, truth_before), error_of(now, truth_now), change);
@@ -55,7 +55,7 @@ void Wavering::add(const ColourImage& before, const ColourImage& truth_before,
     pixels_ += pixels;
 }
 
-double Wavering::against_a_camera() const {
+double Flicker::against_a_camera() const {
     // The mean absolute difference of two values with this noise.
     const double camera = 2 * noise_sigma_ / std::sqrt(std::numbers::pi);
     return pixels_ > 0 ? sum_ / pixels_ / camera : 0;

@@ -8,7 +8,7 @@ namespace vantage {
 
 /// The share of pixels whose error, blurred by a box of 5x5, exceeds 24 of 255 grey levels in any
 /// channel: what a person sees as wrong, not as soft or noisy.
-double debris(const ColourImage& picture, const ColourImage& truth);
+double outliers(const ColourImage& picture, const ColourImage& truth);
 
 /// How close pictures come to what a real camera would have seen; means over those that were added.
 class Fidelity {
@@ -18,18 +18,18 @@ class Fidelity {
     int pictures() const { return pictures_; }
     double psnr_db() const { return psnr_db_ / pictures_; }
     double ssim() const { return ssim_ / pictures_; }
-    double debris() const { return debris_ / pictures_; }
+    double outliers() const { return outliers_ / pictures_; }
 
   private:
     int pictures_ = 0;
-    double psnr_db_ = 0, ssim_ = 0, debris_ = 0;
+    double psnr_db_ = 0, ssim_ = 0, outliers_ = 0;
 };
 
 /// How much the error of consecutive pictures changes against the noise of a camera: 1 is what a
 /// real camera with that noise would waver.
-class Wavering {
+class Flicker {
   public:
-    explicit Wavering(double noise_sigma) : noise_sigma_(noise_sigma) {}
+    explicit Flicker(double noise_sigma) : noise_sigma_(noise_sigma) {}
 
     /// Pixels of `mask` (not 0) count. All of one size.
     void add(const ColourImage& before, const ColourImage& truth_before, const ColourImage& now,

@@ -8,7 +8,7 @@
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/played_truth.h"
-#include "tests/bench/set_truth.h"
+#include "tests/bench/background_truth.h"
 #include "tests/bench/size_option.h"
 #include "tests/bench/stepped_truth.h"
 
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     bool without_times = false;
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
-    SetTruth wanted_set;
+    BackgroundTruth wanted_set;
     CLI::App* set = app.add_subcommand("set", "How true the depth of a learnt set is");
     set->add_option("--sets", wanted_set.sets, "0: the demo's")->delimiter(',');
     set->add_option("--rig-size", size, "Of the rigs");

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array presets = {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast};
 constexpr std::size_t columns = 1 + presets.size();  ///< HH4 and the presets
 constexpr float threshold_px = 2;
-constexpr std::uint64_t stage_sets = 7;
+constexpr std::uint64_t stage_frame_sets = 7;
 
 /// Plain pixels that both cameras see, and those of them that are off, a column each.
 struct Count {
@@ -61,7 +61,7 @@ Count count_of(const ShaderLibrary& library, const StereoScene& scene) {
 }
 
 StereoScene scene_of_set(const ShaderLibrary& library, std::uint64_t set) {
-    const FilmedPair pair = filmed_set(library, set, {449, 337}, 1);
+    const FilmedPair pair = filmed_background(library, set, {449, 337}, 1);
     StereoScene scene;
     scene.name = set == 0 ? "the show" : fmt::format("random set {}", set);
     scene.left = pair.left;
@@ -90,7 +90,7 @@ void print_plain_surface_table(const ShaderLibrary& library,
         (is_generated ? generated : photographs).add(count);
         if (!is_generated) count.print(scene.name);
     }
-    for (std::uint64_t set = 0; set < stage_sets; ++set) {
+    for (std::uint64_t set = 0; set < stage_frame_sets; ++set) {
         const StereoScene scene = scene_of_set(library, set);
         const Count count = count_of(library, scene);
         count.print(scene.name);

@@ -104,7 +104,7 @@ Played play(const PlayedTruth& wanted) {
     settings.format = {.width_px = stage.view.width_px, .height_px = stage.view.height_px};
     settings.rate_hz = wanted.rate_hz;
     settings.pulse_rate_hz = stage.rate_hz;
-    settings.quality = QualityWish::parse(wanted.quality);
+    settings.quality = QualityRequest::parse(wanted.quality);
     LiveShow show(settings, plan, feed_of(receiver), nullptr);
     show.add(std::make_unique<KeepingSink>(played.shown));
     if (!show.wait_for_rigs(std::chrono::seconds(60), stop)) fail("interrupted");
@@ -133,7 +133,7 @@ std::string played_table(const PlayedTruth& wanted) {
     const ShaderLibrary shaders;
     VirtualStage stage(shaders);
     Fidelity instant, tick;
-    Wavering wavering(noise_sigma);
+    Flicker flicker(noise_sigma);
     std::optional<std::size_t> before;  // the last new picture
     ColourImage truth_before;
     std::vector<cv::Mat> strip;
@@ -149,7 +149,7 @@ std::string played_table(const PlayedTruth& wanted) {
         if (const bool is_new = !before || shown.picture.data != played.shown[*before].picture.data;
             is_new) {
             if (before)
-                wavering.add(played.shown[*before].picture, truth_before, shown.picture, truth,
+                flicker.add(played.shown[*before].picture, truth_before, shown.picture, truth,
                              cv::Mat1b(truth.size(), 255));
             before = i;
             truth_before = truth;
@@ -166,7 +166,7 @@ std::string played_table(const PlayedTruth& wanted) {
         cv::hconcat(strip, all);
         write_colour_image(wanted.strip, ColourImage(all));
     }
-    const ProgrammeBooks& books = played.report.programme;
+    const ProgrammeStats& stats = played.report.programme;
     return fmt::format(
         "The demo's rigs and a programme of {:g} pictures a second, quality {}, on {}: {} pictures "
         "after the first {:g} s, repeated ones too.\n\n"
@@ -184,14 +184,14 @@ std::string played_table(const PlayedTruth& wanted) {
         "| levels by time: rendering | {} |\n"
         "| levels by time: preparing | {} |\n",
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
-        wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.debris(),
-        tick.psnr_db(), tick.ssim(), 100 * tick.debris(), wavering.against_a_camera(), books.ticks,
-        books.reprojected, books.repeated, books.missed, 100 * books.reprojected_way.p50,
-        100 * books.reprojected_way.p99, books.late_ms.p50, books.late_ms.p99, books.late_ms.max,
-        books.latency_ms.p50, books.latency_ms.p95, books.latency_ms.p99, books.interval_ms.p50,
-        books.interval_ms.p99,
-        static_cast<double>(played.report.instants_prepared) / books.duration_s,
-        shares_text(books.render_shares), shares_text(books.prepare_shares));
+        wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.outliers(),
+        tick.psnr_db(), tick.ssim(), 100 * tick.outliers(), flicker.against_a_camera(), stats.ticks,
+        stats.reprojected, stats.repeated, stats.missed, 100 * stats.reprojected_way.p50,
+        100 * stats.reprojected_way.p99, stats.late_ms.p50, stats.late_ms.p99, stats.late_ms.max,
+        stats.latency_ms.p50, stats.latency_ms.p95, stats.latency_ms.p99, stats.interval_ms.p50,
+        stats.interval_ms.p99,
+        static_cast<double>(played.report.instants_prepared) / stats.duration_s,
+        shares_text(stats.render_shares), shares_text(stats.prepare_shares));
 }
 
 }  // namespace vantage

@@ -46,7 +46,7 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
         }
         past.add(set);
     }
-    const PastSets::Span span = *past.span();
+    const PastFrameSets::Span span = *past.span();
     std::cout << fmt::format(
         "{} rigs, colour {} as JPEG {} of {}, depth {}, {:g} Hz, noise of {:g} grey levels: a "
         "frame has "

@@ -151,7 +151,7 @@ void print(const Result& it, const Case& how, int rigs, std::ostream& flow, std:
     flow << fmt::format(
         "| {} | {} | {:.0f} | {:.0f} | {:.1f} % | {:.1f} % | {} | {} | {} | {} |\n", rigs,
         how.words, came / seconds, came * frame_mb / seconds, per_cent(came, filmed),
-        per_cent(static_cast<double>(it.host.complete_sets), filmed / rigs),
+        per_cent(static_cast<double>(it.host.complete_frame_sets), filmed / rigs),
         it.rigs["send_dropped"].get<std::uint64_t>(), it.sum(&RigStatus::queue_dropped),
         it.sum(&RigStatus::late), how.is_recorded ? std::to_string(left_out) : "–");
     // Threads that came and went are the take's coders.

@@ -145,14 +145,14 @@ void serve_scale_rigs(const ScaleFolder& folder, const ScaleRigs& wanted) {
             sum.sent += host.counters.sent;
             sum.send_dropped += host.counters.send_dropped;
         }
-    const nlohmann::json books{{"seconds", seconds},
+    const nlohmann::json stats{{"seconds", seconds},
                                {"frames", pulses * rigs.size()},
                                {"frame_bytes", bytes / static_cast<double>(pulses * rigs.size())},
                                {"offered", sum.offered},
                                {"sent", sum.sent},
                                {"send_dropped", sum.send_dropped},
                                {"cpu_s", used_s}};
-    write_text_atomically(folder.file("rigs.json"), books.dump());
+    write_text_atomically(folder.file("rigs.json"), stats.dump());
     // Hosts look at what came before the links go.
     while (!std::filesystem::exists(folder.file("done"))) std::this_thread::sleep_for(20ms);
 }
@@ -167,7 +167,7 @@ void serve_scale_relay(const ScaleFolder& folder) {
                           stage_text("host.key", stage.rate_hz, entries));
     const double before_s = cpu_s();
     while (!std::filesystem::exists(folder.file("rigs.json"))) std::this_thread::sleep_for(20ms);
-    nlohmann::json books{{"cpu_s", cpu_s() - before_s}};
+    nlohmann::json stats{{"cpu_s", cpu_s() - before_s}};
     std::uint64_t frames = 0, sent = 0;
     double bytes = 0;
     for (const RigRelay::Rig& rig : relay.status()) {
@@ -175,10 +175,10 @@ void serve_scale_relay(const ScaleFolder& folder) {
         bytes += static_cast<double>(rig.bytes);
         for (const HostLinks::HostStatus& host : rig.hosts) sent += host.counters.sent;
     }
-    books["frames"] = frames;
-    books["bytes"] = bytes;
-    books["sent"] = sent;
-    write_text_atomically(folder.file("relay.json"), books.dump());
+    stats["frames"] = frames;
+    stats["bytes"] = bytes;
+    stats["sent"] = sent;
+    write_text_atomically(folder.file("relay.json"), stats.dump());
     while (!std::filesystem::exists(folder.file("done"))) std::this_thread::sleep_for(20ms);
 }
 

@@ -25,15 +25,15 @@ trap 'rm -rf "$work"' EXIT
 
 # Step | words | shader | sed expression
 steps='nothing|nothing||
-silhouettes|performers held by other rigs'"'"' silhouettes (2)|performer_carve.frag|s/if (look_at_silhouettes(pixel, z) >= 0) carved = z;/carved = z;/
-smoothing|their depth smoothed (2)|performer_depth.frag|s/smooth_weight = 0.24/smooth_weight = 0.0/
-unmixing|the set taken out of their edges (1)|performer_colour.frag|s/if (share == 0.0 .. share == 1.0) return;/return;/
+silhouettes|performers held by other rigs'"'"' silhouettes (2)|foreground_carve.frag|s/if (look_at_silhouettes(pixel, z) >= 0) carved = z;/carved = z;/
+smoothing|their depth smoothed (2)|foreground_depth.frag|s/smooth_weight = 0.24/smooth_weight = 0.0/
+unmixing|the set taken out of their edges (1)|foreground_colour.frag|s/if (share == 0.0 .. share == 1.0) return;/return;/
 floor|the floor (3)|rig_floor.frag|s/if (own <= 0.0 .. nearness < horizon) return;/return;/
 moving|depth moved to where pictures agree (4)|rig_carve.frag|s/if (doubts) z = moved(at, z, share);//
 carving|what others see through carved away (4)|rig_carve.frag|s/if (through > support) z = 0.0;//
 adoption|confirmed depth taken over (4)|rig_adopt.frag|s/if (own.g != 0.0) return;/return;/
 votes|rigs vote for surfaces (6)|fused_depth.frag|s/^bool is_there(vec2 pixel, float z) {/\0 return true;/
-trust|colours trusted less beside edges (7)|edge_trust.frag|s/trust = mix(least_trust, 1.0, pure \* pure);/trust = 1.0;/
+trust|colours trusted less beside edges (7)|edge_confidence.frag|s/trust = mix(least_trust, 1.0, pure \* pure);/trust = 1.0;/
 sharpness|colours as sharp as the view (7)|fused_colour.frag|s/if (fine \&\& lod/if (false \&\& lod/
 doubts|rigs'"'"' colours decide at edges (8)|fused_colour.frag|s/^float doubt(Evidence e) {/\0 if (e.weight > 0.0) return 0.0;/
 specks|specks (12)|impulse_filter.frag|s/leave_to_second(!is_one_surface(at));/leave_to_second(false);/'

@@ -98,8 +98,8 @@ struct Measured {
 
     Fidelity fidelity;
     RegionalError regions;
-    Wavering set, performers;
-    double edge_error = 0, set_psnr_db = 0, performers_psnr_db = 0;
+    Flicker set, performers;
+    double edge_error = 0, set_psnr_db = 0, foreground_psnr_db = 0;
     int edge_pictures = 0;
     std::vector<double> take_ms, prepare_ms, render_ms;
     std::map<std::size_t, std::pair<ColourImage, Truth>> before;  ///< by camera
@@ -120,14 +120,14 @@ void write_beside(const std::string& folder, const std::string& name, const Colo
 }
 
 /// What is learnt of the set while performers walk a whole loop of the stage.
-LearntSet set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
+Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
                         VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
                         bool with_own_depth) {
     constexpr std::chrono::milliseconds loop{24000}, step{800};
     // Told to be closer in time than they are, so that they make one mean.
     constexpr double told_dt_s = 0.2;
     const std::unique_ptr<InstantPreparer> preparer = synthesiser.make_preparer(library);
-    if (!preparer->set_memory()) fail("the synthesiser {} learns no set", synthesiser.name);
+    if (!preparer->background_access()) fail("the synthesiser {} learns no set", synthesiser.name);
     std::uint64_t instant = 1'000'000;  // noise of its own
     for (std::chrono::milliseconds time{0}; time < loop; time += step) {
         std::vector<DepthView> views;
@@ -138,7 +138,7 @@ LearntSet set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary
         preparer->take(views, told_dt_s);
         ++instant;
     }
-    return preparer->set_memory()->learnt();
+    return preparer->background_access()->learnt();
 }
 
 std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
@@ -175,11 +175,11 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     }
 
     if (wanted.knows_set) {
-        const auto learnt = std::make_shared<const LearntSet>(
+        const auto learnt = std::make_shared<const Background>(
             set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
                           !wanted.with_exact_depth));
         for (Runner& runner : runners)
-            if (SetMemory* memory = runner.preparer->set_memory()) memory->begin_with(learnt);
+            if (BackgroundAccess* memory = runner.preparer->background_access()) memory->begin_with(learnt);
     }
 
     const auto instants = static_cast<std::uint64_t>(
@@ -229,7 +229,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                 measured.regions.add(picture, truth);
                 if (cv::countNonZero(truth.edges) > 0) {
                     measured.set_psnr_db += psnr_db(picture, truth.colour, ~truth.performers);
-                    measured.performers_psnr_db += psnr_db(picture, truth.colour, truth.performers);
+                    measured.foreground_psnr_db += psnr_db(picture, truth.colour, truth.performers);
                     measured.edge_error += mean_error(picture, truth.colour, truth.edges);
                     ++measured.edge_pictures;
                 }
@@ -257,8 +257,8 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
             "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} |",
             wanted.synthesisers[r], set, m.fidelity.psnr_db(),
             m.set_psnr_db / std::max(m.edge_pictures, 1),
-            m.performers_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
-            100 * m.fidelity.debris(), m.edge_error / std::max(m.edge_pictures, 1),
+            m.foreground_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
+            100 * m.fidelity.outliers(), m.edge_error / std::max(m.edge_pictures, 1),
             m.set.against_a_camera(), m.performers.against_a_camera());
         if (wanted.with_times)
             text += fmt::format(" {:.0f} | {:.0f} | {:.0f} |", median(m.take_ms),

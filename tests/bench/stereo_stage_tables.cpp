@@ -19,14 +19,14 @@ const cv::Size size_px(449, 337);
 constexpr MatchPreset presets[] = {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast};
 
 /// One set, and what everyone makes of it: HH4, then the presets.
-struct SetResults {
+struct BackgroundResults {
     FilmedPair pair;
     std::vector<cv::Mat1f> found_px;
     std::vector<double> area_to_chance;  ///< of the presets
 };
 
-SetResults results_of(const ShaderLibrary& library, std::uint64_t set) {
-    SetResults results{filmed_set(library, set, size_px, 1), {}, {}};
+BackgroundResults results_of(const ShaderLibrary& library, std::uint64_t set) {
+    BackgroundResults results{filmed_background(library, set, size_px, 1), {}, {}};
     const FilmedPair& pair = results.pair;
     results.found_px.push_back(OpenCvMatcher(OpenCvMode::hh4, disparities)
                                    .match(to_grey(pair.left), to_grey(pair.right), true));
@@ -45,7 +45,7 @@ SetResults results_of(const ShaderLibrary& library, std::uint64_t set) {
 }
 
 /// Left picture, exact disparity, then everyone's.
-ColourImage comparison_row(const SetResults& results) {
+ColourImage comparison_row(const BackgroundResults& results) {
     std::vector<cv::Mat> pictures = {results.pair.left};
     const auto add = [&](const cv::Mat1f& disparity_px) {
         pictures.push_back(colour_map_disparity(disparity_px, 0, disparities));
@@ -69,7 +69,7 @@ void print_stage_tables(const ShaderLibrary& library, const std::filesystem::pat
         size_px.width, size_px.height, disparities);
     std::vector<cv::Mat> rows;
     for (const std::uint64_t set : {0, 1, 2, 3}) {
-        const SetResults results = results_of(library, set);
+        const BackgroundResults results = results_of(library, set);
         fmt::print("| {} |", set == 0 ? "the show" : fmt::format("random set {}", set));
         for (const cv::Mat1f& found : results.found_px)
             fmt::print(" {:.3f} |",

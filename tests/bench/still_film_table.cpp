@@ -21,7 +21,7 @@ namespace {
 constexpr int disparities = 48, settling_frames = 25, measured_frames = 15;
 constexpr double frames_per_s = 25, noise_sigma = 2, drift = 0.03, drifts_per_s = 0.4;
 constexpr double right_exposure = 1.02;
-constexpr std::uint64_t stage_sets = 7;
+constexpr std::uint64_t stage_frame_sets = 7;
 const cv::Size size_px(449, 337);
 constexpr std::array presets = {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast};
 
@@ -74,7 +74,7 @@ std::vector<FilmFrame> film_of(const ShaderLibrary& library, std::uint64_t set) 
 }
 
 /// What became of the pixels of the measured frames.
-class Wavering {
+class Flicker {
   public:
     void add(const FilmFrame& frame, const cv::Mat1f& found_px) {
         if (!before_.empty()) {
@@ -109,7 +109,7 @@ class Wavering {
 };
 
 struct BeforeAndAfter {
-    Wavering raw, steadied;
+    Flicker raw, denoised;
 };
 
 BeforeAndAfter matched_film(const ShaderLibrary& library, MatchPreset preset,
@@ -127,18 +127,18 @@ BeforeAndAfter matched_film(const ShaderLibrary& library, MatchPreset preset,
     BeforeAndAfter result;
     for (std::size_t i = 0; i < film.size(); ++i) {
         const Texture left = uploaded(film[i].left), right = uploaded(film[i].right);
-        const cv::Mat1f steadied =
+        const cv::Mat1f denoised =
             to_float_px(steady.run(stream_matcher->match(left, right), left).download());
         if (i < settling_frames) continue;
         result.raw.add(film[i], to_float_px(matcher->match(left, right).download()));
-        result.steadied.add(film[i], steadied);
+        result.denoised.add(film[i], denoised);
     }
     return result;
 }
 
-Wavering of_hh4(const std::vector<FilmFrame>& film) {
+Flicker of_hh4(const std::vector<FilmFrame>& film) {
     OpenCvMatcher hh4(OpenCvMode::hh4, disparities);
-    Wavering result;
+    Flicker result;
     for (std::size_t i = settling_frames; i < film.size(); ++i)
         result.add(film[i], hh4.match(to_grey(film[i].left), to_grey(film[i].right), true));
     return result;
@@ -159,12 +159,12 @@ void print_still_film_table(const ShaderLibrary& library) {
         measured_frames);
     std::string errors;
     std::array<double, 14> sums{};
-    for (std::uint64_t set = 0; set < stage_sets; ++set) {
+    for (std::uint64_t set = 0; set < stage_frame_sets; ++set) {
         const std::vector<FilmFrame> film = film_of(library, set);
         const std::string name = set == 0 ? "the show" : fmt::format("random set {}", set);
         std::string row;
         std::size_t column = 0;
-        const auto add = [&](const Wavering& found) {
+        const auto add = [&](const Flicker& found) {
             row += fmt::format(" {:.1f} / {:.1f} |", found.jumping(), found.ranging());
             sums[column++] += found.jumping();
             sums[column++] += found.ranging();
@@ -174,10 +174,10 @@ void print_still_film_table(const ShaderLibrary& library) {
         for (const MatchPreset preset : presets) {
             const BeforeAndAfter found = matched_film(library, preset, film);
             add(found.raw);
-            add(found.steadied);
+            add(found.denoised);
             errors += fmt::format(" {:.1f} / {:.1f} | {:.1f} / {:.1f} |", found.raw.bad_still(),
-                                  found.raw.bad_moving(), found.steadied.bad_still(),
-                                  found.steadied.bad_moving());
+                                  found.raw.bad_moving(), found.denoised.bad_still(),
+                                  found.denoised.bad_moving());
         }
         errors += "\n";
         fmt::print("| {} |{}\n", name, row);
@@ -185,7 +185,7 @@ void print_still_film_table(const ShaderLibrary& library) {
     }
     fmt::print("| **mean** |");
     for (std::size_t i = 0; i < sums.size(); i += 2)
-        fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_sets, sums[i + 1] / stage_sets);
+        fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_frame_sets, sums[i + 1] / stage_frame_sets);
     fmt::print(
         "\n\nbad-2.0 in percent on these films, of what stands still / of what moves\n\n"
         "| set | quality | steadied | balanced | steadied | fast | steadied |\n"

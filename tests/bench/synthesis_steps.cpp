@@ -68,7 +68,7 @@ ColourImage opaque(cv::Mat4b colour) {
     return colour;
 }
 
-ColourImage without_what_is_guessed(const ColourImage& picture) {
+ColourImage without_inpainted(const ColourImage& picture) {
     ColourImage seen = picture.clone();
     seen.setTo(cv::Scalar(0, 0, 0, 255), ~covered_mask(picture));
     return seen;
@@ -86,7 +86,7 @@ ColourImage steps() {
     const SynthesiserEntry entry = find_synthesiser(default_synthesiser);
     const auto preparer = entry.make_preparer(library);
     const auto renderer = entry.make_renderer(library);
-    PerformerPreparer apart(library);
+    ForegroundPreparer apart(library);
     renderer->note_origins(true);
 
     std::vector<DepthView> views;
@@ -106,10 +106,10 @@ ColourImage steps() {
     const auto instant = preparer->prepare(target, prepare_levels().front());
     const Texture& picture = renderer->render(*instant, target, render_levels().front());
     const ColourImage rendered = picture.download();
-    NoveltyOverlay overlay(library);
+    SourceMapOverlay overlay(library);
     const ColourImage origins = overlay.lay(picture, *renderer->origins()).download();
     const auto told = apart.prepare(target, prepare_levels().front());
-    const auto& performers = dynamic_cast<const PerformerInstant&>(*told->extra).rigs.at(shown_rig);
+    const auto& performers = dynamic_cast<const ForegroundInstant&>(*told->extra).rigs.at(shown_rig);
 
     // An instant's rigs come by their use for the view.
     const InstantRig& rig = *std::find_if(
@@ -123,7 +123,7 @@ ColourImage steps() {
     sheet.add("1: the set behind", opaque(performers.set->colour().download()));
     sheet.add("2-5: depth, bettered", depth_picture(depth_of(rig)));
     sheet.add("6, 7: which rig shows what", origins);
-    sheet.add("7-9: what rigs see", without_what_is_guessed(rendered));
+    sheet.add("7-9: what rigs see", without_inpainted(rendered));
     sheet.add("10-12: the picture", rendered);
     return sheet.picture();
 }

@@ -43,8 +43,8 @@ void measure(const Wanted& wanted) {
     StopSignal stop;
     const auto take = std::make_shared<const TakeReader>(wanted.take);
     const TakeShow told = take_show_from(take->facts().show);
-    const auto sets = std::make_shared<const TakeSets>(take);
-    const PastSets::Span span = *sets->span();
+    const auto sets = std::make_shared<const TakeFrameSets>(take);
+    const PastFrameSets::Span span = *sets->span();
     LiveSettings settings;
     const cv::Size size = size_of(wanted.size);
     settings.format = {.width_px = size.width, .height_px = size.height};
@@ -58,7 +58,7 @@ void measure(const Wanted& wanted) {
     no_clips.pulse_rate_hz = settings.pulse_rate_hz;
     settings.replay = Replay(std::move(transport), std::move(no_clips));
     LiveShow show(settings, {}, feed_of(*take), nullptr);
-    if (!show.wait_for_first_set(stop)) fail("interrupted");
+    if (!show.wait_for_first_frame_set(stop)) fail("interrupted");
     show.start();
     std::this_thread::sleep_for(std::chrono::duration<double>(wanted.play_s));
     const ProgrammeState played = show.state();
@@ -79,23 +79,23 @@ void measure(const Wanted& wanted) {
             std::chrono::duration<double>(wanted.pause_s * random.uniform(0.5, 1.5)));
     }
     show.finish();
-    const ProgrammeBooks books = show.books();
+    const ProgrammeStats stats = show.stats();
     std::cout << fmt::format(
         "{:.0f} s of {} rigs, {} jumps, {} of them without the right picture; levels when playing: "
         "render {}, prepare {}.\n\n"
         "| ms | median | 95 % | 99 % | most |\n| --- | --- | --- | --- | --- |\n",
-        take->duration_s(), take->facts().rigs.size(), books.seek_ms.count, wrong,
+        take->duration_s(), take->facts().rigs.size(), stats.seek_ms.count, wrong,
         played.render_level(), played.prepare_level());
     const auto row = [](const char* name, const Percentiles& p) {
         std::cout << fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", name, p.p50, p.p95,
                                  p.p99, p.max);
     };
     row("command to picture", asked_ms.summary());
-    row("jump to picture", books.seek_ms);
-    row("waiting", books.seek_steps_ms.wait);
-    row("fetching", books.seek_steps_ms.fetch);
-    row("preparing", books.seek_steps_ms.prepare);
-    row("rendering, tick", books.seek_steps_ms.picture);
+    row("jump to picture", stats.seek_ms);
+    row("waiting", stats.seek_steps_ms.wait);
+    row("fetching", stats.seek_steps_ms.fetch);
+    row("preparing", stats.seek_steps_ms.prepare);
+    row("rendering, tick", stats.seek_steps_ms.picture);
 }
 
 }  // namespace

@@ -56,22 +56,22 @@ TruthRegions::TruthRegions(VirtualStage& stage, const StageCamera& camera) {
         const DepthImage depth_m =
             stage.render(camera, std::chrono::milliseconds(ms), {.pictures = StagePictures::depth})
                 .depth_m;
-        if (set_depth_m_.empty())
-            set_depth_m_ = depth_m;
+        if (background_depth_m_.empty())
+            background_depth_m_ = depth_m;
         else
-            set_depth_m_ = DepthImage(cv::max(cv::Mat(set_depth_m_), cv::Mat(depth_m)));
+            background_depth_m_ = DepthImage(cv::max(cv::Mat(background_depth_m_), cv::Mat(depth_m)));
     }
     cv::Mat far, near, opened;
-    cv::dilate(set_depth_m_, far, square_of(3));
-    cv::erode(set_depth_m_, near, square_of(3));
+    cv::dilate(background_depth_m_, far, square_of(3));
+    cv::erode(background_depth_m_, near, square_of(3));
     cv::dilate(cv::Mat1b(near < one_surface * far), rims_, square_of(3));
     // Of depth a closing takes away what an opening of nearness does.
-    cv::morphologyEx(set_depth_m_, opened, cv::MORPH_CLOSE, square_of(thin_px));
-    cv::dilate(cv::Mat1b(set_depth_m_ < one_surface * opened), thin_, square_of(3));
+    cv::morphologyEx(background_depth_m_, opened, cv::MORPH_CLOSE, square_of(thin_px));
+    cv::dilate(cv::Mat1b(background_depth_m_ < one_surface * opened), thin_, square_of(3));
 }
 
 cv::Mat1b TruthRegions::performers(const DepthImage& depth_m) const {
-    return depth_m < one_surface * set_depth_m_;
+    return depth_m < one_surface * background_depth_m_;
 }
 
 cv::Mat1b TruthRegions::of(const DepthImage& depth_m) const {

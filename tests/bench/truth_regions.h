@@ -33,14 +33,14 @@ class TruthRegions {
     TruthRegions(VirtualStage& stage, const StageCamera& camera);
 
     /// The set's exact depth.
-    const DepthImage& set_depth_m() const { return set_depth_m_; }
+    const DepthImage& background_depth_m() const { return background_depth_m_; }
     /// Where performers are, by this instant's exact depth.
     cv::Mat1b performers(const DepthImage& depth_m) const;
     /// A TruthRegion a pixel.
     cv::Mat1b of(const DepthImage& depth_m) const;
 
   private:
-    DepthImage set_depth_m_;  ///< the farthest at any time: performers walk about
+    DepthImage background_depth_m_;  ///< the farthest at any time: performers walk about
     cv::Mat1b thin_, rims_;
 };
 

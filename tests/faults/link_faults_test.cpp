@@ -146,7 +146,7 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
         while (host_->next(0s)) {
         }
         const RigStatus status = rig(far);
-        return status.in_sets + status.late == status.received;
+        return status.in_frame_sets + status.late == status.received;
     }));
     const RigStatus status = rig(far);
     // A rig whose host says nothing for seconds offers frames to nobody.

@@ -336,12 +336,12 @@ TEST_F(PeerFaults, ASlowReaderLosesItsOwnFramesOnly) {
     slow.set(zmq::sockopt::curve_secretkey, host_keys_.secret_key);
     slow.connect(rig_->endpoint());
     // It grants as many frames as may be and takes none.
-    HostMessage wish;
-    wish.host_id = 9;
-    wish.credit_window = 16;
-    wish.streaming = true;
+    HostMessage request;
+    request.host_id = 9;
+    request.credit_window = 16;
+    request.streaming = true;
     const auto say = [&] {
-        const std::vector<std::byte> message = encode(wish);
+        const std::vector<std::byte> message = encode(request);
         (void)slow.send(zmq::buffer(message), zmq::send_flags::none);
     };
     say();

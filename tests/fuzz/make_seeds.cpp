@@ -423,11 +423,11 @@ void write_takes(const Seeds& seeds) {
     }
 }
 
-void write_sets(const Seeds& seeds) {
-    const LearntRigSet rig{"rig-a", "fnv1a64:0123456789abcdef",
+void write_frame_sets(const Seeds& seeds) {
+    const RigBackground rig{"rig-a", "fnv1a64:0123456789abcdef",
                            ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
                            cv::Mat1b(3, 4, uchar{200})};
-    seeds.write("learnt_set", "one", encode_set({tai_from_ns(1), {rig}}));
+    seeds.write("learnt_set", "one", encode_frame_set({tai_from_ns(1), {rig}}));
 }
 
 }  // namespace
@@ -451,7 +451,7 @@ int main(int argc, char** argv) {
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);
         vantage::write_kept_frame(seeds);
-        vantage::write_sets(seeds);
+        vantage::write_frame_sets(seeds);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "make_seeds: " << error.what() << '\n';

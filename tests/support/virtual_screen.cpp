@@ -12,12 +12,12 @@ namespace vantage {
 namespace {
 
 constexpr const char* server_program = "/usr/bin/Xvfb";
-constexpr const char* hands_program = "/usr/bin/xdotool";
+constexpr const char* operator_input_program = "/usr/bin/xdotool";
 
 }  // namespace
 
 bool VirtualScreen::is_there() {
-    return std::filesystem::exists(server_program) && std::filesystem::exists(hands_program);
+    return std::filesystem::exists(server_program) && std::filesystem::exists(operator_input_program);
 }
 
 VirtualScreen::VirtualScreen(int width_px, int height_px) {
@@ -38,8 +38,8 @@ VirtualScreen::VirtualScreen(int width_px, int height_px) {
     fail("Xvfb does not come up: {}", server_->err());
 }
 
-void VirtualScreen::hands(const std::vector<std::string>& commands) const {
-    const ProgramResult result = run_to_end(hands_program, commands, {environment()});
+void VirtualScreen::operator_input(const std::vector<std::string>& commands) const {
+    const ProgramResult result = run_to_end(operator_input_program, commands, {environment()});
     if (result.status != 0) fail("xdotool: {}", result.err);
 }
 

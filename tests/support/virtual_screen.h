@@ -24,7 +24,7 @@ class VirtualScreen {
     const std::string& display() const { return display_; }
 
     /// xdotool's commands, one after the other. Throws Error, with what it says, if one fails.
-    void hands(const std::vector<std::string>& commands) const;
+    void operator_input(const std::vector<std::string>& commands) const;
 
   private:
     TemporaryFolder folder_;

@@ -9,10 +9,10 @@ namespace vantage {
 
 /// A share of the time for work beside which other work has to go on. What is left of it and what
 /// was taken too much count later, up to `longest_carried` of either.
-class TimeShare {
+class TimeBudget {
   public:
     /// `share` from 0 to 1. Of the time before `now` nothing is left.
-    TimeShare(double share, std::chrono::nanoseconds longest_carried, MonotonicTime now)
+    TimeBudget(double share, std::chrono::nanoseconds longest_carried, MonotonicTime now)
         : share_(share), longest_carried_(longest_carried), earned_(now) {}
 
     /// Whether some of it is left.

@@ -17,24 +17,24 @@ thread_local std::mutex* held = nullptr;
 
 }  // namespace
 
-DriverTurn::DriverTurn(std::mutex* driver) : driver_(driver) {
+DriverLock::DriverLock(std::mutex* driver) : driver_(driver) {
     assert(!held);
     if (!driver_) return;
     driver_->lock();
     held = driver_;
 }
 
-DriverTurn::~DriverTurn() {
+DriverLock::~DriverLock() {
     if (!driver_) return;
     held = nullptr;
     driver_->unlock();
 }
 
-DriverTurn::Pause::Pause() : driver_(std::exchange(held, nullptr)) {
+DriverLock::Pause::Pause() : driver_(std::exchange(held, nullptr)) {
     if (driver_) driver_->unlock();
 }
 
-DriverTurn::Pause::~Pause() {
+DriverLock::Pause::~Pause() {
     if (!driver_) return;
     driver_->lock();
     held = driver_;

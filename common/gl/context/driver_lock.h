@@ -11,14 +11,14 @@ namespace vantage {
 /// work; while one waits (Fence, SlicedDrawing) it is another's turn. Contexts of one display take
 /// turns, also those that share nothing. For the same driver's sake a mutex of this program is
 /// destroyed only once nobody holds it (pthread_mutex_destroy, in the source).
-class DriverTurn {
+class DriverLock {
   public:
     /// Waits until nobody else has the turn. `driver` must outlive it; null: the driver keeps its
     /// contexts apart itself, and there are no turns. A thread has one turn at a time.
-    explicit DriverTurn(std::mutex* driver);
-    ~DriverTurn();
-    DriverTurn(const DriverTurn&) = delete;
-    DriverTurn& operator=(const DriverTurn&) = delete;
+    explicit DriverLock(std::mutex* driver);
+    ~DriverLock();
+    DriverLock(const DriverLock&) = delete;
+    DriverLock& operator=(const DriverLock&) = delete;
 
     /// While it lives, it is another's turn, and this thread calls nothing of the driver but waits.
     /// Without effect on a thread that has no turn.

@@ -2,12 +2,12 @@
 
 namespace vantage {
 
-RightOfWay::Claim::Claim(RightOfWay& way) : way_(&way) {
+RenderPriority::Claim::Claim(RenderPriority& way) : way_(&way) {
     const std::lock_guard lock(way_->mutex_);
     ++way_->claims_;
 }
 
-RightOfWay::Claim::~Claim() {
+RenderPriority::Claim::~Claim() {
     {
         const std::lock_guard lock(way_->mutex_);
         --way_->claims_;
@@ -15,7 +15,7 @@ RightOfWay::Claim::~Claim() {
     way_->freed_.notify_all();
 }
 
-void RightOfWay::give_way(std::chrono::nanoseconds longest) {
+void RenderPriority::give_way(std::chrono::nanoseconds longest) {
     std::unique_lock lock(mutex_);
     freed_.wait_for(lock, longest, [&] { return claims_ == 0; });
 }

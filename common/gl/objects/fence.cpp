@@ -32,7 +32,7 @@ Fence::~Fence() {
 bool Fence::reached_within(std::chrono::nanoseconds time) const {
     if (!sync_) return true;
     // Who only asks keeps its turn: to get it back it might wait.
-    std::optional<DriverTurn::Pause> pause;
+    std::optional<DriverLock::Pause> pause;
     if (time.count() > 0) pause.emplace();
     const GLenum outcome = glClientWaitSync(sync_, 0, static_cast<GLuint64>(time.count()));
     if (outcome == GL_WAIT_FAILED) fail("the GPU was lost while its work was waited for");

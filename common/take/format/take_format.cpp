@@ -182,7 +182,7 @@ std::string to_text(const FrameRecord& record) {
                                 {"offered", record.link.offered},
                                 {"sent", record.link.sent},
                                 {"send_dropped", record.link.send_dropped},
-                                {"thinned", record.link.thinned}};
+                                {"thinned", record.link.skipped}};
     if (record.colour_crc) json["colour_crc32"] = *record.colour_crc;
     if (record.depth_crc) json["depth_crc32"] = *record.depth_crc;
     json["header"] = base64(record.header);

@@ -14,14 +14,14 @@ constexpr double most_pixels = 640 * 480;
 
 }  // namespace
 
-cv::Size set_match_size(cv::Size colour) {
+cv::Size background_match_size(cv::Size colour) {
     const int part =
         std::max(1, static_cast<int>(std::ceil(std::sqrt(colour.area() / most_pixels))));
     return {std::max(1, colour.width / part), std::max(1, colour.height / part)};
 }
 
 std::vector<std::byte> pack_right_picture(JpegEncoder& jpeg, const ColourImage& right) {
-    const cv::Size size = set_match_size(right.size());
+    const cv::Size size = background_match_size(right.size());
     if (size == right.size()) return jpeg.encode(right, quality, Chroma::full);
     cv::Mat sized;
     cv::resize(right, sized, size, 0, 0, cv::INTER_AREA);

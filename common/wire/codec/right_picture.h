@@ -12,7 +12,7 @@ namespace vantage {
 
 /// At which a set of `colour` pixels is matched, where larger ones would take too much: that size,
 /// or a half, a third of it. A rig need not send more of its right picture.
-cv::Size set_match_size(cv::Size colour);
+cv::Size background_match_size(cv::Size colour);
 
 /// A JPEG of that size, of whole chroma, for sets are matched to a part of a pixel.
 std::vector<std::byte> pack_right_picture(JpegEncoder& jpeg, const ColourImage& right);

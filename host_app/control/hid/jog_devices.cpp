@@ -53,9 +53,9 @@ std::unique_ptr<JogDecoder> make_decoder(const WheelProfile& profile, JogId id) 
 }
 
 /// One open device and its thread.
-class JogDeck::Reader {
+class JogDevices::Reader {
   public:
-    Reader(JogDeck& deck, const Seen& seen, std::unique_ptr<JogPort> port)
+    Reader(JogDevices& deck, const Seen& seen, std::unique_ptr<JogPort> port)
         : deck_(deck),
           name_(seen.device.model),
           path_(seen.device.place.path),
@@ -118,7 +118,7 @@ class JogDeck::Reader {
         deck_.push({kind, path_, profile_, {}, std::move(report), time});
     }
 
-    JogDeck& deck_;
+    JogDevices& deck_;
     std::string name_, path_, fault_;
     std::shared_ptr<const WheelProfile> profile_;
     std::unique_ptr<JogPort> port_;
@@ -128,27 +128,27 @@ class JogDeck::Reader {
     std::thread thread_;
 };
 
-JogDeck::JogDeck(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles, Options options)
+JogDevices::JogDevices(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles, Options options)
     : bus_(std::move(bus)),
       profiles_(std::move(profiles)),
       options_(options),
       thread_([this] { run(); }) {}
 
-JogDeck::~JogDeck() {
+JogDevices::~JogDevices() {
     end_.close();
     thread_.join();
 }
 
-std::optional<DeckEvent> JogDeck::next(std::chrono::nanoseconds timeout) {
+std::optional<DeckEvent> JogDevices::next(std::chrono::nanoseconds timeout) {
     return events_.pop_for(timeout);
 }
 
-std::vector<DeckDevice> JogDeck::devices() const {
+std::vector<DeckDevice> JogDevices::devices() const {
     const std::lock_guard lock(mutex_);
     return devices_;
 }
 
-void JogDeck::run() {
+void JogDevices::run() {
     name_this_thread("jog");
     // Its readers push to this deck, so they end before it does.
     std::map<std::string, Seen> seen;
@@ -166,7 +166,7 @@ void JogDeck::run() {
     }
 }
 
-void JogDeck::look(std::map<std::string, Seen>& seen) {
+void JogDevices::look(std::map<std::string, Seen>& seen) {
     const std::vector<ReadableJog> there = readable_jogs(bus_->list(), profiles_);
     std::erase_if(seen, [&](const auto& entry) {
         return std::none_of(there.begin(), there.end(), [&](const ReadableJog& jog) {
@@ -194,7 +194,7 @@ void JogDeck::look(std::map<std::string, Seen>& seen) {
     devices_ = std::move(devices);
 }
 
-void JogDeck::care_for(Seen& seen) {
+void JogDevices::care_for(Seen& seen) {
     if (seen.reader && !seen.reader->gone()) {
         if (seen.reader->usable()) {
             seen.failures = 0;
@@ -216,7 +216,7 @@ void JogDeck::care_for(Seen& seen) {
     }
 }
 
-void JogDeck::note_failure(Seen& seen, const std::string& fault) {
+void JogDevices::note_failure(Seen& seen, const std::string& fault) {
     seen.device.fault = fault;
     ++seen.failures;
     // The first time may be the moment before udev has set the node's permissions.

@@ -44,18 +44,18 @@ struct DeckDevice {
 /// of its own, and notices when one goes. A device that may not be opened, or that does not start,
 /// is tried again and again, since its permissions may come a moment after its node; so is a bus
 /// that cannot be listed.
-class JogDeck {
+class JogDevices {
   public:
     struct Options {
         bool raw_reports = false;
         std::chrono::milliseconds look_every{500};
     };
-    JogDeck(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles, Options options);
-    JogDeck(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles)
-        : JogDeck(std::move(bus), std::move(profiles), Options()) {}
-    ~JogDeck();
-    JogDeck(const JogDeck&) = delete;
-    JogDeck& operator=(const JogDeck&) = delete;
+    JogDevices(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles, Options options);
+    JogDevices(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles)
+        : JogDevices(std::move(bus), std::move(profiles), Options()) {}
+    ~JogDevices();
+    JogDevices(const JogDevices&) = delete;
+    JogDevices& operator=(const JogDevices&) = delete;
 
     /// The oldest event that was not taken; waits for one until the time is up.
     std::optional<DeckEvent> next(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));

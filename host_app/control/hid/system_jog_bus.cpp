@@ -80,11 +80,11 @@ class HidPort final : public JogPort {
 
   private:
     static constexpr std::size_t max_report = 256;
-    struct Closer {
+    struct Inpainting {
         void operator()(hid_device* device) const { hid_close(device); }
     };
     std::string what_;
-    std::unique_ptr<hid_device, Closer> device_;
+    std::unique_ptr<hid_device, Inpainting> device_;
 };
 
 class EvdevPort final : public JogPort {

@@ -48,7 +48,7 @@ std::string action_of(const WheelProfile& profile, const JogControl& control) {
     return found->second.action == AxisAction::command ? found->second.command->name : does_nothing;
 }
 
-void WheelDesk::note(DeckEvent& event) {
+void WheelInput::note(DeckEvent& event) {
     const std::lock_guard lock(mutex_);
     const auto [entry, is_new] = wheels_.try_emplace(event.profile->devices);
     Wheel& wheel = entry->second;
@@ -65,7 +65,7 @@ void WheelDesk::note(DeckEvent& event) {
     note_control(wheel, event.event, event.time);
 }
 
-void WheelDesk::note_control(Wheel& wheel, const JogEvent& event, MonotonicTime time) {
+void WheelInput::note_control(Wheel& wheel, const JogEvent& event, MonotonicTime time) {
     const auto found =
         std::find_if(wheel.controls.begin(), wheel.controls.end(), [&](const JogControl& control) {
             return control.kind == event.kind && control.name == event.control;
@@ -83,23 +83,23 @@ void WheelDesk::note_control(Wheel& wheel, const JogEvent& event, MonotonicTime 
     if (event.value != 0) wheel.selected = static_cast<std::size_t>(found - wheel.controls.begin());
 }
 
-void WheelDesk::serve_desk() {
+void WheelInput::serve_desk() {
     const std::lock_guard lock(mutex_);
     has_desk_ = true;
 }
 
-void WheelDesk::toggle() {
+void WheelInput::toggle() {
     const std::lock_guard lock(mutex_);
     is_open_ = has_desk_ && !is_open_;
     remark_.clear();
 }
 
-bool WheelDesk::is_open() const {
+bool WheelInput::is_open() const {
     const std::lock_guard lock(mutex_);
     return is_open_;
 }
 
-void WheelDesk::obey(const WheelCall& call) {
+void WheelInput::obey(const WheelCall& call) {
     std::vector<JogId> devices;
     Wheel wheel;
     {
@@ -127,7 +127,7 @@ void WheelDesk::obey(const WheelCall& call) {
     remark_ = std::move(remark);
 }
 
-std::string WheelDesk::obey(Wheel& wheel, const WheelCall& call) {
+std::string WheelInput::obey(Wheel& wheel, const WheelCall& call) {
     const auto count = static_cast<int>(wheel.controls.size());
     switch (call.what) {
         case WheelCall::What::select_by:
@@ -155,7 +155,7 @@ std::string WheelDesk::obey(Wheel& wheel, const WheelCall& call) {
     return "";
 }
 
-void WheelDesk::set(Wheel& wheel, const std::string& table, const std::string& key,
+void WheelInput::set(Wheel& wheel, const std::string& table, const std::string& key,
                     const std::string& value) {
     const WheelProfile& old = *wheel.profile;
     auto changed = std::make_shared<WheelProfile>(
@@ -164,7 +164,7 @@ void WheelDesk::set(Wheel& wheel, const std::string& table, const std::string& k
     wheel.profile = std::move(changed);
 }
 
-void WheelDesk::assign(Wheel& wheel, const std::string& action) {
+void WheelInput::assign(Wheel& wheel, const std::string& action) {
     const JogControl& control = wheel.controls[wheel.selected];
     const std::string value = toml_string(action);
     if (control.kind == JogKind::button)
@@ -173,7 +173,7 @@ void WheelDesk::assign(Wheel& wheel, const std::string& action) {
         set(wheel, axis_table(control), "action", value);
 }
 
-void WheelDesk::feel(Wheel& wheel, const WheelCall& call) {
+void WheelInput::feel(Wheel& wheel, const WheelCall& call) {
     // The least that a hand notices, and what a map may have (see WheelProfile).
     constexpr double steps_factor = 1.1, dead_zone_step = 0.02, curve_step = 0.1;
     constexpr double most_dead_zone = 0.9, least_curve = 0.2, most_curve = 5;
@@ -202,7 +202,7 @@ void WheelDesk::feel(Wheel& wheel, const WheelCall& call) {
                    std::clamp(map.curve + curve_step * call.amount, least_curve, most_curve));
 }
 
-std::string WheelDesk::save(Wheel& wheel) {
+std::string WheelInput::save(Wheel& wheel) {
     const std::filesystem::path file = saved_file_of(*wheel.profile);
     if (std::filesystem::exists(file) &&
         (is_packaged(*wheel.profile) ||
@@ -222,7 +222,7 @@ std::string WheelDesk::save(Wheel& wheel) {
     return "saved in " + file.string();
 }
 
-std::optional<WheelMapView> WheelDesk::view(MonotonicTime now) const {
+std::optional<WheelMapView> WheelInput::view(MonotonicTime now) const {
     const std::lock_guard lock(mutex_);
     if (!is_open_) return std::nullopt;
     WheelMapView view;
@@ -248,7 +248,7 @@ std::optional<WheelMapView> WheelDesk::view(MonotonicTime now) const {
     return view;
 }
 
-std::vector<std::string> WheelDesk::unsaved() const {
+std::vector<std::string> WheelInput::unsaved() const {
     const std::lock_guard lock(mutex_);
     std::vector<std::string> names;
     for (const auto& [devices, wheel] : wheels_)

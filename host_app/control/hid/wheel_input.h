@@ -34,7 +34,7 @@ struct WheelMapView {
 /// which is read again as if it came from a file, so that what cannot be is refused in the same
 /// words, and comments stay. While the map is open wheels are shown and move nothing. Any thread;
 /// no lock is held over a file.
-class WheelDesk {
+class WheelInput {
   public:
     /// Takes note of what happens at a wheel, and gives the event the map that is in force.
     void note(DeckEvent& event);

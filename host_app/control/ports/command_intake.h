@@ -9,22 +9,22 @@ namespace vantage {
 /// From a port to the programme's next ticks, no more than hands could press.
 class CommandIntake {
   public:
-    explicit CommandIntake(HandsBox& hands) : hands_(hands) {}
+    explicit CommandIntake(OperatorInputBox& operator_input) : operator_input_(operator_input) {}
 
     /// False: it was one too many.
     bool take(const CommandCall& call, MonotonicTime now) {
         FlightInput input;
         apply(call, input);
         const bool is_turn = call.command->argument == CommandArgument::steps;
-        return (is_turn || allowance_.take(now)) && hands_.put(input, now);
+        return (is_turn || allowance_.take(now)) && operator_input_.put(input, now);
     }
 
   private:
     /// A hand's commands a second, many times over.
     static constexpr double commands_a_second = 200, commands_at_once = 100;
 
-    HandsBox& hands_;
-    Allowance allowance_{commands_a_second, commands_at_once};
+    OperatorInputBox& operator_input_;
+    MessageBudget allowance_{commands_a_second, commands_at_once};
 };
 
 }  // namespace vantage

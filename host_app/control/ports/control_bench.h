@@ -52,7 +52,7 @@ class Tally {
 /// What a port may act on and tell of. All of it takes calls from any thread and outlives the
 /// ports.
 struct ControlBench {
-    HandsBox& hands;
+    OperatorInputBox& operator_input;
     TrackedCamera& tracked;
     Tally& tally;
     const LampBoard& lamps;

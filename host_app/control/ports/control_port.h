@@ -13,7 +13,7 @@
 namespace vantage {
 
 /// Every message that came is in one of these.
-struct PortBooks {
+struct PortStats {
     std::uint64_t obeyed = 0;
     std::uint64_t unknown = 0;    ///< well formed, and there is no such command
     std::uint64_t malformed = 0;  ///< not what the protocol says, or an argument that does not fit
@@ -29,7 +29,7 @@ class ControlPort {
     virtual ~ControlPort() = default;
     /// Takes what has come, waiting for so long at the most. Throws Error if it cannot go on.
     virtual void serve(std::chrono::milliseconds most) = 0;
-    const PortBooks& books() const { return books_; }
+    const PortStats& stats() const { return stats_; }
 
   protected:
     /// Told back to people: what a stranger wrote, without what a terminal obeys.
@@ -38,11 +38,11 @@ class ControlPort {
             if (c < ' ' || c > '~') c = '?';
         return text;
     }
-    void refuse(std::uint64_t PortBooks::*counter, std::string sentence) {
-        ++(books_.*counter);
-        books_.last_refusal = std::move(sentence);
+    void refuse(std::uint64_t PortStats::*counter, std::string sentence) {
+        ++(stats_.*counter);
+        stats_.last_refusal = std::move(sentence);
     }
-    PortBooks books_;
+    PortStats stats_;
 };
 
 /// A kind of port. A backend is a file kinds/NAME_port.cpp with `NAME_port_entry()`.

@@ -13,7 +13,7 @@ constexpr std::chrono::seconds refusals_are_told_every{10};
 
 }  // namespace
 
-ControlDesk::ControlDesk(const std::vector<std::string>& urls, const ControlBench& bench) {
+ControlPorts::ControlPorts(const std::vector<std::string>& urls, const ControlBench& bench) {
     for (const std::string& url : urls) {
         auto port = std::make_unique<Port>();
         port->state.name = OutputUrl::parse(url, "control").shown;
@@ -25,29 +25,29 @@ ControlDesk::ControlDesk(const std::vector<std::string>& urls, const ControlBenc
         port->thread = std::thread([this, &port = *port] { run(port); });
 }
 
-ControlDesk::~ControlDesk() { close(); }
+ControlPorts::~ControlPorts() { close(); }
 
-void ControlDesk::close() {
+void ControlPorts::close() {
     is_ending_ = true;
     for (const std::unique_ptr<Port>& port : ports_)
         if (port->thread.joinable()) port->thread.join();
 }
 
-void ControlDesk::run(Port& port) {
+void ControlPorts::run(Port& port) {
     name_this_thread("control");
     LogLimiter refusals(refusals_are_told_every);
     std::uint64_t told = 0;
     try {
         while (!is_ending_) {
             port.port->serve(look);
-            const PortBooks& books = port.port->books();
-            const std::uint64_t refused = books.unknown + books.malformed;
+            const PortStats& stats = port.port->stats();
+            const std::uint64_t refused = stats.unknown + stats.malformed;
             if (const auto since = refusals.count(refused - told, MonotonicClock::now()))
                 log_warning("control {}: {} messages not obeyed, the last: {}", port.state.name,
-                            *since, books.last_refusal);
+                            *since, stats.last_refusal);
             told = refused;
             const std::lock_guard lock(mutex_);
-            port.state.books = books;
+            port.state.stats = stats;
         }
     } catch (const Error& error) {
         log_error("{}", error.what());
@@ -56,7 +56,7 @@ void ControlDesk::run(Port& port) {
     }
 }
 
-std::vector<PortState> ControlDesk::states() const {
+std::vector<PortState> ControlPorts::states() const {
     const std::lock_guard lock(mutex_);
     std::vector<PortState> states;
     for (const std::unique_ptr<Port>& port : ports_) states.push_back(port->state);

@@ -14,18 +14,18 @@ namespace vantage {
 /// A port and what it counted.
 struct PortState {
     std::string name;
-    PortBooks books;
+    PortStats stats;
     std::string failure;  ///< empty: it works
 };
 
 /// The ports of a session, each on a thread of its own. One that fails does so alone.
-class ControlDesk {
+class ControlPorts {
   public:
     /// Throws Error for a URL that cannot be, or a place that is taken.
-    ControlDesk(const std::vector<std::string>& urls, const ControlBench& bench);
-    ~ControlDesk();
-    ControlDesk(const ControlDesk&) = delete;
-    ControlDesk& operator=(const ControlDesk&) = delete;
+    ControlPorts(const std::vector<std::string>& urls, const ControlBench& bench);
+    ~ControlPorts();
+    ControlPorts(const ControlPorts&) = delete;
+    ControlPorts& operator=(const ControlPorts&) = delete;
 
     /// Ends them all; what they counted stays.
     void close();

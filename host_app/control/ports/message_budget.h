@@ -8,9 +8,9 @@
 namespace vantage {
 
 /// So many a second, and so many at once after a rest.
-class Allowance {
+class MessageBudget {
   public:
-    Allowance(double per_second, double at_once)
+    MessageBudget(double per_second, double at_once)
         : per_second_(per_second), at_once_(at_once), left_(at_once) {}
 
     /// Whether one more is allowed.

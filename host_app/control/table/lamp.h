@@ -21,9 +21,9 @@ struct ShowLamps {
     bool mark_in = false, mark_out = false, loops = false;
     bool take = false, film = false;
     double set = -1;  ///< 0..1 known, of the rig that knows least; -1: none is learnt
-    std::string saved_set;
+    std::string saved_background;
     bool programme_tally = false, preview_tally = false;
-    bool hands_preview = false;   ///< hands fly a camera on preview
+    bool input_flies_preview = false;   ///< hands fly a camera on preview
     double fly_to_preview = -1;   ///< 0..1; -1: not under way
     double fly_to_preview_s = 0;  ///< that it takes
     bool tracked = false;         ///< a tracked camera flies

@@ -146,7 +146,7 @@ DeskRig DeskFeed::rig_of(const RigAccount& account, const FrameSet* set, Monoton
     rig.calibration = calibration_words(status.health, std::chrono::system_clock::now());
     rig.worries = worries_of(status);
     if (account.set) {
-        rig.set_known = account.set->known;
+        rig.background_known = account.set->known;
         if (!account.set->misfit.empty()) rig.worries.push_back(account.set->misfit);
     }
     return rig;
@@ -160,15 +160,15 @@ std::optional<DeskSources> DeskFeed::sources_of(const ProgrammeState& programme)
         return sources;
     }
     const SourceMap& map = *programme.picture->sources;
-    for (const NoveltyOverlay::Key& key : map.legend) {
+    for (const SourceMapOverlay::Key& key : map.legend) {
         const auto share = map.shares.rigs.find(key.rig);
         sources.rows.push_back({key.rig,
                                 {key.colour[0], key.colour[1], key.colour[2]},
                                 share == map.shares.rigs.end() ? 0.0 : share->second});
     }
-    const auto* filled = novelty_filled_colour;
+    const auto* filled = source_map_inpainted_colour;
     sources.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, map.shares.filled});
-    const auto* known = novelty_remembered_colour;
+    const auto* known = source_map_remembered_colour;
     sources.rows.push_back({"remembered", {known[0], known[1], known[2]}, map.shares.remembered});
     return sources;
 }
@@ -196,7 +196,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     for (const StepTime& step : step_times(report))
         state_.steps.push_back({step.name, step.ms.p50, is_at_rig(step.name)});
     state_.figures = desk_figures(report);
-    state_.has_sets = show.settings().take || report.sets_closed > 0;
+    state_.has_frame_sets = show.settings().take || report.frame_sets_closed > 0;
     state_.picture_rate_hz = picture_rate_.per_second();
     state_.tick_rate_hz = show.settings().rate_hz;
     state_.repeat_rate_hz = repeat_rate_.per_second();

@@ -5,7 +5,7 @@
 namespace vantage {
 
 std::vector<DeskFigure> desk_figures(const LiveReport& report) {
-    const ProgrammeBooks& programme = report.programme;
+    const ProgrammeStats& programme = report.programme;
     if (programme.ticks == 0) return {};
     std::vector<DeskFigure> figures{
         {"ticks, reprojected, repeated, missed",
@@ -19,10 +19,10 @@ std::vector<DeskFigure> desk_figures(const LiveReport& report) {
     };
     add_ms("between pictures", programme.interval_ms);
     add_ms("exposure to picture", programme.latency_ms);
-    add_ms("hand to picture", programme.hand_ms);
+    add_ms("hand to picture", programme.input_ms);
     add_ms("jump to picture", programme.seek_ms);
     figures.push_back({"instants, skipped",
-                       fmt::format("{}, {}", report.instants_prepared, report.sets_superseded)});
+                       fmt::format("{}, {}", report.instants_prepared, report.frame_sets_superseded)});
     figures.push_back({"rendering, by level", shares_text(programme.render_shares)});
     figures.push_back({"preparing, by level", shares_text(programme.prepare_shares)});
     return figures;

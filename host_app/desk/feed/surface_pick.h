@@ -16,6 +16,6 @@ std::optional<Eigen::Vector3d> surface_at(const FrameSet& set, const CameraState
 /// Where a performer who stood at `pivot_m` is in this set, at the same height: the middle of what
 /// the rigs see of surfaces there above the floor, found by going to it some times (mean shift, K.
 /// Fukunaga and L. Hostetler, 1975). Nothing: too little is there.
-std::optional<Eigen::Vector3d> performer_near(const FrameSet& set, const Eigen::Vector3d& pivot_m);
+std::optional<Eigen::Vector3d> foreground_near(const FrameSet& set, const Eigen::Vector3d& pivot_m);
 
 }  // namespace vantage

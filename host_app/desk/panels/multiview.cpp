@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "host_app/desk/panels/desk_parts.h"
-#include "host_app/desk/rig_look.h"
+#include "host_app/desk/rig_verdict.h"
 
 namespace vantage {
 namespace {
@@ -47,10 +47,10 @@ void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) 
         y += 1.1f * pen.em();
     };
     if (!rig.worries.empty()) row(palette::warn, rig.worries.front());
-    if (rig.set_known) {
-        const bool is_learning = *rig.set_known < mostly_known;
+    if (rig.background_known) {
+        const bool is_learning = *rig.background_known < mostly_known;
         row(is_learning ? palette::warn : palette::dim,
-            fmt::format("set {:.0f} %", 100 * *rig.set_known));
+            fmt::format("set {:.0f} %", 100 * *rig.background_known));
     }
     if (rig.nearest_m > 0)
         row(palette::dim, fmt::format("{:.1f} to {:.1f} m", rig.nearest_m, rig.farthest_m));

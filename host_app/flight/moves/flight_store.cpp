@@ -31,7 +31,7 @@ FlightStore::~FlightStore() {
     if (simplified_.valid()) simplified_.wait();
 }
 
-void FlightStore::keep(const Helm::Change& change) {
+void FlightStore::keep(const FlightController::Change& change) {
     book_.shots = change.book.shots;
     book_.lowest_m = std::min(book_.lowest_m, change.book.lowest_m);
     if (change.is_of_move) {

@@ -29,7 +29,7 @@ class FlightStore {
 
     /// The session begins with another move than the file's.
     void begin_with_another_move() { flies_another_ = true; }
-    void keep(const Helm::Change& change);
+    void keep(const FlightController::Change& change);
     /// Makes a move of a flight that was recorded, meanwhile.
     void simplify(FlightRecording flight, const FlightLimits& limits);
     /// To be called often: writes what is due. A flight that has become a move since the last call;

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-const FrameSet* BetweenSets::fetch(const PastSets& past, std::uint64_t pulse) {
+const FrameSet* InterpolatedFrameSets::fetch(const PastFrameSets& past, std::uint64_t pulse) {
     if (const auto found = sets_.find(pulse); found != sets_.end()) return &found->second;
     const auto wanted = static_cast<double>(pulse);
     if (past.pulse_at(wanted) != pulse) return nullptr;
@@ -17,7 +17,7 @@ const FrameSet* BetweenSets::fetch(const PastSets& past, std::uint64_t pulse) {
     return &sets_.emplace(pulse, std::move(*set)).first->second;
 }
 
-std::optional<FrameSet> BetweenSets::at(const PastSets& past, std::uint64_t pulse, double share) {
+std::optional<FrameSet> InterpolatedFrameSets::at(const PastFrameSets& past, std::uint64_t pulse, double share) {
     std::erase_if(sets_,
                   [&](const auto& each) { return each.first != pulse && each.first != pulse + 1; });
     const FrameSet* first = fetch(past, pulse);

@@ -17,7 +17,7 @@ constexpr double most_against_share = 0.5;
 constexpr double most_off_px = 2, most_off_share = 0.3;
 /// What a matcher may err by between two pulses, disparity px: it tells how far a point comes
 /// nearer no finer than that.
-constexpr double doubt_px = 1;
+constexpr double penalty_px = 1;
 
 /// Between the grid of a rig's motion and space.
 class Grid {
@@ -96,8 +96,8 @@ Answer answer_of(const Grid& asking, const Grid& other, cv::Point pixel, cv::Poi
     const RigMotion& motion = other.motion();
     if (!motion.is_followed(at)) return Answer::no;
     if (!motion.is_sure_first(at)) return Answer::none;
-    const double farther_px = std::max(ended_px - doubt_px, 0.5 * ended_px);
-    if (!other.sees(asking.in_space(there.x, there.y, ended_px + doubt_px), near_end, ignored) ||
+    const double farther_px = std::max(ended_px - penalty_px, 0.5 * ended_px);
+    if (!other.sees(asking.in_space(there.x, there.y, ended_px + penalty_px), near_end, ignored) ||
         !other.sees(asking.in_space(there.x, there.y, farther_px), far_end, ignored))
         return Answer::none;
     const cv::Vec2f way = motion.forward(at);

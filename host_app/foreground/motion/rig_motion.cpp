@@ -14,7 +14,7 @@ constexpr int most_columns = 512;
 constexpr int least_side_px = 32;
 /// How far from where it began the way there and back may end, px of the grid, and of the way's
 /// length. Measured on the virtual stage: tests/bench/between_truth.
-constexpr float most_doubt_px = 1.2f, most_doubt_share = 0.2f;
+constexpr float max_penalty_px = 1.2f, max_penalty_share = 0.2f;
 /// That a surface comes nearer, or goes, from pulse to pulse.
 constexpr int most_approach_steps = 128;
 /// Moving pixels that are so close to each other are of one region, px; of a region so much has to
@@ -73,7 +73,7 @@ cv::Mat1b sure_of(const cv::Mat2f& there, const cv::Mat2f& back, const Disparity
                 continue;
             }
             const cv::Vec2f doubt = way + back(ty, tx);
-            const float limit = most_doubt_px + most_doubt_share * std::hypot(way[0], way[1]);
+            const float limit = max_penalty_px + max_penalty_share * std::hypot(way[0], way[1]);
             sure(y, x) = std::hypot(doubt[0], doubt[1]) <= limit ? 255 : 0;
         }
     return sure;

@@ -21,7 +21,7 @@ constexpr unsigned playback_buffer_us = 500'000, playback_period_us = 10'000;
 
 }  // namespace
 
-void AlsaPlayback::Closer::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
+void AlsaPlayback::Inpainting::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
 
 AlsaPlayback::AlsaPlayback(const std::string& name) : name_(name) {
     snd_lib_error_set_local([](const char*, int, const char*, int, const char*, va_list) {});
@@ -29,17 +29,17 @@ AlsaPlayback::AlsaPlayback(const std::string& name) : name_(name) {
     int code = snd_pcm_open(&device, name.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
     if (code < 0) refuse("it cannot be opened", code);
     device_.reset(device);
-    snd_pcm_hw_params_t* wish = nullptr;
-    snd_pcm_hw_params_alloca(&wish);
-    code = snd_pcm_hw_params_any(device, wish);
-    if (code >= 0) code = snd_pcm_hw_params_set_access(device, wish, SND_PCM_ACCESS_RW_INTERLEAVED);
-    if (code >= 0) code = snd_pcm_hw_params_set_format(device, wish, SND_PCM_FORMAT_S16_LE);
-    if (code >= 0) code = snd_pcm_hw_params_set_rate(device, wish, sound_rate_hz, 0);
+    snd_pcm_hw_params_t* request = nullptr;
+    snd_pcm_hw_params_alloca(&request);
+    code = snd_pcm_hw_params_any(device, request);
+    if (code >= 0) code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
+    if (code >= 0) code = snd_pcm_hw_params_set_format(device, request, SND_PCM_FORMAT_S16_LE);
+    if (code >= 0) code = snd_pcm_hw_params_set_rate(device, request, sound_rate_hz, 0);
     unsigned buffer = playback_buffer_us, period = playback_period_us;
-    if (code >= 0) code = snd_pcm_hw_params_set_channels_near(device, wish, &channels_);
-    if (code >= 0) snd_pcm_hw_params_set_buffer_time_near(device, wish, &buffer, nullptr);
-    if (code >= 0) snd_pcm_hw_params_set_period_time_near(device, wish, &period, nullptr);
-    if (code >= 0) code = snd_pcm_hw_params(device, wish);
+    if (code >= 0) code = snd_pcm_hw_params_set_channels_near(device, request, &channels_);
+    if (code >= 0) snd_pcm_hw_params_set_buffer_time_near(device, request, &buffer, nullptr);
+    if (code >= 0) snd_pcm_hw_params_set_period_time_near(device, request, &period, nullptr);
+    if (code >= 0) code = snd_pcm_hw_params(device, request);
     if (code < 0) refuse("it plays no 16 bits at 48000 Hz; plughw: instead of hw: may", code);
     fill_up();
 }

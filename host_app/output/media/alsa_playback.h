@@ -27,14 +27,14 @@ class AlsaPlayback {
     std::uint64_t underruns() const { return underruns_; }
 
   private:
-    struct Closer {
+    struct Inpainting {
         void operator()(_snd_pcm* device) const;
     };
     void fill_up();
     [[noreturn]] void refuse(const char* what, int code) const;
 
     std::string name_;
-    std::unique_ptr<_snd_pcm, Closer> device_;
+    std::unique_ptr<_snd_pcm, Inpainting> device_;
     unsigned channels_ = 2;
     std::vector<std::int16_t> raw_;
     std::uint64_t underruns_ = 0;

@@ -158,11 +158,11 @@ AVPacket* PictureEncoder::next() {
     return packet_.get();
 }
 
-std::string choose_encoder(const std::string& wish, const EncoderSettings& settings) {
+std::string choose_encoder(const std::string& request, const EncoderSettings& settings) {
     std::vector<std::string> names = known_encoders();
-    if (!wish.empty()) {
-        require_known_encoder(wish);
-        names = {wish};
+    if (!request.empty()) {
+        require_known_encoder(request);
+        names = {request};
     }
     const ColourImage picture(settings.height_px, settings.width_px, cv::Vec4b(90, 90, 90, 255));
     std::vector<std::string> refusals;

@@ -60,6 +60,6 @@ class PictureEncoder {
 /// The first of known_encoders() that encodes pictures of these settings when it is tried; with
 /// `wish` that one. Tells in the log which it is, and why those before it are not. Throws Error if
 /// none does.
-std::string choose_encoder(const std::string& wish, const EncoderSettings& settings);
+std::string choose_encoder(const std::string& request, const EncoderSettings& settings);
 
 }  // namespace vantage

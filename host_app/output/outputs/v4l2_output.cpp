@@ -62,17 +62,17 @@ class V4l2Target final : public OutputTarget {
   private:
     void set_format(const OutputFormat& format) {
         for (const PixelLayout& layout : layouts) {
-            v4l2_format wish{};
-            wish.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-            wish.fmt.pix.width = static_cast<std::uint32_t>(format.width_px);
-            wish.fmt.pix.height = static_cast<std::uint32_t>(format.height_px);
-            wish.fmt.pix.pixelformat = layout.v4l2;
-            wish.fmt.pix.field = V4L2_FIELD_NONE;
-            wish.fmt.pix.colorspace = V4L2_COLORSPACE_REC709;
-            if (::ioctl(fd_.get(), VIDIOC_S_FMT, &wish) != 0 ||
-                wish.fmt.pix.pixelformat != layout.v4l2)
+            v4l2_format request{};
+            request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+            request.fmt.pix.width = static_cast<std::uint32_t>(format.width_px);
+            request.fmt.pix.height = static_cast<std::uint32_t>(format.height_px);
+            request.fmt.pix.pixelformat = layout.v4l2;
+            request.fmt.pix.field = V4L2_FIELD_NONE;
+            request.fmt.pix.colorspace = V4L2_COLORSPACE_REC709;
+            if (::ioctl(fd_.get(), VIDIOC_S_FMT, &request) != 0 ||
+                request.fmt.pix.pixelformat != layout.v4l2)
                 continue;
-            pixels_ = wish.fmt.pix;
+            pixels_ = request.fmt.pix;
             if (pixels_.width != static_cast<std::uint32_t>(format.width_px) ||
                 pixels_.height != static_cast<std::uint32_t>(format.height_px))
                 fail(
@@ -90,11 +90,11 @@ class V4l2Target final : public OutputTarget {
     /// What the device tells its readers; some know none.
     void set_rate(double rate_hz) const {
         const PulseGrid::Fraction rate = PulseGrid(rate_hz).rate();
-        v4l2_streamparm wish{};
-        wish.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-        wish.parm.output.timeperframe = {static_cast<std::uint32_t>(rate.seconds),
+        v4l2_streamparm request{};
+        request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+        request.parm.output.timeperframe = {static_cast<std::uint32_t>(rate.seconds),
                                          static_cast<std::uint32_t>(rate.pulses)};
-        (void)::ioctl(fd_.get(), VIDIOC_S_PARM, &wish);
+        (void)::ioctl(fd_.get(), VIDIOC_S_PARM, &request);
     }
 
     bool try_to_send() const {

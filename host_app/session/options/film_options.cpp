@@ -35,7 +35,7 @@ bool FilmOptions::is_any() const {
            stereoscopic.stereoscopy();
 }
 
-ExportBooks FilmOptions::write(const std::filesystem::path& take_file, const TakePart& part,
+ExportStats FilmOptions::write(const std::filesystem::path& take_file, const TakePart& part,
                                bool has_part, const std::filesystem::path& file,
                                const std::function<void(double)>& progress) const {
     // Before any other thread, so that they leave the signals to it.
@@ -63,11 +63,11 @@ ExportBooks FilmOptions::write(const std::filesystem::path& take_file, const Tak
         settings.format.height_px = wanted.height;
     }
     const auto is_wanted = [&] { return !stop.requested(); };
-    const ExportBooks books = export_film(take, pictures, settings, file, is_wanted, progress);
-    if (books.written + books.there < pictures.size())
+    const ExportStats stats = export_film(take, pictures, settings, file, is_wanted, progress);
+    if (stats.written + stats.there < pictures.size())
         fail("{} is not there yet: {} of its {} pictures are; the same command goes on with them",
-             file.string(), books.written + books.there, pictures.size());
-    return books;
+             file.string(), stats.written + stats.there, pictures.size());
+    return stats;
 }
 
 }  // namespace vantage

@@ -20,7 +20,7 @@ struct FilmOptions {
     bool is_any() const;
     /// Throws Error as film_of(), film_of_cameras() and export_film(). Ctrl-C leaves the
     /// film's parts to go on with, and throws Error then. `has_part`: somebody said which part.
-    ExportBooks write(const std::filesystem::path& take, const TakePart& part, bool has_part,
+    ExportStats write(const std::filesystem::path& take, const TakePart& part, bool has_part,
                       const std::filesystem::path& file,
                       const std::function<void(double)>& progress) const;
 };

@@ -32,7 +32,7 @@ std::vector<CounterGroup> counters_of(const RigAccount& rig) {
              "on the way to this host",
              {{"offered", "offered", s.link.offered},
               {"send_dropped", "pushed out", s.link.send_dropped},
-              {"thinned", "thinned", s.link.thinned},
+              {"thinned", "thinned", s.link.skipped},
               {"sent", "sent", s.link.sent},
               {"lost", "lost", s.lost}}},
             {"host",
@@ -44,10 +44,10 @@ std::vector<CounterGroup> counters_of(const RigAccount& rig) {
               {"duplicate", "duplicate", s.duplicate},
               {"unsynchronized", "unsynced", s.unsynchronized},
               {"out_of_step", "out of step", s.out_of_step},
-              {"in_sets", "in sets", s.in_sets},
+              {"in_sets", "in sets", s.in_frame_sets},
               {"fused", "fused", rig.fused},
               {"superseded", "superseded", rig.superseded},
-              {"in_dropped_sets", "set dropped", s.in_dropped_sets}}}};
+              {"in_dropped_sets", "set dropped", s.in_dropped_frame_sets}}}};
 }
 
 std::string state_of(const RigStatus& status) {
@@ -97,7 +97,7 @@ std::vector<std::string> failures_of(const LiveReport& report) {
     return failures;
 }
 
-double pictures_a_second(const ProgrammeBooks& programme) {
+double pictures_a_second(const ProgrammeStats& programme) {
     return programme.duration_s > 0 ? static_cast<double>(programme.pictures) / programme.duration_s
                                     : 0;
 }

@@ -31,8 +31,8 @@ struct RigAccount {
     std::uint64_t fused = 0;       ///< in sets that instants were made of
     std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before they were prepared
     /// What live harmonisation adds to its colours; nothing if it never did.
-    std::optional<ColourHarmoniser::Rig> harmony = {};
-    std::optional<RigSetState> set =
+    std::optional<GainCompensation::Rig> gain_compensation = {};
+    std::optional<RigBackgroundState> set =
         {};  ///< what it has learnt of its set; nothing: none is learnt
 };
 
@@ -45,18 +45,18 @@ struct LiveReport {
     TransportState time;                          ///< at the end
     ReplayState replay;                           ///< at the end
     std::uint64_t shown_pulse = 0;                ///< of the last picture
-    std::optional<PastSets::Span> past;           ///< that can be gone back to
+    std::optional<PastFrameSets::Span> past;           ///< that can be gone back to
     double pulse_rate_hz = 0;
     OrbitView view;  ///< of the last picture
-    CorridorBooks corridor;
+    CorridorStats corridor;
     bool free_flight = false;              ///< hands may leave the corridor
     std::vector<UncoveredPart> uncovered;  ///< of the planned move
-    ProgrammeBooks programme;
+    ProgrammeStats programme;
     int faults = 0;         ///< renderers and preparers that were made anew
     int contexts_lost = 0;  ///< resets of the GPU that were got over
 
-    std::uint64_t sets_closed = 0, sets_complete = 0;
-    std::uint64_t instants_prepared = 0, sets_superseded = 0, sets_dropped = 0;
+    std::uint64_t frame_sets_closed = 0, frame_sets_complete = 0;
+    std::uint64_t instants_prepared = 0, frame_sets_superseded = 0, frame_sets_dropped = 0;
     std::uint64_t instants_between = 0;  ///< of moments between pulses
     std::vector<RigAccount> rigs;        ///< in the stage's order
 
@@ -66,12 +66,12 @@ struct LiveReport {
     Percentiles network_ms, decode_ms, prepare_ms, encode_ms;
 
     std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
-    std::optional<NoveltyShares> novelty;  ///< of the last picture, where its source map was shown
+    std::optional<SourceShares> source_map;  ///< of the last picture, where its source map was shown
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
     std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
-    std::string saved_set;          ///< where the set was saved last; empty: nowhere
+    std::string saved_background;          ///< where the set was saved last; empty: nowhere
     std::string played;             ///< the take that was played; empty: the stage was live
 
     std::optional<SoundState> sound;  ///< nothing: the programme has none
@@ -103,7 +103,7 @@ std::string shares_text(const std::vector<double>& shares);
 /// A sentence for every output that has failed and is not on again, with its name.
 std::vector<std::string> failures_of(const LiveReport& report);
 /// New pictures a second.
-double pictures_a_second(const ProgrammeBooks& programme);
+double pictures_a_second(const ProgrammeStats& programme);
 
 /// For machines: keys with units, one object.
 nlohmann::ordered_json to_json(const LiveReport& report);

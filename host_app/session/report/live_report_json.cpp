@@ -7,11 +7,11 @@ namespace vantage {
 namespace {
 
 nlohmann::ordered_json corridor_json(const LiveReport& report) {
-    const CorridorBooks& books = report.corridor;
+    const CorridorStats& stats = report.corridor;
     nlohmann::ordered_json json{
-        {"coverage", books.now->share},     {"place", key_of(Corridor::place_of(books.now->share))},
-        {"loss", key_of(books.now->loss)},  {"least_coverage", books.least_share},
-        {"edge_s", books.edge_s},           {"beyond_s", books.beyond_s},
+        {"coverage", stats.now->share},     {"place", key_of(Corridor::place_of(stats.now->share))},
+        {"loss", key_of(stats.now->loss)},  {"least_coverage", stats.least_share},
+        {"edge_s", stats.edge_s},           {"beyond_s", stats.beyond_s},
         {"free_flight", report.free_flight}};
     json["move_beyond"] = nlohmann::ordered_json::array();
     for (const UncoveredPart& part : report.uncovered)
@@ -122,7 +122,7 @@ nlohmann::ordered_json output_json(const OutputState& output) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const LiveReport& report) {
-    const ProgrammeBooks& programme = report.programme;
+    const ProgrammeStats& programme = report.programme;
     nlohmann::ordered_json json{{"pictures", programme.ticks},
                                 {"new_pictures", programme.pictures},
                                 {"width_px", report.format.width_px},
@@ -142,7 +142,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["tick_late_ms"] = to_json(programme.late_ms);
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
-    json["hand_to_picture_ms"] = to_json(programme.hand_ms);
+    json["hand_to_picture_ms"] = to_json(programme.input_ms);
     json["seek_to_picture_ms"] = to_json(programme.seek_ms);
     json["rest_to_best_ms"] = to_json(programme.rest_ms);
     json["seek_steps_ms"] = {{"wait", to_json(programme.seek_steps_ms.wait)},
@@ -158,7 +158,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         {"a_second", programme.duration_s > 0
                          ? static_cast<double>(report.instants_prepared) / programme.duration_s
                          : 0},
-        {"skipped", report.sets_superseded}};
+        {"skipped", report.frame_sets_superseded}};
     json["level_shares"] = {{"render", programme.render_shares},
                             {"prepare", programme.prepare_shares}};
     json["faults"] = report.faults;
@@ -176,12 +176,12 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                       {"field_of_view_deg", view.field_of_view_rad * deg},
                       {"pivot_m", {view.pivot_m.x(), view.pivot_m.y(), view.pivot_m.z()}}};
     if (report.corridor.now) json["corridor"] = corridor_json(report);
-    json["sets"] = {{"closed", report.sets_closed},
-                    {"complete", report.sets_complete},
-                    {"partial", report.sets_closed - report.sets_complete},
+    json["sets"] = {{"closed", report.frame_sets_closed},
+                    {"complete", report.frame_sets_complete},
+                    {"partial", report.frame_sets_closed - report.frame_sets_complete},
                     {"fused", report.instants_prepared},
-                    {"superseded", report.sets_superseded},
-                    {"dropped", report.sets_dropped}};
+                    {"superseded", report.frame_sets_superseded},
+                    {"dropped", report.frame_sets_dropped}};
     json["rigs"] = nlohmann::ordered_json::array();
     for (const RigAccount& rig : report.rigs) {
         nlohmann::ordered_json entry{{"name", rig.status.rig}, {"state", state_of(rig.status)}};
@@ -193,10 +193,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         for (const CounterGroup& group : counters_of(rig))
             for (const Counter& counter : group.counters)
                 entry[group.key][counter.key] = counter.value;
-        if (rig.harmony) {
-            const Eigen::Vector3d gain = rig.harmony->gain();
+        if (rig.gain_compensation) {
+            const Eigen::Vector3d gain = rig.gain_compensation->gain();
             entry["colour"] = {{"gains", {gain[0], gain[1], gain[2]}},
-                               {"shared_points", rig.harmony->samples}};
+                               {"shared_points", rig.gain_compensation->samples}};
         }
         if (rig.set) {
             entry["set"] = {{"known", rig.set->known}, {"loaded", rig.set->is_loaded}};
@@ -213,7 +213,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["stages_ms"] = nlohmann::ordered_json::object();
     for (const StepTime& step : step_times(report)) json["stages_ms"][step.name] = to_json(step.ms);
     if (report.stereoscopy) json["stereoscopic"] = to_json(*report.stereoscopy);
-    if (report.novelty) json["novelty"] = to_json(*report.novelty);
+    if (report.source_map) json["novelty"] = to_json(*report.source_map);
     for (const DeckDevice& wheel : report.wheels)
         json["wheels"].push_back({{"name", wheel.model},
                                   {"path", wheel.place.path},
@@ -223,15 +223,15 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                   {"unread", wheel.unread}});
     for (const PortState& port : report.ports)
         json["control"].push_back({{"name", port.name},
-                                   {"obeyed", port.books.obeyed},
-                                   {"unknown", port.books.unknown},
-                                   {"malformed", port.books.malformed},
-                                   {"dropped", port.books.dropped},
-                                   {"last_refusal", port.books.last_refusal},
-                                   {"told", port.books.told},
+                                   {"obeyed", port.stats.obeyed},
+                                   {"unknown", port.stats.unknown},
+                                   {"malformed", port.stats.malformed},
+                                   {"dropped", port.stats.dropped},
+                                   {"last_refusal", port.stats.last_refusal},
+                                   {"told", port.stats.told},
                                    {"failure", port.failure}});
     if (report.take) json["take"] = take_json(*report.take);
-    if (!report.saved_set.empty()) json["saved_set"] = report.saved_set;
+    if (!report.saved_background.empty()) json["saved_set"] = report.saved_background;
     for (const OutputState& output : report.outputs)
         if (!output.film.empty() && !json.contains("film"))
             json["film"] = {

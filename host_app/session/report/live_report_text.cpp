@@ -60,16 +60,16 @@ std::string rig_remarks(const LiveReport& report) {
 }
 
 std::string corridor_text(const LiveReport& report) {
-    const CorridorBooks& books = report.corridor;
-    if (!books.now) return "";
+    const CorridorStats& stats = report.corridor;
+    if (!stats.now) return "";
     std::string text =
         fmt::format("the rigs cover {:.0f} % of the last picture, {:.0f} % at the least",
-                    100 * books.now->share, 100 * books.least_share);
-    if (books.edge_s > 0 || books.beyond_s > 0)
+                    100 * stats.now->share, 100 * stats.least_share);
+    if (stats.edge_s > 0 || stats.beyond_s > 0)
         text += fmt::format(
             "; the camera was {:.1f} s at the edge of their corridor and {:.1f} s "
             "beyond its end",
-            books.edge_s, books.beyond_s);
+            stats.edge_s, stats.beyond_s);
     return text + '\n';
 }
 
@@ -149,12 +149,12 @@ std::string results_text(const LiveReport& report) {
             fmt::format("{}: eyes {:.1f} mm apart, converging at {:.2f} m\n",
                         to_json(*report.stereoscopy)["layout"].get<std::string>(),
                         1000 * report.stereoscopy->interaxial_m, report.stereoscopy->convergence_m);
-    if (report.novelty) {
+    if (report.source_map) {
         text += "pixels of the last picture by rig:";
-        for (const auto& [rig, share] : report.novelty->rigs)
+        for (const auto& [rig, share] : report.source_map->rigs)
             text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
-        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.novelty->filled,
-                            100 * report.novelty->remembered);
+        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.source_map->filled,
+                            100 * report.source_map->remembered);
     }
     for (const DeckDevice& wheel : report.wheels)
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
@@ -163,14 +163,14 @@ std::string results_text(const LiveReport& report) {
     for (const PortState& port : report.ports)
         text += fmt::format(
             "control: {}, {} obeyed, {} unknown, {} malformed, {} more than may come{}{}\n",
-            port.name, counted(port.books.obeyed, "message"), port.books.unknown,
-            port.books.malformed, port.books.dropped,
+            port.name, counted(port.stats.obeyed, "message"), port.stats.unknown,
+            port.stats.malformed, port.stats.dropped,
             port.failure.empty() ? "" : "; failed: ", port.failure);
     for (const PortState& port : report.ports)
-        if (!port.books.told.empty())
-            text += fmt::format("control: {}: {}\n", port.name, port.books.told);
+        if (!port.stats.told.empty())
+            text += fmt::format("control: {}: {}\n", port.name, port.stats.told);
     if (report.take) text += take_text(*report.take);
-    if (!report.saved_set.empty()) text += fmt::format("set saved to {}\n", report.saved_set);
+    if (!report.saved_background.empty()) text += fmt::format("set saved to {}\n", report.saved_background);
     if (report.sound) text += sound_text(*report.sound);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
@@ -199,7 +199,7 @@ std::string shares_text(const std::vector<double>& shares) {
 }
 
 std::string to_text(const LiveReport& report) {
-    const ProgrammeBooks& programme = report.programme;
+    const ProgrammeStats& programme = report.programme;
     std::string text = fmt::format(
         "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, of {} "
         "ticks {} reprojected and {} repeated the last one, {} missed, {} pictures superseded "
@@ -212,7 +212,7 @@ std::string to_text(const LiveReport& report) {
     text += line_of("between two pictures", programme.interval_ms);
     if (programme.latency_ms.count > 0)
         text += line_of("exposure to picture", programme.latency_ms);
-    if (programme.hand_ms.count > 0) text += line_of("hand to picture", programme.hand_ms);
+    if (programme.input_ms.count > 0) text += line_of("hand to picture", programme.input_ms);
     if (programme.rest_ms.count > 0)
         text += line_of("held until the best picture", programme.rest_ms);
     if (programme.seek_ms.count > 0) {
@@ -240,8 +240,8 @@ std::string to_text(const LiveReport& report) {
     text += fmt::format(
         "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
         "newer one, {} dropped\n",
-        report.sets_closed, report.sets_complete, report.sets_closed - report.sets_complete,
-        report.instants_prepared, report.sets_superseded, report.sets_dropped);
+        report.frame_sets_closed, report.frame_sets_complete, report.frame_sets_closed - report.frame_sets_complete,
+        report.instants_prepared, report.frame_sets_superseded, report.frame_sets_dropped);
     text += corridor_text(report) + '\n' + rig_tables(report);
     if (!report.rigs.empty()) text += counters_legend() + '\n';
     text += fmt::format("signal at the end: {}\n", title_of(report.signal));

@@ -25,9 +25,9 @@ std::string ProgressLog::line(const LiveShow& show) {
     int giving = 0;
     const ReceiverStatus status = show.status();
     for (const RigStatus& rig : status.rigs) giving += gives_pictures(rig, status.rigs);
-    const ProgrammeBooks books = show.books();
-    const InstantThread::Books instants = show.instant_books();
-    if (books.pictures == 0) {
+    const ProgrammeStats stats = show.stats();
+    const InstantThread::Stats instants = show.instant_stats();
+    if (stats.pictures == 0) {
         instants_ = instants.prepared;
         if (status.sets == 0) return "no picture yet: no rig has sent one";
         return fmt::format(
@@ -46,14 +46,14 @@ std::string ProgressLog::line(const LiveShow& show) {
         "{}{} pictures, {:.1f} a second, {} ticks reprojected, {} repeated, {:.1f} instants a "
         "second, {} of {} "
         "rigs{}, levels {}/{}, camera at azimuth {:.1f} degrees",
-        books.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
-        static_cast<double>(books.pictures - pictures_) / elapsed_s,
-        books.reprojected - reprojected_, books.repeated - repeated_,
+        stats.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
+        static_cast<double>(stats.pictures - pictures_) / elapsed_s,
+        stats.reprojected - reprojected_, stats.repeated - repeated_,
         static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
         now_words, state.render_level(), state.prepare_level(), state.view.azimuth_rad * deg);
-    pictures_ = books.pictures;
-    reprojected_ = books.reprojected;
-    repeated_ = books.repeated;
+    pictures_ = stats.pictures;
+    reprojected_ = stats.reprojected;
+    repeated_ = stats.repeated;
     instants_ = instants.prepared;
     return line;
 }

@@ -22,6 +22,6 @@ std::shared_ptr<libcamera::CameraManager> start_camera_manager();
 /// are.
 std::unique_ptr<SensorCamera> open_libcamera_camera(
     std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
-    const RigConfig::Source& wish, bool side_by_side);
+    const RigConfig::Source& request, bool side_by_side);
 
 }  // namespace vantage

@@ -103,7 +103,7 @@ class VirtualSource final : public StereoSource {
             picture.right = std::move(known->right);
             return picture;
         }
-        const DriverTurn turn(context_.driver());
+        const DriverLock turn(context_.driver());
         picture = rig_.render_noiseless(stage_, time + skew_.left(), skew_.right() - skew_.left());
         loop_.keep(time, picture.left, picture.right);
         return picture;

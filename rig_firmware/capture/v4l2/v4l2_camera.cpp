@@ -64,21 +64,21 @@ V4l2Camera::Mapping::~Mapping() {
     if (start_) ::munmap(start_, length_);
 }
 
-V4l2Camera::V4l2Camera(const V4l2Wish& wish)
-    : device_(wish.path), lender_([this](unsigned index) { take_back(index); }) {
+V4l2Camera::V4l2Camera(const V4l2Wish& request)
+    : device_(request.path), lender_([this](unsigned index) { take_back(index); }) {
     if (!device_.captures())
         fail(
             "{} ('{}') delivers no pictures: it is another kind of video node, and `vantage-rig "
             "probe` lists the cameras",
-            wish.path.string(), device_.card());
+            request.path.string(), device_.card());
     // An HDMI receiver follows its sender only when told to; cameras know no such timings.
     v4l2_dv_timings timings{};
     if (device_.try_request(VIDIOC_QUERY_DV_TIMINGS, &timings))
         device_.try_request(VIDIOC_S_DV_TIMINGS, &timings);
-    choose_format(wish);
-    set_rate(wish.rate_hz);
-    set_controls(wish.controls);
-    map_buffers(wish.share_buffers);
+    choose_format(request);
+    set_rate(request.rate_hz);
+    set_controls(request.controls);
+    map_buffers(request.share_buffers);
     std::uint32_t type = device_.buffer_type();
     device_.request(VIDIOC_STREAMON, &type, "to start");
 }
@@ -93,12 +93,12 @@ V4l2Camera::~V4l2Camera() {
     }
 }
 
-bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& wish, bool only_try,
+bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& request, bool only_try,
                             cv::Size& offered) {
     v4l2_format f{};
     f.type = device_.buffer_type();
-    const auto width = static_cast<std::uint32_t>(wish.width_px);
-    const auto height = static_cast<std::uint32_t>(wish.height_px);
+    const auto width = static_cast<std::uint32_t>(request.width_px);
+    const auto height = static_cast<std::uint32_t>(request.height_px);
     const bool planar = device_.is_multiplanar();
     if (planar) {
         f.fmt.pix_mp.width = width;
@@ -125,13 +125,13 @@ bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& wish, bool only_
     if (got_format != fourcc_of(format) || got_width != width || got_height != height || !one_plane)
         return false;
     mode_.format = format;
-    mode_.width_px = wish.width_px;
-    mode_.height_px = wish.height_px;
+    mode_.width_px = request.width_px;
+    mode_.height_px = request.height_px;
     mode_.bytes_per_line = planar ? f.fmt.pix_mp.plane_fmt[0].bytesperline : f.fmt.pix.bytesperline;
     return true;
 }
 
-void V4l2Camera::choose_format(const V4l2Wish& wish) {
+void V4l2Camera::choose_format(const V4l2Wish& request) {
     std::vector<PixelFormat> candidates;
     std::string listed;
     const std::vector<V4l2Format> formats = device_.formats();
@@ -141,21 +141,21 @@ void V4l2Camera::choose_format(const V4l2Wish& wish) {
         const bool has = std::any_of(formats.begin(), formats.end(), [&](const V4l2Format& format) {
             return format.fourcc == fourcc_of(known);
         });
-        if (has && (wish.pixel_format.empty() || parse_pixel_format(wish.pixel_format) == known))
+        if (has && (request.pixel_format.empty() || parse_pixel_format(request.pixel_format) == known))
             candidates.push_back(known);
     }
     if (candidates.empty())
         fail(
-            "the camera {} has no picture format that {}; it offers {}", wish.path.string(),
-            wish.pixel_format.empty() ? "is understood" : fmt::format("is '{}'", wish.pixel_format),
+            "the camera {} has no picture format that {}; it offers {}", request.path.string(),
+            request.pixel_format.empty() ? "is understood" : fmt::format("is '{}'", request.pixel_format),
             listed.empty() ? "none" : listed);
     cv::Size offered, ignored;
     for (const PixelFormat candidate : candidates) {
-        if (!set_format(candidate, wish, true, offered)) continue;
-        if (set_format(candidate, wish, false, ignored)) return;
+        if (!set_format(candidate, request, true, offered)) continue;
+        if (set_format(candidate, request, false, ignored)) return;
     }
-    fail("the camera {} offers no pictures of {}x{}; the nearest is {}x{}", wish.path.string(),
-         wish.width_px, wish.height_px, offered.width, offered.height);
+    fail("the camera {} offers no pictures of {}x{}; the nearest is {}x{}", request.path.string(),
+         request.width_px, request.height_px, offered.width, offered.height);
 }
 
 void V4l2Camera::set_rate(double rate_hz) {
@@ -169,12 +169,12 @@ void V4l2Camera::set_rate(double rate_hz) {
         mode_.rate_hz = static_cast<double>(period.denominator) / period.numerator;
 }
 
-void V4l2Camera::set_controls(const std::map<std::string, int>& wishes) {
+void V4l2Camera::set_controls(const std::map<std::string, int>& requests) {
     const std::vector<V4l2Control> controls = device_.controls();
     std::vector<std::string> names;
     for (const V4l2Control& control : controls) names.push_back(control.name);
     std::vector<std::pair<V4l2Control, int>> settings;
-    for (const auto& [name, value] : wishes) {
+    for (const auto& [name, value] : requests) {
         const auto found = std::find_if(
             controls.begin(), controls.end(),
             [&](const V4l2Control& control) { return lower(control.name) == lower(name); });

@@ -36,7 +36,7 @@ class V4l2Camera final : public SensorCamera {
   public:
     /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
     /// has if it cannot do as wished.
-    explicit V4l2Camera(const V4l2Wish& wish);
+    explicit V4l2Camera(const V4l2Wish& request);
     ~V4l2Camera() override;
     V4l2Camera(const V4l2Camera&) = delete;
     V4l2Camera& operator=(const V4l2Camera&) = delete;
@@ -75,10 +75,10 @@ class V4l2Camera final : public SensorCamera {
         std::size_t length_ = 0;
     };
 
-    void choose_format(const V4l2Wish& wish);
-    bool set_format(PixelFormat format, const V4l2Wish& wish, bool only_try, cv::Size& offered);
+    void choose_format(const V4l2Wish& request);
+    bool set_format(PixelFormat format, const V4l2Wish& request, bool only_try, cv::Size& offered);
     void set_rate(double rate_hz);
-    void set_controls(const std::map<std::string, int>& wishes);
+    void set_controls(const std::map<std::string, int>& requests);
     void map_buffers(bool share_them);
     UniqueFd share(std::uint32_t index) const;
     void queue(std::uint32_t index);

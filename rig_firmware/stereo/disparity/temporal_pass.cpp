@@ -15,10 +15,10 @@ TemporalPass::TemporalPass(const ShaderLibrary& library, int width_px, int heigh
              {"VOTES", std::to_string(agreeing_votes)},
              {"FIRST_VOTES", std::to_string(first_votes)},
              {"MOST_VOTES", std::to_string(most_votes)}}),
-      steadied_(TextureFormat::r16ui, width_px, height_px),
+      denoised_(TextureFormat::r16ui, width_px, height_px),
       states_{Texture(TextureFormat::r32ui, width_px, height_px),
               Texture(TextureFormat::r32ui, width_px, height_px)},
-      targets_{Framebuffer({&steadied_, &states_[0]}), Framebuffer({&steadied_, &states_[1]})} {}
+      targets_{Framebuffer({&denoised_, &states_[0]}), Framebuffer({&denoised_, &states_[1]})} {}
 
 const Texture& TemporalPass::run(const Texture& disparity, const Texture& picture) {
     exposure_.run(picture);
@@ -35,7 +35,7 @@ const Texture& TemporalPass::run(const Texture& disparity, const Texture& pictur
     pass_.draw(targets_[next]);
     newest_ = next;
     has_state_ = true;
-    return steadied_;
+    return denoised_;
 }
 
 }  // namespace vantage

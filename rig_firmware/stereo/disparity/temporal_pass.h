@@ -26,13 +26,13 @@ class TemporalPass {
     void forget() { has_state_ = false; }
 
     std::size_t gpu_bytes() const {
-        return steadied_.bytes() + states_[0].bytes() + states_[1].bytes();
+        return denoised_.bytes() + states_[0].bytes() + states_[1].bytes();
     }
 
   private:
     ExposurePass exposure_;
     FullscreenPass pass_;
-    Texture steadied_;
+    Texture denoised_;
     std::array<Texture, 2> states_;
     std::array<Framebuffer, 2> targets_;
     std::size_t newest_ = 0;

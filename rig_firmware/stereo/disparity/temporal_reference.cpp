@@ -9,7 +9,7 @@ DisparityImage TemporalReference::run(const DisparityImage& disparity, const Gre
     constexpr int most_mean = 0x7ffff;
     const int gain = exposure_.gain_4096(luma);
     cv::Mat1i means(disparity.size()), votes(disparity.size(), 0);
-    DisparityImage steadied(disparity.size());
+    DisparityImage denoised(disparity.size());
     GreyImage mean_luma = luma.clone();
     const auto change = [&](int x, int y) {
         x = std::clamp(x, 0, luma.cols - 1);
@@ -38,13 +38,13 @@ DisparityImage TemporalReference::run(const DisparityImage& disparity, const Gre
                     votes(y, x) = votes_before > 0 ? votes_before - 1 : first_votes;
                 }
             }
-            steadied(y, x) =
+            denoised(y, x) =
                 static_cast<unsigned short>(now == 0 ? 0 : std::max((mean + 16) >> 5, 1));
         }
     mean_ = means;
     votes_ = votes;
     luma_ = mean_luma;
-    return steadied;
+    return denoised;
 }
 
 }  // namespace vantage

@@ -13,7 +13,7 @@ DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_l
             // In quarters of a coarse pixel: a fine pixel lies a quarter beside its coarse one's
             // middle.
             const auto far = [](int step, int odd) { return std::abs(4 * step - (odd ? 1 : -1)); };
-            const auto unlike = [&](int dx, int dy, int cx, int cy) {
+            const auto cost = [&](int dx, int dy, int cx, int cy) {
                 return std::abs(fine_luma(y, x) - coarse_luma(cy, cx)) + far(dx, x % 2) +
                        far(dy, y % 2);
             };
@@ -34,11 +34,11 @@ DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_l
                 result(y, x) = static_cast<unsigned short>((2 * own + across + down + 1) >> 1);
                 continue;
             }
-            int least = unlike(0, 0, x / 2, y / 2);
+            int least = cost(0, 0, x / 2, y / 2);
             int best = own;
             for (const auto& [dx, dy] : beside) {
                 const auto [cx, cy] = beside_at(dx, dy);
-                const int here = unlike(dx, dy, cx, cy);
+                const int here = cost(dx, dy, cx, cy);
                 if (here < least) {
                     least = here;
                     best = coarse(cy, cx);

@@ -117,7 +117,7 @@ void TwoRigShow::wait_for_progress() {
     ASSERT_TRUE(eventually([&] { return progress() > now; })) << host_->err();
 }
 
-TwoRigShow::Sets TwoRigShow::next_sets() {
+TwoRigShow::Sets TwoRigShow::next_frame_sets() {
     std::string text;
     EXPECT_TRUE(eventually([&] {
         text = http_answer(metrics_port, "GET", "/metrics");
@@ -135,12 +135,12 @@ TwoRigShow::Sets TwoRigShow::next_sets() {
 }
 
 int TwoRigShow::sets_until_far_is_back(const std::function<void()>& end_trouble) {
-    (void)next_sets();  // of whenever the host said it
-    const Sets at_first = next_sets();
+    (void)next_frame_sets();  // of whenever the host said it
+    const Sets at_first = next_frame_sets();
     end_trouble();
     Sets before = at_first;
     while (true) {
-        const Sets now = next_sets();
+        const Sets now = next_frame_sets();
         const int missed = now.near - at_first.near - (now.far - at_first.far);
         const bool is_back =
             now.near > before.near && now.far - before.far >= now.near - before.near;
@@ -160,10 +160,10 @@ int TwoRigShow::frames_beside_until_both_are_back(const std::function<void()>& e
     EXPECT_TRUE(eventually([&] { return frames > 0; }));
     const int at_first = frames;
     end_trouble();
-    Sets before = next_sets();
+    Sets before = next_frame_sets();
     while (true) {
         const int frames_before = frames;
-        const Sets now = next_sets();
+        const Sets now = next_frame_sets();
         // The host said its word somewhat before it was heard.
         const int due = frames - frames_before - 1;
         const bool are_back =

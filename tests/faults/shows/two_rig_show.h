@@ -72,7 +72,7 @@ class TwoRigShow : public testing::Test {
         int far = 0, near = 0;
     };
     /// The sets that each rig has been in, both at one moment: the host's next word of them.
-    Sets next_sets();
+    Sets next_frame_sets();
 
     std::string last_word_;
 };

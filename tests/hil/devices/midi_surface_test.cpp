@@ -70,12 +70,12 @@ class MidiPads : public testing::Test {
     static void serve(ControlPort& port) {
         for (int i = 0; i < 20; ++i) port.serve(20ms);
     }
-    HandsBox hands_;
+    OperatorInputBox operator_input_;
     TrackedCamera tracked_;
     Tally tally_;
     LampBoard lamps_;
     LtcBoard ltc_;
-    ControlBench bench_{hands_, tracked_, tally_, lamps_, ltc_};
+    ControlBench bench_{operator_input_, tracked_, tally_, lamps_, ltc_};
 };
 
 TEST_F(MidiPads, SteerAndAreLitWheneverTheyArePluggedIn) {
@@ -85,7 +85,7 @@ TEST_F(MidiPads, SteerAndAreLitWheneverTheyArePluggedIn) {
     EXPECT_EQ(early->lit(45), 0);
     early->note(45, 100);
     serve(*port);
-    EXPECT_TRUE(hands_.take().input.toggle_freeze);
+    EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
     ShowLamps shown;
     shown.hold = true;
     lamps_.show(shown);
@@ -99,13 +99,13 @@ TEST_F(MidiPads, SteerAndAreLitWheneverTheyArePluggedIn) {
     EXPECT_EQ(late.lit(45), 127) << "a surface that comes is told all lamps";
     late.controller(17, 3);
     serve(*port);
-    EXPECT_GT(hands_.take().input.orbit_azimuth_rad, 0);
+    EXPECT_GT(operator_input_.take().input.orbit_azimuth_rad, 0);
     late.controller(17, 300);
     late.note(1, 1);
     serve(*port);
-    EXPECT_EQ(port->books().malformed, 1u) << port->books().last_refusal;
-    EXPECT_EQ(port->books().unknown, 1u);
-    EXPECT_FALSE(hands_.take().since);
+    EXPECT_EQ(port->stats().malformed, 1u) << port->stats().last_refusal;
+    EXPECT_EQ(port->stats().unknown, 1u);
+    EXPECT_FALSE(operator_input_.take().since);
 }
 
 TEST_F(MidiPads, OfAnotherNameAreNotHeard) {
@@ -114,9 +114,9 @@ TEST_F(MidiPads, OfAnotherNameAreNotHeard) {
     serve(*port);
     pads.note(45, 100);
     serve(*port);
-    EXPECT_EQ(port->books().obeyed, 0u);
-    EXPECT_EQ(port->books().malformed, 0u) << port->books().last_refusal;
-    EXPECT_FALSE(hands_.take().since);
+    EXPECT_EQ(port->stats().obeyed, 0u);
+    EXPECT_EQ(port->stats().malformed, 0u) << port->stats().last_refusal;
+    EXPECT_FALSE(operator_input_.take().since);
 }
 
 }  // namespace

@@ -80,12 +80,12 @@ VividLoop::~VividLoop() {
 }
 
 void VividLoop::show(const cv::Mat& picture) {
-    v4l2_requestbuffers wish{};
-    wish.count = buffers;
-    wish.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    wish.memory = V4L2_MEMORY_MMAP;
-    output_.request(VIDIOC_REQBUFS, &wish, "get buffers");
-    for (std::uint32_t index = 0; index < wish.count; ++index) {
+    v4l2_requestbuffers request{};
+    request.count = buffers;
+    request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    request.memory = V4L2_MEMORY_MMAP;
+    output_.request(VIDIOC_REQBUFS, &request, "get buffers");
+    for (std::uint32_t index = 0; index < request.count; ++index) {
         v4l2_buffer buffer = output_buffer(index);
         output_.request(VIDIOC_QUERYBUF, &buffer, "look at a buffer");
         void* memory =

@@ -31,7 +31,7 @@ TEST(BoardCommand, draws_a_cube_as_a_page_and_a_picture_a_face_and_describes_it)
     ASSERT_EQ(faces.size(), 5u);
     EXPECT_EQ(faces[4].first_marker, 32);
     // The picture of a face shows the markers that its description says, at 300 dots an inch.
-    BoardSet boards;
+    CalibrationBoards boards;
     boards.add("cube", faces);
     const GreyImage picture = to_grey(read_colour_image(cube + "_3.png"));
     EXPECT_EQ(picture.cols, 6 * 354);

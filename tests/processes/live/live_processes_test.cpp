@@ -273,15 +273,15 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       host_folder.path(), {screen.environment()});
     // Where the first rig stands: once the stage is known, and not before.
     wait_for(host, "azimuth -12.0");
-    screen.hands({"search", "--sync", "--name", "Vantage", "windowfocus"});
+    screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
     // The picture alone, so that it is as wide as the window.
-    screen.hands({"key", "Tab", "sleep", "1"});
+    screen.operator_input({"key", "Tab", "sleep", "1"});
     // A tenth of the picture's width to the right: the stage turns with the hand by 18 degrees,
     // from where the first of the two rigs stands.
-    screen.hands(
+    screen.operator_input(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
     wait_for(host, "azimuth -30.0");
-    screen.hands({"key", "Escape", "Escape"});
+    screen.operator_input({"key", "Escape", "Escape"});
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);

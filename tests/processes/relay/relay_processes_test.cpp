@@ -120,13 +120,13 @@ TEST_F(RelayProcesses, TwoHostsRecordOneRigWhoseFramesCrossItsUplinkOnce) {
         EXPECT_EQ(frame->colour, kept[pulse].colour);
     }
 
-    const nlohmann::json books = nlohmann::json::parse(relayed.out)["rigs"][0];
-    EXPECT_EQ(books["name"], "north");
-    EXPECT_EQ(books["hosts"].size(), 2u);
-    EXPECT_EQ(books["undecodable"], 0);
-    EXPECT_LE(books["frames"].get<std::size_t>(), kept.size()) << "each came once";
-    for (const nlohmann::json& host : books["hosts"])
-        EXPECT_LE(host["sent"], books["frames"]) << "and went to each host once";
+    const nlohmann::json stats = nlohmann::json::parse(relayed.out)["rigs"][0];
+    EXPECT_EQ(stats["name"], "north");
+    EXPECT_EQ(stats["hosts"].size(), 2u);
+    EXPECT_EQ(stats["undecodable"], 0);
+    EXPECT_LE(stats["frames"].get<std::size_t>(), kept.size()) << "each came once";
+    for (const nlohmann::json& host : stats["hosts"])
+        EXPECT_LE(host["sent"], stats["frames"]) << "and went to each host once";
     const std::string attached = "host " + relay_key + " is attached";
     EXPECT_THAT(filmed.err, testing::HasSubstr(attached));
     for (const char* host : {"first", "second"})

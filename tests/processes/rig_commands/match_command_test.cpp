@@ -135,9 +135,9 @@ TEST_F(MatchCommandTest, WritesHowSureItIsAndIsNotOfWhatItFilled) {
 }
 
 TEST_F(MatchCommandTest, RefusesConfidenceThatCannotBeHad) {
-    const std::vector<std::string> wish = {"--disparities", "16", "--confidence"};
+    const std::vector<std::string> request = {"--disparities", "16", "--confidence"};
     const auto with = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), wish.begin(), wish.end());
+        more.insert(more.begin(), request.begin(), request.end());
         return match(more);
     };
     expect_refusal(with({path("sure.jpg")}), {"sure.jpg", ".png"});

@@ -77,7 +77,7 @@ class RunCommandTest : public testing::Test {
 };
 
 /// Every captured frame is in one place.
-void expect_books_to_balance(const nlohmann::json& summary) {
+void expect_stats_to_balance(const nlohmann::json& summary) {
     EXPECT_EQ(summary.at("captured").get<int>(),
               summary.at("published").get<int>() + summary.at("late").get<int>())
         << summary;
@@ -90,7 +90,7 @@ TEST_F(RunCommandTest, PublishesAsManyFramesAsAsked) {
     EXPECT_EQ(summary.at("rig"), "test");
     EXPECT_EQ(summary.at("published"), 3);
     EXPECT_GT(summary.at("match_ms").at("p50").get<double>(), 0);
-    expect_books_to_balance(summary);
+    expect_stats_to_balance(summary);
     for (const char* line : {"EGL", "GPU:", "matcher", "publishing on tcp://127.0.0.1:"})
         EXPECT_NE(result.err.find(line), std::string::npos) << line;
 }
@@ -105,7 +105,7 @@ TEST_F(RunCommandTest, EndsInOrderWhenAskedTo) {
         rig.send_signal(signal);
         const ProgramResult result = rig.wait();
         ASSERT_EQ(result.status, signal == SIGINT ? 130 : 0) << result.err;
-        expect_books_to_balance(nlohmann::json::parse(result.out));
+        expect_stats_to_balance(nlohmann::json::parse(result.out));
     }
 }
 
@@ -119,7 +119,7 @@ TEST_F(RunCommandTest, EndsWhereTheMaterialEnds) {
     const ProgramResult result = run(config, {"--json"});
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
-    expect_books_to_balance(summary);
+    expect_stats_to_balance(summary);
     EXPECT_EQ(summary.at("captured").get<int>() + summary.at("missed").get<int>(), 4);
 }
 

@@ -36,7 +36,7 @@ class FreedPort final : public ControlPort {
             datagram = socket_.receive(0ms);
         }
         if (looked_at == most_datagrams_a_look) std::this_thread::sleep_for(10ms);
-        books_.dropped += socket_.overrun() - seen_overrun_;
+        stats_.dropped += socket_.overrun() - seen_overrun_;
         seen_overrun_ = socket_.overrun();
     }
 
@@ -44,21 +44,21 @@ class FreedPort final : public ControlPort {
     void take(std::span<const std::byte> bytes) {
         const std::optional<FreedCamera> message = decode_freed(bytes);
         if (!message) {
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("{} bytes that are no FreeD D1 with a right checksum and a tilt "
                                "within 90 degrees",
                                bytes.size()));
             return;
         }
         if (camera_ && message->id != *camera_) {
-            refuse(&PortBooks::unknown,
+            refuse(&PortStats::unknown,
                    fmt::format("camera {} where {} flies", message->id, *camera_));
             return;
         }
         const std::optional<double> angle_rad =
             field_of_view_rad_ ? field_of_view_rad_ : freed_field_of_view_rad(*message);
         if (!angle_rad) {
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("a zoom of {}, which is no field of view of 5000 to 115000 "
                                "thousandths of a degree; say fov=DEGREES",
                                message->zoom));
@@ -69,7 +69,7 @@ class FreedPort final : public ControlPort {
             {message->world_from_camera, *angle_rad,
              message->focus > 0 && !field_of_view_rad_ ? message->focus / mm : usual_focus_m},
             MonotonicClock::now());
-        ++books_.obeyed;
+        ++stats_.obeyed;
     }
 
     ControlBench bench_;

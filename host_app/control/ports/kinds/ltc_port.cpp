@@ -83,17 +83,17 @@ class LtcPort final : public ControlPort {
 
     void serve(std::chrono::milliseconds most) override {
         const std::optional<SoundBlock> sound = sound_->next(most);
-        books_.dropped = sound_->dropped();
+        stats_.dropped = sound_->dropped();
         if (!sound) return;
         for (const LtcReading& reading : reader_.hear(*sound)) take(reading);
-        if (books_.malformed == reader_.malformed()) return;
-        books_.malformed = reader_.malformed();
-        books_.last_refusal = "linear time code that is none, or does not follow what came before";
+        if (stats_.malformed == reader_.malformed()) return;
+        stats_.malformed = reader_.malformed();
+        stats_.last_refusal = "linear time code that is none, or does not follow what came before";
     }
 
   private:
     void take(const LtcReading& reading) {
-        ++books_.obeyed;
+        ++stats_.obeyed;
         const SmpteCount count = count_of(reading);
         const double rate_hz =
             count.is_drop_frame ? 30000.0 / 1001 : static_cast<double>(count.numbers_a_second);
@@ -104,7 +104,7 @@ class LtcPort final : public ControlPort {
         const std::optional<std::int64_t> here = house ? count.frame_of(*house) : std::nullopt;
         const std::int64_t ahead = here ? count.between(*count.frame_of(reading.code), *here) : 0;
         bench_.ltc.put({reading.code.text(), ahead});
-        books_.told = reading.code.text() + ", " + words_of_ltc(ahead);
+        stats_.told = reading.code.text() + ", " + words_of_ltc(ahead);
         tell(reading, ahead);
     }
     /// What stays, and is another difference than was told last.

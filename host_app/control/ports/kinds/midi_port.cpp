@@ -22,7 +22,7 @@ class MidiPort final : public ControlPort {
   public:
     MidiPort(const OutputUrl& url, const ControlBench& bench)
         : bench_(bench),
-          intake_(bench.hands),
+          intake_(bench.operator_input),
           name_("control " + url.shown),
           map_(MidiMap::load(url.option("map").value_or(""))),
           sequencer_(url.place, name_) {
@@ -37,7 +37,7 @@ class MidiPort final : public ControlPort {
             event = sequencer_.next(0ms);
         }
         if (event) take(*event);
-        books_.dropped += sequencer_.overrun() - seen_overrun_;
+        stats_.dropped += sequencer_.overrun() - seen_overrun_;
         seen_overrun_ = sequencer_.overrun();
         if (looked_at == most_events_a_look) std::this_thread::sleep_for(10ms);
         const MonotonicTime now = MonotonicClock::now();
@@ -66,7 +66,7 @@ class MidiPort final : public ControlPort {
                              event.place.port);
                 break;
             case Kind::foreign:
-                refuse(&PortBooks::malformed, "a message that no surface sends");
+                refuse(&PortStats::malformed, "a message that no surface sends");
                 break;
             case Kind::message:
                 obey(event);
@@ -77,21 +77,21 @@ class MidiPort final : public ControlPort {
     void obey(const MidiSequencer::Event& event) {
         MidiSurface* surface = surface_at(event.place);
         if (!surface) {
-            ++books_.dropped;
+            ++stats_.dropped;
             return;
         }
         const MidiSurface::Outcome outcome = surface->take(event.message);
         switch (outcome.kind) {
             case MidiSurface::Outcome::Kind::malformed:
-                refuse(&PortBooks::malformed, outcome.refusal);
+                refuse(&PortStats::malformed, outcome.refusal);
                 break;
             case MidiSurface::Outcome::Kind::unknown:
-                refuse(&PortBooks::unknown, outcome.refusal);
+                refuse(&PortStats::unknown, outcome.refusal);
                 break;
             case MidiSurface::Outcome::Kind::heard:
                 ++(!outcome.call || intake_.take(*outcome.call, MonotonicClock::now())
-                       ? books_.obeyed
-                       : books_.dropped);
+                       ? stats_.obeyed
+                       : stats_.dropped);
                 break;
         }
     }
@@ -111,7 +111,7 @@ class MidiPort final : public ControlPort {
         if (is_first) return;
         for (const auto& [place, surface] : surfaces_)
             if (const FlightInput input = surface.held(dt_s); input.is_any())
-                (void)bench_.hands.put(input, now);
+                (void)bench_.operator_input.put(input, now);
     }
 
     void light(MonotonicTime now) {

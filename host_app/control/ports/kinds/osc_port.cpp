@@ -33,7 +33,7 @@ class OscPort final : public ControlPort {
   public:
     OscPort(const OutputUrl& url, const ControlBench& bench)
         : bench_(bench),
-          intake_(bench.hands),
+          intake_(bench.operator_input),
           socket_(UdpSocket::bound(listening_place_of(url), "control " + url.shown)) {
         url.require_options_of({"open", "lamps"});
         if (const std::optional<std::string> to = url.option("lamps")) {
@@ -52,7 +52,7 @@ class OscPort final : public ControlPort {
         }
         // Of a flood the kernel leaves out the rest, so that it takes no processor from pictures.
         if (looked_at == most_datagrams_a_look) std::this_thread::sleep_for(10ms);
-        books_.dropped += socket_.overrun() - seen_overrun_;
+        stats_.dropped += socket_.overrun() - seen_overrun_;
         seen_overrun_ = socket_.overrun();
         tell(MonotonicClock::now());
     }
@@ -62,7 +62,7 @@ class OscPort final : public ControlPort {
         const MonotonicTime now = MonotonicClock::now();
         const std::optional<std::vector<OscMessage>> messages = decode_osc(datagram.bytes);
         if (!messages) {
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("{} bytes that are no OSC", datagram.bytes.size()));
             return;
         }
@@ -71,7 +71,7 @@ class OscPort final : public ControlPort {
 
     void obey(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
         if (!message.address.starts_with(root)) {
-            refuse(&PortBooks::unknown,
+            refuse(&PortStats::unknown,
                    fmt::format("{} does not begin with {}", printable(message.address), root));
             return;
         }
@@ -93,7 +93,7 @@ class OscPort final : public ControlPort {
         }
         const ControlCommand* command = find_command(name);
         if (!command) {
-            refuse(&PortBooks::unknown,
+            refuse(&PortStats::unknown,
                    fmt::format("{} is no command", printable(message.address)));
             return;
         }
@@ -113,11 +113,11 @@ class OscPort final : public ControlPort {
                 call = call_of(*command, needed ? std::optional(numbers.front()) : std::nullopt);
         }
         if (!call) {
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("{} has arguments that do not fit", printable(message.address)));
             return;
         }
-        ++(is_let_go || intake_.take(*call, now) ? books_.obeyed : books_.dropped);
+        ++(is_let_go || intake_.take(*call, now) ? stats_.obeyed : stats_.dropped);
     }
 
     void subscribe(const OscMessage& message, const SocketAddress& from, MonotonicTime now) {
@@ -126,7 +126,7 @@ class OscPort final : public ControlPort {
         if (!message.numbers.empty()) {
             const double port = message.numbers.front();
             if (!(port >= 1 && port <= highest_port && port == std::floor(port))) {
-                refuse(&PortBooks::malformed, "/vantage/subscribe takes a port, 1 to 65535");
+                refuse(&PortStats::malformed, "/vantage/subscribe takes a port, 1 to 65535");
                 return;
             }
             to = from.with_port(static_cast<std::uint16_t>(port));
@@ -135,11 +135,11 @@ class OscPort final : public ControlPort {
             return listener.until && (*listener.until < now || listener.address == to);
         });
         if (listeners_.size() >= most_subscribers) {
-            ++books_.dropped;
+            ++stats_.dropped;
             return;
         }
         listeners_.push_back({to, now + subscription});
-        ++books_.obeyed;
+        ++stats_.obeyed;
         is_all_due_ = true;
     }
 

@@ -24,7 +24,7 @@ OutputUrl with_port(OutputUrl url) {
 class RossTalkPort final : public ControlPort {
   public:
     RossTalkPort(const OutputUrl& url, const ControlBench& bench)
-        : intake_(bench.hands),
+        : intake_(bench.operator_input),
           map_(RossTalkMap::load(url.option("map").value_or(""))),
           listener_(listening_place_of(with_port(url)), "control " + url.shown, most_peers) {
         url.require_options_of({"open", "map"});
@@ -44,14 +44,14 @@ class RossTalkPort final : public ControlPort {
                 ++lines;
             }
             if (!waiting.is_flooded()) continue;
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("more than {} bytes without CR LF, after which the connection is "
                                "closed",
                                RossTalkLines::most_line_bytes));
             lines_.erase(arrived.peer);
             listener_.close(arrived.peer);
         }
-        books_.dropped += listener_.turned_away() - seen_turned_away_;
+        stats_.dropped += listener_.turned_away() - seen_turned_away_;
         seen_turned_away_ = listener_.turned_away();
         // A flood takes no processor from pictures: TCP holds it up.
         if (lines >= most_lines_a_look) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -61,7 +61,7 @@ class RossTalkPort final : public ControlPort {
     void obey(const std::string& line, MonotonicTime now) {
         const RossTalkLine said = parse_rosstalk(line);
         if (!said.order) {
-            refuse(said.is_known ? &PortBooks::malformed : &PortBooks::unknown,
+            refuse(said.is_known ? &PortStats::malformed : &PortStats::unknown,
                    fmt::format("'{}' is {}", printable(line),
                                said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
                                              : "no command that is taken"));
@@ -69,10 +69,10 @@ class RossTalkPort final : public ControlPort {
         }
         const CommandCall* call = map_.find(*said.order);
         if (!call) {
-            refuse(&PortBooks::unknown, fmt::format("'{}' is mapped to nothing", printable(line)));
+            refuse(&PortStats::unknown, fmt::format("'{}' is mapped to nothing", printable(line)));
             return;
         }
-        ++(intake_.take(*call, now) ? books_.obeyed : books_.dropped);
+        ++(intake_.take(*call, now) ? stats_.obeyed : stats_.dropped);
     }
 
     CommandIntake intake_;

@@ -32,12 +32,12 @@ class TslPort : public ControlPort {
     void take(std::span<const std::byte> bytes) {
         const std::optional<std::vector<TslDisplay>> displays = decode_tsl(bytes);
         if (!displays) {
-            refuse(&PortBooks::malformed,
+            refuse(&PortStats::malformed,
                    fmt::format("{} bytes that are no TSL UMD 3.1 or 5.0", bytes.size()));
             return;
         }
         // Mixers tell every display about every other; that is no fault.
-        ++books_.obeyed;
+        ++stats_.obeyed;
         const auto is_on = [](const TslDisplay& display, int tally) {
             return (display.tallies >> (tally - 1) & 1) != 0;
         };
@@ -65,7 +65,7 @@ class TslDatagrams final : public TslPort {
             datagram = socket_.receive(0ms);
         }
         if (looked_at == most_messages_a_look) std::this_thread::sleep_for(flood_pause);
-        books_.dropped += socket_.overrun() - seen_overrun_;
+        stats_.dropped += socket_.overrun() - seen_overrun_;
         seen_overrun_ = socket_.overrun();
     }
 
@@ -94,10 +94,10 @@ class TslConnections final : public TslPort {
                 ++messages;
             }
             for (std::uint64_t i = strays; i < stream.strays(); ++i)
-                refuse(&PortBooks::malformed,
+                refuse(&PortStats::malformed,
                        "bytes that are no message of TSL UMD 5.0 over TCP, which DLE STX begins");
         }
-        books_.dropped += listener_.turned_away() - seen_turned_away_;
+        stats_.dropped += listener_.turned_away() - seen_turned_away_;
         seen_turned_away_ = listener_.turned_away();
         if (messages >= most_messages_a_look) std::this_thread::sleep_for(flood_pause);
     }

@@ -123,7 +123,7 @@ TEST(Board, printed_inverted_is_recognised_and_its_black_is_no_glare) {
     expect_where_drawn(sighting, pattern);
     EXPECT_TRUE(sighting.inverted);
     EXPECT_EQ(sighting.burnt_out_share, 0);
-    BoardSet boards(pattern);
+    CalibrationBoards boards(pattern);
     BoardPattern other = pattern;
     other.first_marker = 60;
     boards.add("other", {other});
@@ -200,18 +200,18 @@ TEST(Board, set_comes_back_from_its_description_and_is_no_flat_board) {
 TEST(Board, set_whose_boards_cannot_be_told_apart_is_refused) {
     BoardPattern second = charuco(8, 5);
     second.first_marker = 20;
-    BoardSet sharing(charuco(8, 5));
+    CalibrationBoards sharing(charuco(8, 5));
     sharing.add("second", {second});
     // Nine by six squares hold 27 markers.
     EXPECT_THAT(thrown_sentence([&] { sharing.validate(); }),
                 HasSubstr("8x5 and second share markers of 5X5 (from 0 and from 20): print one of "
                           "them with other markers (board --first-marker 47)"));
-    BoardSet with_chessboard(charuco(8, 5));
+    CalibrationBoards with_chessboard(charuco(8, 5));
     with_chessboard.add("plain", {chessboard_pattern("9x6", 0.04)});
     EXPECT_THAT(thrown_sentence([&] { with_chessboard.validate(); }),
                 HasSubstr("plain is a plain chessboard"));
     second.first_marker = 27;
-    BoardSet apart(charuco(8, 5));
+    CalibrationBoards apart(charuco(8, 5));
     apart.add("second", {second});
     EXPECT_NO_THROW(apart.validate());
 }
@@ -220,7 +220,7 @@ TEST(Board, set_is_found_by_its_markers_and_its_corners_are_numbered_through) {
     const BoardPattern first = charuco(5, 4);
     BoardPattern second = first;
     second.first_marker = marker_count(first);
-    BoardSet set(first);
+    CalibrationBoards set(first);
     set.add("second", {second});
     GreyImage picture;
     cv::vconcat(draw_board(second, 30), draw_board(first, 30), picture);

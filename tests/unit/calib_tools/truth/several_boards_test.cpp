@@ -57,7 +57,7 @@ const std::vector<StageRig>& calibrated_rigs() {
 }
 
 /// Films boards that stand about the stage at an instant, with all cameras of rigs first to last.
-void film_boards(RenderedStage& stage, const BoardSet& boards, long long instant,
+void film_boards(RenderedStage& stage, const CalibrationBoards& boards, long long instant,
                  const std::vector<RenderedStage::StandingBoard>& standing,
                  std::vector<StageRig>& rigs, int first = 0,
                  int last = RenderedStage::rig_count - 1) {
@@ -82,7 +82,7 @@ void expect_within_bounds(const StageCalibration& solved, const RenderedStage& s
 TEST(SeveralBoards, of_different_markers_join_four_rigs_in_one_calibration) {
     const std::vector<BoardPattern> patterns = {charuco("7x4", 0.1, 0), charuco("7x4", 0.1, 20),
                                                 charuco("7x4", 0.1, 40)};
-    BoardSet boards;
+    CalibrationBoards boards;
     boards.add("floor", {patterns[0]});
     boards.add("left", {patterns[1]});
     boards.add("right", {patterns[2]});
@@ -114,7 +114,7 @@ TEST(SeveralBoards, fixed_to_a_wand_join_rigs_that_see_different_faces) {
     for (int f = 0; f < 5; ++f) faces.push_back(charuco("4x4", 0.075, 12 * f));
     RenderedStage stage(faces, width_px, stage_seed);
     std::vector<StageRig> rigs = calibrated_rigs();
-    BoardSet boards;
+    CalibrationBoards boards;
     boards.add("wand", faces);
     const std::vector<Pose> on_cube = cube_faces(faces.front());
     for (int i = 0; i < 18; ++i) {

@@ -102,9 +102,9 @@ TEST(BoundedQueue, TellsWhenThereIsRoom) {
     EXPECT_TRUE(queue.wait_for_room(1h));
     reader.join();
     queue.push(2);
-    std::thread closer([&] { queue.close(); });
+    std::thread inpainting([&] { queue.close(); });
     EXPECT_FALSE(queue.wait_for_room(1h));
-    closer.join();
+    inpainting.join();
 }
 
 }  // namespace

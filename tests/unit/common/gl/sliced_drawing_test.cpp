@@ -133,8 +133,8 @@ TEST_F(BandsTest, EndWhereWhatIsCalledBetweenThemSaysSo) {
 }
 
 TEST_F(BandsTest, WaitForOthersOnlyAsLongAsTheirShareOfTheTimeAllows) {
-    RightOfWay way;
-    const RightOfWay::Claim never_ends(way);
+    RenderPriority way;
+    const RenderPriority::Claim never_ends(way);
     const SlicedDrawing slices(
         1ns, &way, [] {}, 1.0);
     int rows = 8, drawn = 0;

@@ -118,7 +118,7 @@ TEST_F(LinkTest, FramesCrossTheSecuredLinkBitExact) {
     }
     const RigStatus status = host.status().rigs.at(0);
     EXPECT_EQ(status.received, frames);
-    EXPECT_EQ(status.in_sets, frames);
+    EXPECT_EQ(status.in_frame_sets, frames);
     EXPECT_EQ(status.lost, 0u);
     EXPECT_EQ(status.undecodable, 0u);
 }
@@ -141,7 +141,7 @@ TEST_F(LinkTest, WhatNobodyLooksAtIsKeptAsItCameAndNotDecoded) {
     EXPECT_EQ(next(1002).geometry.width_px, 61) << "all but the pictures is known";
     host.look_at("rig-a", true);
     EXPECT_TRUE(same_pixels(next(1003).colour, make_frame(1003).colour));
-    EXPECT_EQ(host.status().rigs[0].in_sets, 4u);
+    EXPECT_EQ(host.status().rigs[0].in_frame_sets, 4u);
     EXPECT_THROW(host.look_at("rig-b", true), Error);
 }
 
@@ -205,7 +205,7 @@ TEST_F(LinkTest, ARestartedRigIsFollowed) {
     ASSERT_TRUE(set);
     EXPECT_EQ(set->trigger_index, 7u);
     EXPECT_NE(set->slots[0].frame->session, first_session);
-    EXPECT_EQ(host.status().rigs[0].in_sets, 2u);
+    EXPECT_EQ(host.status().rigs[0].in_frame_sets, 2u);
 }
 
 TEST_F(LinkTest, TwoRigsMeetByTriggerIndex) {
@@ -229,7 +229,7 @@ TEST_F(LinkTest, TwoRigsMeetByTriggerIndex) {
         EXPECT_EQ(set->trigger_index, k);
         EXPECT_EQ(set->present(), 2);
     }
-    EXPECT_EQ(host.status().complete_sets, 4u);
+    EXPECT_EQ(host.status().complete_frame_sets, 4u);
 }
 
 TEST_F(LinkTest, SetsThatNobodyTakesAreCountedWithTheirFrames) {
@@ -243,9 +243,9 @@ TEST_F(LinkTest, SetsThatNobodyTakesAreCountedWithTheirFrames) {
     std::uint64_t taken = 0;
     while (receiver.next(100ms)) ++taken;
     const ReceiverStatus status = receiver.status();
-    EXPECT_GT(status.sets_dropped, 0u);
-    EXPECT_EQ(status.rigs[0].in_dropped_sets, status.sets_dropped);
-    EXPECT_EQ(status.rigs[0].in_sets, taken + status.rigs[0].in_dropped_sets);
+    EXPECT_GT(status.frame_sets_dropped, 0u);
+    EXPECT_EQ(status.rigs[0].in_dropped_frame_sets, status.frame_sets_dropped);
+    EXPECT_EQ(status.rigs[0].in_frame_sets, taken + status.rigs[0].in_dropped_frame_sets);
 }
 
 TEST_F(LinkTest, ARigThinsItsStreamAsAsked) {
@@ -258,7 +258,7 @@ TEST_F(LinkTest, ARigThinsItsStreamAsAsked) {
     ASSERT_TRUE(eventually([&] {
         rig.publish(make_frame(k));
         k += 3;
-        return rig.status().hosts.at(0).counters.thinned > 0;
+        return rig.status().hosts.at(0).counters.skipped > 0;
     }));
     while (host.next(100ms)) {
     }
@@ -310,25 +310,25 @@ TEST_F(LinkTest, AStalledHostMakesTheRigDropTheOldestAndCountThem) {
     Publisher rig(stream, "rig-a");
     ScriptedHost host(rig.endpoint());
     std::size_t parts = 0;
-    HostMessage wish;
-    wish.host_id = 9;
-    wish.credit_window = 3;
-    host.say(wish);
+    HostMessage request;
+    request.host_id = 9;
+    request.credit_window = 3;
+    host.say(request);
     const RigMessage welcome = host.hear(parts);
     EXPECT_EQ(parts, 1u);
     EXPECT_EQ(welcome.counters.sent, 0u);
-    wish.link = welcome.link;
-    host.say(wish);
+    request.link = welcome.link;
+    host.say(request);
 
     // Nothing is granted from here on: three are sent, four wait, the rest is dropped.
     rig.publish(make_frame(0));
     ASSERT_TRUE(eventually([&] {
-        host.say(wish);
+        host.say(request);
         return rig.status().hosts.at(0).counters.sent == 1;
     }));
     for (std::uint64_t k = 1; k < 3; ++k) rig.publish(make_frame(k));
     ASSERT_TRUE(eventually([&] {
-        host.say(wish);
+        host.say(request);
         return rig.status().hosts.at(0).counters.sent == 3;
     }));
     for (std::uint64_t k = 3; k < 20; ++k) rig.publish(make_frame(k));
@@ -339,11 +339,11 @@ TEST_F(LinkTest, AStalledHostMakesTheRigDropTheOldestAndCountThem) {
     EXPECT_EQ(stalled.counters.send_dropped, 13u);
     EXPECT_EQ(rig.status().counters.send_dropped, 13u);
 
-    wish.handled = 3;
-    wish.credit_window = 16;
-    host.say(wish);
+    request.handled = 3;
+    request.credit_window = 16;
+    host.say(request);
     ASSERT_TRUE(eventually([&] {
-        host.say(wish);
+        host.say(request);
         return rig.status().hosts.at(0).queued == 0;
     }));
     std::uint64_t deliveries = 0;

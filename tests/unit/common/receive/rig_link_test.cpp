@@ -47,7 +47,7 @@ class RigLinkTest : public testing::Test {
             const MonotonicTime now = MonotonicClock::now();
             link_->watch(now);
             if (link_->receive(now)) ++deliveries_;
-            link_->tick(wish_, now);
+            link_->tick(request_, now);
             hear();
         }
         return false;
@@ -96,7 +96,7 @@ class RigLinkTest : public testing::Test {
     zmq::socket_t rig_;
     std::optional<CurveKeys> keys_;
     std::optional<RigLink> link_;
-    RigLink::Wish wish_;
+    RigLink::Request request_;
     int deliveries_ = 0;
     std::string route_;
     std::optional<HostMessage> heard_;
@@ -105,14 +105,14 @@ class RigLinkTest : public testing::Test {
 TEST_F(RigLinkTest, NeverSaysThatMoreFramesWereHandledThanCame) {
     connect(7);
     for (const std::uint64_t sent : {1, 2, 3}) say(7, sent, true);
-    wish_.unhandled = 3;
+    request_.unhandled = 3;
     ASSERT_TRUE(until([&] { return deliveries_ == 3 && heard_->link == 7; }));
     // The rig's daemon is started anew; what it sent before is still being decoded.
     say(8, 1, true);
-    wish_.unhandled = 4;
+    request_.unhandled = 4;
     ASSERT_TRUE(until([&] { return heard_->link == 8; }));
     EXPECT_EQ(heard_->handled, 0u);
-    wish_.unhandled = 0;
+    request_.unhandled = 0;
     ASSERT_TRUE(until([&] { return heard_->handled == 1; }));
 }
 

@@ -57,7 +57,7 @@ TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
     rig = good_rig();
     rig.unsynchronized = 5;
     EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
-    rig.in_sets = 100;
+    rig.in_frame_sets = 100;
     EXPECT_EQ(trouble_of(rig), "") << "some pictures do";
     rig.names_no_pulse = true;
     EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));

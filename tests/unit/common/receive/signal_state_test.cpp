@@ -10,11 +10,11 @@ using namespace std::chrono_literals;
 constexpr auto period = 40ms;
 const MonotonicTime now = monotonic_from_ns(0) + 1h;
 
-ReceiverStatus stage_with_a_set_of(std::chrono::nanoseconds age) {
+ReceiverStatus stage_with_a_background_of(std::chrono::nanoseconds age) {
     ReceiverStatus status;
     status.rigs.resize(2);
     status.rigs[1].connected = true;
-    status.newest_set = now - age;
+    status.newest_frame_set = now - age;
     return status;
 }
 
@@ -23,42 +23,42 @@ SignalState state_of(const ReceiverStatus& status) {
 }
 
 TEST(SignalState, IsLiveWhileSetsCome) {
-    EXPECT_EQ(state_of(stage_with_a_set_of(0ms)), SignalState::live);
-    EXPECT_EQ(state_of(stage_with_a_set_of(period + stale_after)), SignalState::live);
+    EXPECT_EQ(state_of(stage_with_a_background_of(0ms)), SignalState::live);
+    EXPECT_EQ(state_of(stage_with_a_background_of(period + stale_after)), SignalState::live);
 }
 
 TEST(SignalState, GoesStaleAndThenIsNone) {
-    EXPECT_EQ(state_of(stage_with_a_set_of(period + stale_after + 1ns)), SignalState::stale);
-    EXPECT_EQ(state_of(stage_with_a_set_of(period + no_signal_after)), SignalState::stale);
-    EXPECT_EQ(state_of(stage_with_a_set_of(period + no_signal_after + 1ns)),
+    EXPECT_EQ(state_of(stage_with_a_background_of(period + stale_after + 1ns)), SignalState::stale);
+    EXPECT_EQ(state_of(stage_with_a_background_of(period + no_signal_after)), SignalState::stale);
+    EXPECT_EQ(state_of(stage_with_a_background_of(period + no_signal_after + 1ns)),
               SignalState::no_signal);
 }
 
 TEST(SignalState, ASlowStageIsNotStaleBetweenItsPulses) {
-    EXPECT_EQ(signal_state(stage_with_a_set_of(5s), false, 5s, now), SignalState::live);
+    EXPECT_EQ(signal_state(stage_with_a_background_of(5s), false, 5s, now), SignalState::live);
 }
 
 TEST(SignalState, WithoutARigThereIsNone) {
-    ReceiverStatus status = stage_with_a_set_of(10ms);
+    ReceiverStatus status = stage_with_a_background_of(10ms);
     for (RigStatus& rig : status.rigs) rig.connected = false;
     EXPECT_EQ(state_of(status), SignalState::no_signal);
 }
 
 TEST(SignalState, WhereEveryRigIsAtAnotherRateItIsOneAllTheSame) {
-    ReceiverStatus status = stage_with_a_set_of(10ms);
+    ReceiverStatus status = stage_with_a_background_of(10ms);
     status.rigs[1].stage_rate_hz = 10;
     status.rigs[1].sync.rate_hz = 5;
     EXPECT_EQ(state_of(status), SignalState::live);
 }
 
 TEST(SignalState, BeforeTheFirstSetThereIsNone) {
-    ReceiverStatus status = stage_with_a_set_of(0ms);
-    status.newest_set.reset();
+    ReceiverStatus status = stage_with_a_background_of(0ms);
+    status.newest_frame_set.reset();
     EXPECT_EQ(state_of(status), SignalState::no_signal);
 }
 
 TEST(SignalState, WhatTheOperatorHoldsIsHeldWhateverTheRigsDo) {
-    EXPECT_EQ(signal_state(stage_with_a_set_of(1h), true, period, now), SignalState::hold);
+    EXPECT_EQ(signal_state(stage_with_a_background_of(1h), true, period, now), SignalState::hold);
 }
 
 TEST(SignalState, HasWordsForPeopleAndMachines) {

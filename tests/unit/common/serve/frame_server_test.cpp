@@ -23,20 +23,20 @@ class StuckHost {
         socket_.set(zmq::sockopt::rcvhwm, 1);
         socket_.set(zmq::sockopt::rcvbuf, 4096);
         socket_.connect(endpoint);
-        wish_.host_id = id;
+        request_.host_id = id;
         say();
         zmq::message_t welcome;
         EXPECT_TRUE(socket_.recv(welcome));
-        wish_.link = decode_rig_message({welcome.data<std::byte>(), welcome.size()}).link;
+        request_.link = decode_rig_message({welcome.data<std::byte>(), welcome.size()}).link;
         say();
     }
 
   private:
-    void say() { socket_.send(zmq::buffer(encode(wish_)), zmq::send_flags::none); }
+    void say() { socket_.send(zmq::buffer(encode(request_)), zmq::send_flags::none); }
 
     zmq::context_t context_;
     zmq::socket_t socket_;
-    HostMessage wish_;
+    HostMessage request_;
 };
 
 // ZeroMQ aborts the program (libzmq issue 3442) where a connection breaks at the moment at which

@@ -256,15 +256,15 @@ TEST_F(HostLinksTest, HeartbeatsGoToAttachedHostsAndCarryTheNewestCounts) {
 
 TEST_F(HostLinksTest, RawPairsGoToTheHostsThatAskForThemAndViewsToTheOthers) {
     attach("films", 5, 9);
-    HostMessage wish;
-    wish.host_id = 6;
-    wish.raw_pairs = true;
-    wish.rate_divisor = 2;
-    wish.credit_window = 9;
+    HostMessage request;
+    request.host_id = 6;
+    request.raw_pairs = true;
+    request.rate_divisor = 2;
+    request.credit_window = 9;
     EXPECT_FALSE(links_.wants_raw_pair(4));
-    links_.hear("calibrates", "key", wish, now_);
-    for (const auto& outgoing : links_.take()) wish.link = outgoing.message.link;
-    links_.hear("calibrates", "key", wish, now_);
+    links_.hear("calibrates", "key", request, now_);
+    for (const auto& outgoing : links_.take()) request.link = outgoing.message.link;
+    links_.hear("calibrates", "key", request, now_);
     EXPECT_TRUE(links_.wants_raw_pair(4));
     EXPECT_FALSE(links_.wants_raw_pair(5));
 
@@ -277,24 +277,24 @@ TEST_F(HostLinksTest, RawPairsGoToTheHostsThatAskForThemAndViewsToTheOthers) {
     EXPECT_EQ(links_.rig_counters().published, 1u) << "one instant";
     for (const auto& host : links_.hosts()) EXPECT_EQ(host.counters, (LinkCounters{1, 1, 0, 0}));
 
-    wish.streaming = false;
-    links_.hear("calibrates", "key", wish, now_);
+    request.streaming = false;
+    links_.hear("calibrates", "key", request, now_);
     EXPECT_FALSE(links_.wants_raw_pair(4));
 }
 
 TEST_F(HostLinksTest, ARigWithoutViewsSaysSoToHostsThatWantThemAndServesRawPairs) {
     links_.serve_raw_pairs_only("no calibration yet");
-    HostMessage wish;
-    wish.host_id = 5;
-    links_.hear("films", "key", wish, now_);
+    HostMessage request;
+    request.host_id = 5;
+    links_.hear("films", "key", request, now_);
     const auto refusals = links_.take();
     ASSERT_EQ(refusals.size(), 1u);
     EXPECT_EQ(refusals[0].message.refusal, "no calibration yet");
     EXPECT_TRUE(links_.hosts().empty());
 
-    wish.raw_pairs = true;
-    wish.host_id = 6;
-    links_.hear("calibrates", "key", wish, now_);
+    request.raw_pairs = true;
+    request.host_id = 6;
+    links_.hear("calibrates", "key", request, now_);
     EXPECT_EQ(links_.hosts().size(), 1u);
     links_.offer(frame_of(1, true));
     links_.pass_over();
@@ -304,11 +304,11 @@ TEST_F(HostLinksTest, ARigWithoutViewsSaysSoToHostsThatWantThemAndServesRawPairs
 /// A host that fetches, and what the rig's reader answers.
 class HostLinksFetchTest : public HostLinksTest {
   protected:
-    void ask(std::uint64_t host_id, FetchWish wish) {
+    void ask(std::uint64_t host_id, FetchRequest request) {
         HostMessage message;
         message.host_id = host_id;
         message.streaming = false;
-        message.fetch = wish;
+        message.fetch = request;
         links_.hear(fmt::format("r{}", host_id), "key", message, now_);
     }
     void answer(const HostLinks::FetchJob& job, std::uint64_t pulse) {

@@ -126,8 +126,8 @@ std::optional<Vector3d> middle_of_performers(const StageCamera& camera, const De
 
 TEST_F(StageMotion, WhatIsSeenOfAPerformerWalksAsFastAsItsWaySays) {
     std::uint64_t seed = 1;
-    while (make_random_set(seed).performers.size() != 1) ++seed;
-    const PerformerStyle alone = make_random_set(seed).performers.front();
+    while (make_random_background(seed).performers.size() != 1) ++seed;
+    const PerformerStyle alone = make_random_background(seed).performers.front();
     stage_ = VirtualStage(library_, seed);
     const DepthImage set_m = this->set_m();
     for (const nanoseconds date : {a_day, years_later}) {

@@ -91,7 +91,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
         StageMeshBuilder mesh;
         mesh.begin_chunk();
         // Off the origin and turned, so that a hole would show in the sum.
-        mesh.set_placement(Eigen::Translation3f(5, -3, 2) *
+        mesh.background_placement(Eigen::Translation3f(5, -3, 2) *
                            Eigen::Affine3f(Eigen::AngleAxisf(0.7f, Vector3f::UnitX())));
         add(mesh);
         mesh.end_chunk();
@@ -123,7 +123,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
 
 TEST(StageMesh, ChunksHoldTheirTrianglesAndSpheres) {
     for (const std::uint64_t seed : {0u, 1u, 2u}) {
-        const StageScene scene = make_set(seed);
+        const StageScene scene = make_frame_set(seed);
         const auto& mesh = scene.mesh;
         std::uint32_t next = 0;
         for (const StageChunk& chunk : mesh.chunks()) {
@@ -166,7 +166,7 @@ Bones pose_of(const PerformerStyle& style, std::chrono::nanoseconds time) {
 TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
     constexpr std::chrono::milliseconds step = 40ms;
     for (const std::chrono::nanoseconds date : dates())
-        for (const PerformerStyle& style : make_studio_set().performers) {
+        for (const PerformerStyle& style : make_studio_background().performers) {
             Bones before = pose_of(style, date - step);
             for (int i = 0; i < 75; ++i) {
                 const Bones bones = pose_of(style, date + i * step);
@@ -194,7 +194,7 @@ TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
 
 TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
     for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u})
-        for (const PerformerStyle& style : make_set(seed).performers) {
+        for (const PerformerStyle& style : make_frame_set(seed).performers) {
             EXPECT_GE(style.speed_m_per_s(), 0.5);
             EXPECT_LE(style.speed_m_per_s(), 1.5);
             for (const std::chrono::nanoseconds date : dates())
@@ -214,7 +214,7 @@ TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
 }
 
 TEST(Performer, IsTheSameAfterEveryLoop) {
-    const PerformerStyle style = make_studio_set().performers[1];
+    const PerformerStyle style = make_studio_background().performers[1];
     for (const std::chrono::nanoseconds date : dates()) {
         const Bones once = pose_of(style, date), again = pose_of(style, date + 7 * stage_loop);
         for (std::size_t b = 0; b < once.size(); ++b)
@@ -245,7 +245,7 @@ class Cells {
 
 /// Points all over the surfaces of what stands still, `apart_m` from each other.
 template <class Visit>
-void for_each_point_of_set(const StageMeshBuilder& mesh, float farthest_m, float apart_m,
+void for_each_background_point(const StageMeshBuilder& mesh, float farthest_m, float apart_m,
                            Visit visit) {
     for_each_triangle(mesh, [&](const auto& a, const auto& b, const auto& c) {
         if (a.normal_and_bone[3] != 0) return;
@@ -264,16 +264,16 @@ void for_each_point_of_set(const StageMeshBuilder& mesh, float farthest_m, float
     });
 }
 
-class EverySet : public testing::TestWithParam<std::uint64_t> {
+class EveryFrameSet : public testing::TestWithParam<std::uint64_t> {
   protected:
-    StageScene scene_ = make_set(GetParam());
+    StageScene scene_ = make_frame_set(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Sets, EverySet, testing::Range<std::uint64_t>(0, 13));
+INSTANTIATE_TEST_SUITE_P(Sets, EveryFrameSet, testing::Range<std::uint64_t>(0, 13));
 
-TEST_P(EverySet, PerformersNeverTouchTheSetNorEachOther) {
+TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
     constexpr int the_set = -1, nobody = 0;
     Cells cells;
-    for_each_point_of_set(scene_.mesh, 2.6f, 0.03f, [&](const Vector3f& p) {
+    for_each_background_point(scene_.mesh, 2.6f, 0.03f, [&](const Vector3f& p) {
         if (const auto cell = Cells::at(p)) cells[*cell] = the_set;
     });
     // By bone, the vertices of everyone.
@@ -305,7 +305,7 @@ TEST_P(EverySet, PerformersNeverTouchTheSetNorEachOther) {
     EXPECT_EQ(touched[1], 0) << "points that were within another performer";
 }
 
-TEST_P(EverySet, PerformersStayWithinTheirReach) {
+TEST_P(EveryFrameSet, PerformersStayWithinTheirReach) {
     std::vector<std::vector<Vector3f>> of_bone(1 + scene_.performers.size() * bones_of_performer);
     for (const StageVertex& v : scene_.mesh.vertices())
         of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
@@ -326,7 +326,7 @@ TEST_P(EverySet, PerformersStayWithinTheirReach) {
     }
 }
 
-TEST_P(EverySet, NothingStandsRightBeforeTheRigs) {
+TEST_P(EveryFrameSet, NothingStandsRightBeforeTheRigs) {
     std::vector<Vector3f> rigs;
     for (const float azimuth : {-1.05f, -0.7f, -0.35f, 0.0f, 0.35f, 0.7f, 1.05f})
         for (const float elevation : {0.09f, 0.17f, 0.35f})
@@ -336,7 +336,7 @@ TEST_P(EverySet, NothingStandsRightBeforeTheRigs) {
                                                    std::sin(elevation),
                                                    std::cos(elevation) * std::cos(azimuth)));
     float nearest = 1e9f;
-    for_each_point_of_set(scene_.mesh, 6, 0.1f, [&](const Vector3f& p) {
+    for_each_background_point(scene_.mesh, 6, 0.1f, [&](const Vector3f& p) {
         for (const Vector3f& rig : rigs) nearest = std::min(nearest, (p - rig).norm());
     });
     EXPECT_GT(nearest, 0.9f) << "metres from a camera: a low ceiling is that near";

@@ -114,9 +114,9 @@ TEST(FrameCodec, ARightPictureTravelsBehindTheLeftOnesJpeg) {
 }
 
 TEST(FrameCodec, ALargeRightPictureTravelsSmaller) {
-    EXPECT_EQ(set_match_size({640, 480}), cv::Size(640, 480));
-    EXPECT_EQ(set_match_size({1456, 1088}), cv::Size(485, 362));
-    EXPECT_EQ(set_match_size({641, 480}), cv::Size(320, 240));
+    EXPECT_EQ(background_match_size({640, 480}), cv::Size(640, 480));
+    EXPECT_EQ(background_match_size({1456, 1088}), cv::Size(485, 362));
+    EXPECT_EQ(background_match_size({641, 480}), cv::Size(320, 240));
     RigFrame sent = make_frame(3, 800, 600);
     sent.right = ColourImage(600, 800, cv::Vec4b(90, 120, 60, 255));
     const RigFrame got = decode(FrameEncoder(85).encode(sent));

@@ -10,16 +10,16 @@ namespace vantage {
 namespace {
 
 constexpr int memory_width_px = 53, memory_height_px = 37;
-// The kinds of set_kinds.glsl.
-constexpr uchar lit_set = 64, untold = 112, new_set = 152, before_set = 255;
+// The kinds of background_kinds.glsl.
+constexpr uchar lit_background = 64, untold = 112, new_background = 152, before_background = 255;
 
 /// What is learnt of a set, by one draw from any state to the next.
-class SetMemoryTest : public testing::Test {
+class BackgroundAccessTest : public testing::Test {
   protected:
-    SetMemoryTest() {
+    BackgroundAccessTest() {
         for (int v = 0; v < memory_height_px; ++v)
             for (int u = 0; u < memory_width_px; ++u) {
-                const uchar kinds[] = {0, lit_set, untold, new_set, 192, before_set};
+                const uchar kinds[] = {0, lit_background, untold, new_background, 192, before_background};
                 seen_(v, u) = {kinds[random_.uniform(0, 6)],
                                static_cast<uchar>(random_.uniform(0, 9)), 0, 255};
                 matte_(v, u) =
@@ -39,7 +39,7 @@ class SetMemoryTest : public testing::Test {
     cv::Mat1b matte_ = cv::Mat1b(memory_height_px, memory_width_px);
 };
 
-/// set_learn.frag and depth_votes.glsl.
+/// background_learn.frag and depth_weights.glsl.
 struct DepthMemory {
     float softness = 0.002f, spread = 0.0005f, most_instants = 20, most_misses = 6,
           absorbed_after = 8;
@@ -58,8 +58,8 @@ struct DepthMemory {
         }
         state[2] = state[3] = 0;
         if (z == 0) return state;
-        if (state[0] <= 0 || kind == new_set || kind == untold) return {z, 1, 0, 0};
-        if (kind == before_set) return state;
+        if (state[0] <= 0 || kind == new_background || kind == untold) return {z, 1, 0, 0};
+        if (kind == before_background) return state;
         const float instants = std::floor(state[1]);
         if (is_one_surface(z, state[0])) {
             const float share = 1 / (instants + 1);
@@ -73,7 +73,7 @@ struct DepthMemory {
     }
 };
 
-TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
+TEST_F(BackgroundAccessTest, LearnsDepthAsTheReference) {
     cv::Mat1f depth(memory_height_px, memory_width_px);
     cv::Mat4f before(memory_height_px, memory_width_px);
     for (int v = 0; v < memory_height_px; ++v)
@@ -87,15 +87,15 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
                             static_cast<float>(random_.uniform(1, 10))};
         }
     const DepthMemory memory;
-    FullscreenPass pass(shaders_, "set_learn.frag");
+    FullscreenPass pass(shaders_, "background_learn.frag");
     const Texture depth_map = texture_of(TextureFormat::r32f, depth);
-    const Texture set_before = texture_of(TextureFormat::rgba32f, before);
+    const Texture background_before = texture_of(TextureFormat::rgba32f, before);
     const Texture seen = texture_of(TextureFormat::rgba8, seen_);
     const Texture matte = texture_of(TextureFormat::r8, matte_);
     const Texture target(TextureFormat::rgba32f, memory_width_px, memory_height_px);
     Program& program = pass.use();
     program.set("depth_map", 0);
-    program.set("set_before", 1);
+    program.set("background_before", 1);
     program.set("seen", 2);
     program.set("matte", 3);
     program.set("softness", memory.softness);
@@ -105,7 +105,7 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
     program.set("most_misses", memory.most_misses);
     program.set("absorbed_after", memory.absorbed_after);
     depth_map.bind(0);
-    set_before.bind(1);
+    background_before.bind(1);
     seen.bind(2);
     matte.bind(3);
     const cv::Mat4f learnt = drawn_by(pass, target);
@@ -129,7 +129,7 @@ TEST_F(SetMemoryTest, LearnsDepthAsTheReference) {
             ASSERT_EQ(first(v, u), cv::Vec4f(depth(v, u), 1, 0, 0)) << u << ' ' << v;
 }
 
-TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
+TEST_F(BackgroundAccessTest, LearnsColourAsTheReference) {
     constexpr float most_instants = 12;
     cv::Mat4b picture(memory_height_px, memory_width_px);
     cv::Mat4f past(memory_height_px, memory_width_px);
@@ -151,7 +151,7 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
     past.convertTo(past_halves, CV_16F);
     past_halves.convertTo(past, CV_32F);
 
-    FullscreenPass pass(shaders_, "set_colour.frag");
+    FullscreenPass pass(shaders_, "background_colour.frag");
     const Texture now = texture_of(TextureFormat::rgba8, picture);
     const Texture before = texture_of(TextureFormat::rgba16f, past_halves);
     const Texture seen = texture_of(TextureFormat::rgba8, seen_);
@@ -191,7 +191,7 @@ TEST_F(SetMemoryTest, LearnsColourAsTheReference) {
                 // What shows another thing may go on to.
                 const uchar kind = seen_(v, u)[0];
                 const float counted = past(v, u)[3];
-                const double instants = kind != untold && kind != new_set
+                const double instants = kind != untold && kind != new_background
                                             ? std::min(counted + 1, most_instants)
                                         : counted > 1 ? counted / 2
                                                       : std::max(counted - 1, -4.0f);

@@ -8,7 +8,7 @@ namespace vantage {
 namespace {
 
 /// A patch in the middle of a grey wall at 4 m that stood still for some instants.
-class SetSeeTest : public testing::Test {
+class BackgroundCompareTest : public testing::Test {
   protected:
     static constexpr int side_px = 33;
     cv::Rect patch{8, 8, 16, 16};
@@ -26,16 +26,16 @@ class SetSeeTest : public testing::Test {
         learner_.learn(rig_);
     }
     /// The model of the set knows better than its matcher how far the wall is.
-    void set_model(float depth_m) {
+    void background_model(float depth_m) {
         DepthView view = rig_.camera();
         view.colour = ColourImage(side_px, side_px, grey);
         view.depth_m = DepthImage(side_px, side_px, depth_m);
         const auto surface = std::make_shared<RigSurface>();
         surface->upload(view, corrector_, uploader_);
-        rig_.set_model({.surface = surface, .made = rig_.learnt_instants()});
+        rig_.background_model({.surface = surface, .made = rig_.learnt_instants()});
     }
     cv::Vec4b seen_at(int x, int y) const {
-        return ColourImage(rig_.set_state().seen().download())(y, x);
+        return ColourImage(rig_.background_state().seen().download())(y, x);
     }
     /// What the patch is taken for after ten instants of the wall.
     int kind_of(const cv::Vec4b& colour, float depth_m) {
@@ -47,61 +47,61 @@ class SetSeeTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    SetLearner learner_{shaders_};
+    BackgroundModel learner_{shaders_};
     std::unique_ptr<ColourCorrector> corrector_;
     std::unique_ptr<DepthUploader> uploader_;
     RigHistory rig_;
 };
 
-TEST_F(SetSeeTest, KnowsTheSetByItsColourWhateverTheMatcherSays) {
+TEST_F(BackgroundCompareTest, KnowsTheSetByItsColourWhateverTheMatcherSays) {
     EXPECT_EQ(kind_of(grey, 4), the_set);
     EXPECT_EQ(kind_of(grey, 2), the_set);
     EXPECT_EQ(kind_of(grey + cv::Vec4b(2, 2, 2, 0), 0), the_set) << "noise";
 }
 
-TEST_F(SetSeeTest, TakesAFactorOfTheColourForLightAndShadow) {
-    EXPECT_EQ(kind_of(grey * 0.6, 4), lit_set);
-    EXPECT_EQ(kind_of(grey * 1.2, 4), lit_set);
-    EXPECT_NE(kind_of(grey * 0.3, 4), lit_set) << "too dark for a shadow";
+TEST_F(BackgroundCompareTest, TakesAFactorOfTheColourForLightAndShadow) {
+    EXPECT_EQ(kind_of(grey * 0.6, 4), lit_background);
+    EXPECT_EQ(kind_of(grey * 1.2, 4), lit_background);
+    EXPECT_NE(kind_of(grey * 0.3, 4), lit_background) << "too dark for a shadow";
 }
 
-TEST_F(SetSeeTest, KnowsAPerformerByColourAndNearness) { EXPECT_EQ(kind_of(red, 2), before_set); }
+TEST_F(BackgroundCompareTest, KnowsAPerformerByColourAndNearness) { EXPECT_EQ(kind_of(red, 2), before_background); }
 
-TEST_F(SetSeeTest, KnowsAPerformerAsFarAsTheMatcherTakesTheSetToBe) {
+TEST_F(BackgroundCompareTest, KnowsAPerformerAsFarAsTheMatcherTakesTheSetToBe) {
     for (const float performer_m : {4.0f, 5.0f}) {
         for (int i = 0; i < 10; ++i) see(grey, 4);
-        set_model(8);
+        background_model(8);
         see(red, performer_m);
-        EXPECT_EQ(seen_at(16, 16)[0], before_set) << performer_m << " m";
+        EXPECT_EQ(seen_at(16, 16)[0], before_background) << performer_m << " m";
         see(grey * 0.6, 4);
-        EXPECT_EQ(seen_at(16, 16)[0], lit_set) << "its shadow";
+        EXPECT_EQ(seen_at(16, 16)[0], lit_background) << "its shadow";
     }
 }
 
-TEST_F(SetSeeTest, HoldsAGuessOfTheModelsAgainstNobody) {
+TEST_F(BackgroundCompareTest, HoldsAGuessOfTheModelsAgainstNobody) {
     for (int i = 0; i < 10; ++i) see(grey, 4);
-    set_model(-8);
+    background_model(-8);
     see(red, 4);
     EXPECT_EQ(seen_at(16, 16)[0], untold);
 }
 
-TEST_F(SetSeeTest, CannotTellAnotherColourAtTheSetsDepthOrWithoutDepth) {
+TEST_F(BackgroundCompareTest, CannotTellAnotherColourAtTheSetsDepthOrWithoutDepth) {
     EXPECT_EQ(kind_of(red, 4), untold);
     EXPECT_EQ(kind_of(red, 0), untold);
 }
 
-TEST_F(SetSeeTest, BelievesWhatIsFartherAfterThreeInstants) {
+TEST_F(BackgroundCompareTest, BelievesWhatIsFartherAfterThreeInstants) {
     EXPECT_EQ(kind_of(red, 6), uncovered);
     see(red, 6);
     EXPECT_EQ(seen_at(16, 16)[0], uncovered);
     see(red, 6);
-    EXPECT_EQ(seen_at(16, 16)[0], new_set);
+    EXPECT_EQ(seen_at(16, 16)[0], new_background);
     see(red, 6);
     EXPECT_EQ(seen_at(16, 16)[0], the_set);
 }
 
 /// Green: of a window; blue: of the pixel. The largest of red, green and blue.
-TEST_F(SetSeeTest, SaysHowFarTheColourIsFromTheSets) {
+TEST_F(BackgroundCompareTest, SaysHowFarTheColourIsFromTheSets) {
     (void)kind_of(grey + cv::Vec4b(0, 30, 9, 0), 2);
     // 2 of 255: the mean of the set is kept in halves of floats.
     EXPECT_NEAR(seen_at(16, 16)[1], 30, 2);
@@ -111,10 +111,10 @@ TEST_F(SetSeeTest, SaysHowFarTheColourIsFromTheSets) {
 }
 
 /// A tile of 16 px is marked if a matte's reach of 6 px from it anything is apart.
-TEST_F(SetSeeTest, MarksTheTilesThatAMatteMayReach) {
+TEST_F(BackgroundCompareTest, MarksTheTilesThatAMatteMayReach) {
     patch = {20, 8, 10, 16};
     (void)kind_of(red, 2);
-    const ColourImage seen = rig_.set_state().seen().download();
+    const ColourImage seen = rig_.background_state().seen().download();
     const cv::Mat1b tiles = rig_.matte_tiles().texture().download();
     ASSERT_EQ(tiles.size(), cv::Size(3, 3));
     for (int v = 0; v < 3; ++v)

@@ -2,8 +2,8 @@
 
 namespace vantage {
 
-// The kinds of set_kinds.glsl.
-inline constexpr int the_set = 0, lit_set = 64, untold = 112, new_set = 152, uncovered = 192,
-                     before_set = 255;
+// The kinds of background_kinds.glsl.
+inline constexpr int the_set = 0, lit_background = 64, untold = 112, new_background = 152, uncovered = 192,
+                     before_background = 255;
 
 }  // namespace vantage

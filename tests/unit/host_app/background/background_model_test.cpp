@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 /// A rig whose pictures and depth come instant by instant, five a second.
-class SetLearnerTest : public testing::Test {
+class BackgroundModelTest : public testing::Test {
   protected:
     static constexpr int width_px = 81, height_px = 59;
     static constexpr float wall_m = 4, square_m = 2;
@@ -57,7 +57,7 @@ class SetLearnerTest : public testing::Test {
         return cv::norm(depth_m, DepthImage(depth_m.size(), from_m), cv::NORM_INF);
     }
     /// The largest difference of red, green or blue.
-    static double unlike(const cv::Mat& a, const cv::Mat& b) {
+    static double cost(const cv::Mat& a, const cv::Mat& b) {
         cv::Mat off;
         cv::absdiff(a, b, off);
         return cv::norm(off & cv::Scalar(255, 255, 255, 0), cv::NORM_INF);
@@ -67,19 +67,19 @@ class SetLearnerTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    SetLearner learner_{shaders_};
+    BackgroundModel learner_{shaders_};
     RigHistory rig_;
     std::uint64_t instant_ = 0;
 };
 
-TEST_F(SetLearnerTest, AveragesDepthThatStaysWithinItsUncertainty) {
+TEST_F(BackgroundModelTest, AveragesDepthThatStaysWithinItsUncertainty) {
     (void)next(film());
     const DepthImage steady = next(film(1.01f * wall_m)).depth_m(strip);
     EXPECT_GT(steady(2, 2), wall_m);
     EXPECT_LT(steady(2, 2), 1.006f * wall_m);
 }
 
-TEST_F(SetLearnerTest, KeepsItsDepthWhereNothingMovesThoughAMatcherWavers) {
+TEST_F(BackgroundModelTest, KeepsItsDepthWhereNothingMovesThoughAMatcherWavers) {
     for (int i = 0; i < 4; ++i) (void)next(film());
     // A matcher that takes a strip beside the square for the square more often than not.
     for (int i = 0; i < 30; ++i)
@@ -87,14 +87,14 @@ TEST_F(SetLearnerTest, KeepsItsDepthWhereNothingMovesThoughAMatcherWavers) {
             << i;
 }
 
-TEST_F(SetLearnerTest, FollowsADepthThatHasChangedForGood) {
+TEST_F(BackgroundModelTest, FollowsADepthThatHasChangedForGood) {
     for (int i = 0; i < 20; ++i) (void)next(film());
     for (int i = 0; i < 4; ++i)
         EXPECT_LT(furthest(next(film(square_m)).depth_m(strip), wall_m), 1e-3) << i;
     EXPECT_LT(furthest(next(film(square_m)).depth_m(strip), square_m), 1e-3);
 }
 
-TEST_F(SetLearnerTest, TakesTheNoiseOutOfWhatStandsStill) {
+TEST_F(BackgroundModelTest, TakesTheNoiseOutOfWhatStandsStill) {
     std::vector<ColourImage> noisy, steady;
     for (int i = 0; i < 24; ++i) {
         const DepthView view = filmed_with_noise();
@@ -109,27 +109,27 @@ TEST_F(SetLearnerTest, TakesTheNoiseOutOfWhatStandsStill) {
 }
 
 /// Each step is smaller than what counts as noise.
-TEST_F(SetLearnerTest, FollowsALampThatIsDimmedSlowly) {
+TEST_F(BackgroundModelTest, FollowsALampThatIsDimmedSlowly) {
     DepthView dimmed = film();
     ColourImage shown;
     for (int i = 0; i < 60; ++i) {
         dimmed.colour = ColourImage(film().colour - cv::Scalar(i, i, i, 0));
         shown = next(dimmed).colour;
     }
-    EXPECT_LT(unlike(shown, dimmed.colour), 8);
+    EXPECT_LT(cost(shown, dimmed.colour), 8);
 }
 
-TEST_F(SetLearnerTest, KnowsWhatAPerformerHides) {
+TEST_F(BackgroundModelTest, KnowsWhatAPerformerHides) {
     const DepthView empty = empty_stage();
     for (int i = 0; i < 5; ++i) (void)next(empty);
     for (int i = 0; i < 4; ++i) {
         const Learnt learnt = next(film(wall_m, 0.1 * i));
         EXPECT_LT(furthest(learnt.depth_m, wall_m), 0.01) << i;
-        EXPECT_LT(unlike(learnt.colour, empty.colour), 12) << i;
+        EXPECT_LT(cost(learnt.colour, empty.colour), 12) << i;
     }
 }
 
-TEST_F(SetLearnerTest, MattesAPerformerToAPixel) {
+TEST_F(BackgroundModelTest, MattesAPerformerToAPixel) {
     for (int i = 0; i < 5; ++i) (void)next(empty_stage());
     const DepthView with = film();
     const cv::Mat1b matte = next(with).matte >= 128, square = square_of(with);
@@ -141,7 +141,7 @@ TEST_F(SetLearnerTest, MattesAPerformerToAPixel) {
     EXPECT_EQ(cv::countNonZero(matte & ~wide), 0);
 }
 
-TEST_F(SetLearnerTest, DoesNotAbsorbAPerformerWhoStandsStillForHalfAMinute) {
+TEST_F(BackgroundModelTest, DoesNotAbsorbAPerformerWhoStandsStillForHalfAMinute) {
     for (int i = 0; i < 5; ++i) (void)next(empty_stage());
     Learnt learnt;
     for (double s = 0; s < 30; s += dt_s) learnt = next(film());
@@ -149,7 +149,7 @@ TEST_F(SetLearnerTest, DoesNotAbsorbAPerformerWhoStandsStillForHalfAMinute) {
     EXPECT_GT(cv::countNonZero(learnt.matte), 0);
 }
 
-TEST_F(SetLearnerTest, LeavesNoGhostOfWhatStoodThereFromTheStart) {
+TEST_F(BackgroundModelTest, LeavesNoGhostOfWhatStoodThereFromTheStart) {
     for (int i = 0; i < 10; ++i) (void)next(film());
     const DepthView empty = empty_stage();
     // It is no part of the set before it is believed.
@@ -157,11 +157,11 @@ TEST_F(SetLearnerTest, LeavesNoGhostOfWhatStoodThereFromTheStart) {
     EXPECT_EQ(cv::countNonZero(square_of(film()) & (learnt.matte < 128)), 0);
     for (int i = 0; i < 2; ++i) learnt = next(empty);
     EXPECT_LT(furthest(learnt.depth_m, wall_m), 0.01);
-    EXPECT_LT(unlike(learnt.colour, empty.colour), 6);
+    EXPECT_LT(cost(learnt.colour, empty.colour), 6);
     EXPECT_EQ(cv::countNonZero(learnt.matte), 0);
 }
 
-TEST_F(SetLearnerTest, TakesAShadowForTheSet) {
+TEST_F(BackgroundModelTest, TakesAShadowForTheSet) {
     const DepthView empty = empty_stage();
     for (int i = 0; i < 5; ++i) (void)next(empty);
     DepthView shaded = empty;
@@ -171,14 +171,14 @@ TEST_F(SetLearnerTest, TakesAShadowForTheSet) {
     const Learnt learnt = next(shaded);
     EXPECT_EQ(cv::countNonZero(learnt.matte), 0);
     const cv::Rect within(24, 24, 22, 12);
-    EXPECT_LT(unlike(learnt.colour(within), shaded.colour(within)), 8);
+    EXPECT_LT(cost(learnt.colour(within), shaded.colour(within)), 8);
 }
 
-TEST_F(SetLearnerTest, KnowsThePastOfARigThatOneInstantWasNotLearntOf) {
+TEST_F(BackgroundModelTest, KnowsThePastOfARigThatOneInstantWasNotLearntOf) {
     for (int i = 0; i < 12; ++i) (void)next(filmed_with_noise());
     rig_.upload(film(), dt_s);  // and nothing is made of it
     const DepthView view = filmed_with_noise();
-    EXPECT_GT(unlike(next(view).colour, view.colour), 0) << "a mean";
+    EXPECT_GT(cost(next(view).colour, view.colour), 0) << "a mean";
 }
 
 }  // namespace

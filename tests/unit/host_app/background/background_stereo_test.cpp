@@ -16,9 +16,9 @@ int pixels_at(const DepthImage& depth_m, float metres, const cv::Rect& where) {
     return cv::countNonZero(cv::abs(depth_m(where) - metres) < 0.05 * metres);
 }
 
-TEST(SetMatcher, FindsAThinThingThatWasTakenForWhatIsBehindIt) {
-    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
-    const DepthImage depth_m = match_sets(sets).value().at(0);
+TEST(BackgroundStereo, FindsAThinThingThatWasTakenForWhatIsBehindIt) {
+    const std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(-0.4), background_with_pole(0.4)};
+    const DepthImage depth_m = match_backgrounds(sets).value().at(0);
     EXPECT_GT(pixels_at(depth_m, near_pole_m, pole_place), 0.9 * pole_place.area());
     const int others = matched_size.area() - pole_place.area();
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, cv::Rect({0, 0}, matched_size)), 0.97 * others);
@@ -26,8 +26,8 @@ TEST(SetMatcher, FindsAThinThingThatWasTakenForWhatIsBehindIt) {
 
 /// Before a wall a card, both painted at random; the rig itself knows the card's depth roughly, and
 /// too broad.
-SetPicture set_with_card(double x_m, const cv::Rect& card) {
-    SetPicture set = set_with_pole(x_m, cv::Rect());
+BackgroundView background_with_card(double x_m, const cv::Rect& card) {
+    BackgroundView set = background_with_pole(x_m, cv::Rect());
     const cv::Rect seen(card.x - static_cast<int>(std::lround(150 * x_m / near_pole_m)), card.y,
                         card.width, card.height);
     for (int y = 0; y < matched_size.height; ++y)
@@ -57,8 +57,8 @@ ColourImage row_of_poles(double x_m) {
 }
 
 /// A rig that takes all of that for the wall, and whose right sensor has other gains.
-SetPicture set_with_row_of_poles(double x_m, int right_pictures, const cv::Scalar& gains) {
-    SetPicture set = set_with_pole(x_m, cv::Rect());
+BackgroundView background_with_row_of_poles(double x_m, int right_pictures, const cv::Scalar& gains) {
+    BackgroundView set = background_with_pole(x_m, cv::Rect());
     set.colour = row_of_poles(x_m);
     ColourImage seen = row_of_poles(x_m + set.baseline_m);
     cv::multiply(seen, gains, seen);
@@ -70,13 +70,13 @@ SetPicture set_with_row_of_poles(double x_m, int right_pictures, const cv::Scala
 }
 
 /// Other rigs stand so far away that one pole may as well be the next one.
-TEST(SetMatcher, TellsWhatLooksAlikeApartByTheRightPicture) {
+TEST(BackgroundStereo, TellsWhatLooksAlikeApartByTheRightPicture) {
     const cv::Rect pole(60, 30, 3, 60);
     const auto right_depths = [&](int right_pictures, const cv::Scalar& gains = {1, 1, 1, 1}) {
-        const std::vector<SetPicture> sets{set_with_row_of_poles(0, right_pictures, gains),
-                                           set_with_row_of_poles(-0.4, right_pictures, gains),
-                                           set_with_row_of_poles(0.4, right_pictures, gains)};
-        return pixels_at(match_sets(sets).value().at(0), near_pole_m, pole);
+        const std::vector<BackgroundView> sets{background_with_row_of_poles(0, right_pictures, gains),
+                                           background_with_row_of_poles(-0.4, right_pictures, gains),
+                                           background_with_row_of_poles(0.4, right_pictures, gains)};
+        return pixels_at(match_backgrounds(sets).value().at(0), near_pole_m, pole);
     };
     EXPECT_LT(right_depths(0), 0.3 * pole.area());
     EXPECT_GT(right_depths(3), 0.9 * pole.area());
@@ -84,96 +84,96 @@ TEST(SetMatcher, TellsWhatLooksAlikeApartByTheRightPicture) {
 }
 
 /// Beside what is near lie strips of the wall that one or both of the other rigs cannot see.
-TEST(SetMatcher, KnowsWhatIsHiddenFromOtherRigs) {
+TEST(BackgroundStereo, KnowsWhatIsHiddenFromOtherRigs) {
     const cv::Rect card(60, 20, 30, 80), left(48, 20, 12, 80), right(90, 20, 12, 80);
-    const std::vector<SetPicture> sets{set_with_card(0, card), set_with_card(-0.4, card),
-                                       set_with_card(0.4, card)};
-    const DepthImage depth_m = match_sets(sets).value().at(0);
+    const std::vector<BackgroundView> sets{background_with_card(0, card), background_with_card(-0.4, card),
+                                       background_with_card(0.4, card)};
+    const DepthImage depth_m = match_backgrounds(sets).value().at(0);
     EXPECT_GT(pixels_at(depth_m, near_pole_m, card), 0.9 * card.area());
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, left), 0.8 * left.area());
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, right), 0.8 * right.area());
 }
 
-TEST(SetMatcher, StaysWithTheRigsOwnDepthWhereThePicturesSayNothing) {
-    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
-    for (SetPicture& set : sets) {
+TEST(BackgroundStereo, StaysWithTheRigsOwnDepthWhereThePicturesSayNothing) {
+    std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(-0.4), background_with_pole(0.4)};
+    for (BackgroundView& set : sets) {
         set.colour = cv::Vec4b(120, 120, 120, 255);
         set.depth_m(cv::Rect(0, 0, 80, 120)) = 3;
     }
-    const DepthImage depth_m = match_sets(sets).value().at(0);
+    const DepthImage depth_m = match_backgrounds(sets).value().at(0);
     // Where both others see all depths.
     const cv::Rect nearer(40, 0, 38, 120), farther(82, 0, 38, 120);
     EXPECT_EQ(pixels_at(depth_m, 3, nearer), nearer.area());
     EXPECT_EQ(pixels_at(depth_m, wall_behind_m, farther), farther.area());
 }
 
-TEST(SetMatcher, LeavesOutWhatIsNotKnown) {
-    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4), set_with_pole(0.4)};
+TEST(BackgroundStereo, LeavesOutWhatIsNotKnown) {
+    std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(-0.4), background_with_pole(0.4)};
     const cv::Rect unknown(20, 30, 20, 40);
     sets[0].colour(unknown) = cv::Vec4b(0, 0, 0, 0);
     // Performers stand before one place of the wall in both others' pictures.
     sets[1].colour(cv::Rect(135, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
     sets[2].colour(cv::Rect(105, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
-    const DepthImage depth_m = match_sets(sets).value().at(0);
+    const DepthImage depth_m = match_backgrounds(sets).value().at(0);
     EXPECT_EQ(cv::countNonZero(depth_m(unknown)), 0);
     const cv::Rect behind(120, 30, 20, 40);
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, behind), 0.9 * behind.area());
     EXPECT_GT(pixels_at(depth_m, near_pole_m, pole_place), 0.9 * pole_place.area());
 }
 
-TEST(SetMatcher, HasNothingToTellWithoutRigsThatStandApart) {
-    const std::vector<SetPicture> alone{set_with_pole(0)};
-    EXPECT_EQ(cv::countNonZero(match_sets(alone).value().at(0)), 0);
-    const std::vector<SetPicture> close{set_with_pole(0), set_with_pole(0.2)};
-    EXPECT_EQ(cv::countNonZero(match_sets(close).value().at(0)), 0);
+TEST(BackgroundStereo, HasNothingToTellWithoutRigsThatStandApart) {
+    const std::vector<BackgroundView> alone{background_with_pole(0)};
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(alone).value().at(0)), 0);
+    const std::vector<BackgroundView> close{background_with_pole(0), background_with_pole(0.2)};
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(close).value().at(0)), 0);
 }
 
-TEST(SetMatcher, TakesSetsOfWhichNothingIsKnown) {
-    std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(0.4)};
-    for (SetPicture& set : sets) set.depth_m = 0.0f;
-    EXPECT_EQ(cv::countNonZero(match_sets(sets).value().at(0)), 0);
+TEST(BackgroundStereo, TakesSetsOfWhichNothingIsKnown) {
+    std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(0.4)};
+    for (BackgroundView& set : sets) set.depth_m = 0.0f;
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(sets).value().at(0)), 0);
 }
 
-TEST(SetMatcher, StopsWhenAsked) {
+TEST(BackgroundStereo, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
-    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(0.4)};
-    EXPECT_FALSE(match_sets(sets, stop.get_token()));
+    const std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(0.4)};
+    EXPECT_FALSE(match_backgrounds(sets, stop.get_token()));
 }
 
-class SetMatchingTest : public testing::TestWithParam<SetMatching::Manner> {};
+class BackgroundStereoTaskTest : public testing::TestWithParam<BackgroundStereoTask::Manner> {};
 
-TEST_P(SetMatchingTest, GivesWhatWasMatchedOnce) {
-    SetMatching matching;
+TEST_P(BackgroundStereoTaskTest, GivesWhatWasMatchedOnce) {
+    BackgroundStereoTask matching;
     EXPECT_FALSE(matching.take(true));
-    const std::vector<SetPicture> sets{set_with_pole(0), set_with_pole(-0.4)};
+    const std::vector<BackgroundView> sets{background_with_pole(0), background_with_pole(-0.4)};
     matching.begin(sets, GetParam());
     EXPECT_TRUE(matching.is_under_way());
     const std::vector<DepthImage> depths_m = matching.take(true).value();
     ASSERT_EQ(depths_m.size(), 2u);
-    EXPECT_EQ(cv::norm(depths_m[1], match_sets(sets).value()[1], cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(depths_m[1], match_backgrounds(sets).value()[1], cv::NORM_INF), 0);
     EXPECT_FALSE(matching.is_under_way());
     EXPECT_FALSE(matching.take(true));
 }
 
-TEST_P(SetMatchingTest, CanBeGivenUp) {
-    SetMatching matching;
-    matching.begin({set_with_pole(0), set_with_pole(-0.4)}, GetParam());
+TEST_P(BackgroundStereoTaskTest, CanBeGivenUp) {
+    BackgroundStereoTask matching;
+    matching.begin({background_with_pole(0), background_with_pole(-0.4)}, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Manners, SetMatchingTest,
-                         testing::Values(SetMatching::Manner::beside,
-                                         SetMatching::Manner::when_waited_for));
+INSTANTIATE_TEST_SUITE_P(Manners, BackgroundStereoTaskTest,
+                         testing::Values(BackgroundStereoTask::Manner::beside,
+                                         BackgroundStereoTask::Manner::when_waited_for));
 
 std::ptrdiff_t threads() {
     using Entries = std::filesystem::directory_iterator;
     return std::distance(Entries("/proc/self/task"), Entries());
 }
 
-TEST(SetMatching, HasNoThreadOfItsOwnWhereItIsWaitedFor) {
-    SetMatching matching;
+TEST(BackgroundStereoTask, HasNoThreadOfItsOwnWhereItIsWaitedFor) {
+    BackgroundStereoTask matching;
     const std::ptrdiff_t before = threads();
-    matching.begin({set_with_pole(0), set_with_pole(-0.4)}, SetMatching::Manner::when_waited_for);
+    matching.begin({background_with_pole(0), background_with_pole(-0.4)}, BackgroundStereoTask::Manner::when_waited_for);
     EXPECT_EQ(threads(), before);
     EXPECT_FALSE(matching.take());
     EXPECT_TRUE(matching.take(true));

@@ -14,14 +14,14 @@
 namespace vantage {
 namespace {
 
-constexpr int performer_width_px = 97, performer_height_px = 73;
+constexpr int foreground_width_px = 97, foreground_height_px = 73;
 constexpr float square_m = 2;
 
 /// Rigs before a wall that they have learnt, when a square comes to stand before it.
-class PerformerDepthTest : public testing::Test {
+class ForegroundDepthTest : public testing::Test {
   protected:
     static DepthView film(double x_m, bool has_square) {
-        DepthView view = wall_and_square(x_m, performer_width_px, performer_height_px,
+        DepthView view = wall_and_square(x_m, foreground_width_px, foreground_height_px,
                                          {.square_x_m = has_square ? 0.0 : 100.0});
         view.baseline_m = 0.2;
         return view;
@@ -40,9 +40,9 @@ class PerformerDepthTest : public testing::Test {
         return found(*rigs_[0], all);
     }
     DepthImage found(RigHistory& rig, std::span<RigHistory* const> all) {
-        rig.performer_depth().resize(rig.depth().size());
-        performers_.find(rig, all, rig.performer_depth().target());
-        return rig.performer_depth().texture().download();
+        rig.foreground_depth().resize(rig.depth().size());
+        performers_.find(rig, all, rig.foreground_depth().target());
+        return rig.foreground_depth().texture().download();
     }
     void see(RigHistory& rig, const DepthView& view) {
         rig.upload(view, 0.2);
@@ -61,12 +61,12 @@ class PerformerDepthTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    SetLearner learner_{shaders_};
-    PerformerDepth performers_{shaders_};
+    BackgroundModel learner_{shaders_};
+    ForegroundDepth performers_{shaders_};
     std::vector<std::unique_ptr<RigHistory>> rigs_;
 };
 
-TEST_F(PerformerDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
+TEST_F(ForegroundDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
     const DepthImage depth_m = found(film(0, true), {0.4});
     EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square()),
               1e-4);
@@ -74,7 +74,7 @@ TEST_F(PerformerDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
 }
 
 /// A matte ends a performer, not the depth.
-TEST_F(PerformerDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
+TEST_F(ForegroundDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
     const DepthImage depth_m = found(film(0, true), {0.4});
     const cv::Mat1b beside = away(1) & ~away(3);
     EXPECT_LT(
@@ -86,7 +86,7 @@ TEST_F(PerformerDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
 
 /// A place that another rig sees to be empty: at 3 m the square's left part would show beside its
 /// silhouette in the other picture, 0.4 m * 78 px * (1 / 2 m - 1 / 3 m) = 5 px from where it is.
-TEST_F(PerformerDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
+TEST_F(ForegroundDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
     DepthView wrong = film(0, true);
     cv::Mat1b edge = square();
     const cv::Rect box = cv::boundingRect(edge);
@@ -103,7 +103,7 @@ TEST_F(PerformerDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
 
 /// All of the square is measured at 2.16 m: from aside, by 1 m * 78 px * (1 / 2 m - 1 / 2.16 m) = 3
 /// px, its left edge would show beside its silhouette, and nothing near it tells better.
-TEST_F(PerformerDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
+TEST_F(ForegroundDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
     DepthView wrong = film(0, true);
     constexpr float wrong_m = 2.16f;
     wrong.depth_m.setTo(wrong_m, square());
@@ -118,7 +118,7 @@ TEST_F(PerformerDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
 }
 
 /// Of one instant a rig tells no performers apart, which does not mean that there are none.
-TEST_F(PerformerDepthTest, IsWhereverARigIsThatHasJustCome) {
+TEST_F(ForegroundDepthTest, IsWhereverARigIsThatHasJustCome) {
     (void)found(film(0, true), {0.4});
     RigHistory& other = *rigs_[1];
     other.forget();
@@ -129,7 +129,7 @@ TEST_F(PerformerDepthTest, IsWhereverARigIsThatHasJustCome) {
               1e-4);
 }
 
-TEST_F(PerformerDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
+TEST_F(ForegroundDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
     DepthView torn = film(0, true);
     const cv::Rect hole(44, 30, 5, 9);
     torn.depth_m(hole) = 0.0f;
@@ -139,7 +139,7 @@ TEST_F(PerformerDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
 
 /// What another rig takes away leaves a hole that is too wide for its edges: 1 m * 78 px * (1 / 2 m
 /// - 1 / 3 m) = 13 px.
-TEST_F(PerformerDepthTest, IsThatFromAfarIfAnotherRigSeesAPerformerThere) {
+TEST_F(ForegroundDepthTest, IsThatFromAfarIfAnotherRigSeesAPerformerThere) {
     DepthView wrong = film(0, true);
     const cv::Rect box = cv::boundingRect(square());
     const cv::Rect strip(box.x, box.y, 12, box.height);
@@ -150,7 +150,7 @@ TEST_F(PerformerDepthTest, IsThatFromAfarIfAnotherRigSeesAPerformerThere) {
         << whole(strip);
 }
 
-TEST_F(PerformerDepthTest, IsSmoothedWithinASurface) {
+TEST_F(ForegroundDepthTest, IsSmoothedWithinASurface) {
     DepthView rough = film(0, true);
     cv::RNG random(3);
     for (float& z : rough.depth_m)

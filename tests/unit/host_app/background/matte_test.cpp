@@ -19,8 +19,8 @@ class MatteTest : public testing::Test {
   protected:
     MatteTest() {
         cv::RNG random(7);
-        const uchar kinds[] = {the_set, lit_set,   untold,     untold,
-                               new_set, uncovered, before_set, before_set};
+        const uchar kinds[] = {the_set, lit_background,   untold,     untold,
+                               new_background, uncovered, before_background, before_background};
         for (int v = 0; v < matte_height_px; ++v)
             for (int u = 0; u < matte_width_px; ++u) {
                 const int patch = (u / 7) * 5 + (v / 6) * 3;
@@ -56,7 +56,7 @@ class MatteTest : public testing::Test {
         Program& program = pass.use();
         program.set("hard", 0);
         program.set("picture", 1);
-        program.set("set_colour", 2);
+        program.set("background_colour", 2);
         given.bind(0);
         seen.bind(1);
         behind.bind(2);
@@ -65,9 +65,9 @@ class MatteTest : public testing::Test {
         return soft;
     }
     /// Twenty-five pixels, two apart, tell; by how much what decided was over or under.
-    bool is_performer(int u, int v, double& margin) const {
+    bool is_foreground(int u, int v, double& margin) const {
         int before = 0, count = 0;
-        double like_before = 0, like_set = 0;
+        double like_before = 0, like_background = 0;
         for (int y = -2; y <= 2; ++y)
             for (int x = -2; x <= 2; ++x) {
                 const uchar kind = clamped(seen_, u + 2 * x, v + 2 * y)[0];
@@ -75,28 +75,28 @@ class MatteTest : public testing::Test {
                 double off = 0;
                 for (int c = 0; c < 3; ++c) off += std::abs(colour[c] - picture_(v, u)[c]) / 255.0;
                 const double weight = std::exp(-off / (3 * 0.05)) + 1e-3;
-                const bool is_before = kind == before_set;
+                const bool is_before = kind == before_background;
                 const bool is_set = !is_before && kind != untold && kind != uncovered;
                 before += is_before ? 1 : 0;
                 count += is_before || is_set ? 1 : 0;
                 like_before += is_before ? weight : 0;
-                like_set += is_set && kind != new_set ? weight : 0;
+                like_background += is_set && kind != new_background ? weight : 0;
             }
         margin = 1;
         const uchar own = seen_(v, u)[0];
         if (own == uncovered) return true;
         if (before == 0) return false;
         const double around = static_cast<double>(before) / count;
-        if (own == new_set) {
-            margin = std::min(std::abs(like_before - like_set), std::abs(around - 0.4));
-            return around > 0.4 && like_before > like_set;
+        if (own == new_background) {
+            margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.4));
+            return around > 0.4 && like_before > like_background;
         }
-        if (own != before_set && own != untold) {
+        if (own != before_background && own != untold) {
             margin = std::abs(around - 0.8);
             return around > 0.8;
         }
-        margin = std::min(std::abs(like_before - like_set), std::abs(around - 0.15));
-        const bool is_like_before = like_before > like_set;
+        margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.15));
+        const bool is_like_before = like_before > like_background;
         if (own == untold) return is_like_before;
         return around > 0.15 && (seen_(v, u)[2] / 255.0 > 0.04 || is_like_before);
     }
@@ -113,7 +113,7 @@ TEST_F(MatteTest, IsTheReferences) {
     for (int v = 0; v < matte_height_px; ++v)
         for (int u = 0; u < matte_width_px; ++u) {
             double margin = 0;
-            const bool expected = is_performer(u, v, margin);
+            const bool expected = is_foreground(u, v, margin);
             // A share that is the threshold itself falls to either side with the last bit.
             if (margin < 1e-5) continue;
             ++judged;
@@ -128,7 +128,7 @@ TEST_F(MatteTest, IsTheReferences) {
 
 TEST_F(MatteTest, IsEmptyWhereNothingIsBeforeTheSet) {
     for (cv::Vec4b& seen : seen_)
-        if (seen[0] == before_set || seen[0] == uncovered) seen[0] = untold;
+        if (seen[0] == before_background || seen[0] == uncovered) seen[0] = untold;
     EXPECT_EQ(cv::countNonZero(drawn()), 0);
 }
 

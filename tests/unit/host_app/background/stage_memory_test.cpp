@@ -57,7 +57,7 @@ class StageMemoryTest : public testing::Test {
     };
     Plate plate() {
         return {surface().colour().download(), DepthImage(surface().depth().download()),
-                SetLearner::known(preparer_.set_memory()->learnt().rigs.at(0), dt_s)};
+                BackgroundModel::known(preparer_.background_access()->learnt().rigs.at(0), dt_s)};
     }
     /// The share of the pixels of a mask at which two depths are one surface. Guesses are negative.
     static double share_alike(const DepthImage& a, const DepthImage& b, const cv::Mat1b& where) {
@@ -93,7 +93,7 @@ class StageMemoryTest : public testing::Test {
         return more;
     }
     /// Of R, G and B, in grey levels.
-    static double mean_unlike(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
+    static double mean_cost(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
         cv::Mat off;
         cv::absdiff(a, b, off);
         const cv::Scalar mean = cv::mean(off, where);
@@ -132,12 +132,12 @@ TEST_F(StageMemoryTest, AMovedChairIsSeenWhereItStandsAndLeavesNoGhost) {
     const double own = share_alike(matched_m(view), moved.depth_m, eroded(old_place, 2));
     EXPECT_GT(share_alike(depth_m(), moved.depth_m, eroded(old_place, 2)), own - 0.1)
         << "the matcher: " << own;
-    EXPECT_LT(mean_unlike(surface().colour().download(), moved.colour, old_place), 4);
+    EXPECT_LT(mean_cost(surface().colour().download(), moved.colour, old_place), 4);
     // Where it stood the set is known again after a second.
     for (int i = 0; i < 6; ++i) prepared(rig_.film());
     const Plate behind = plate();
     EXPECT_GT(share_of(behind.known, eroded(old_place, 2)), 0.9);
-    EXPECT_LT(mean_unlike(behind.colour, moved.colour, eroded(old_place, 2) & behind.known), 4);
+    EXPECT_LT(mean_cost(behind.colour, moved.colour, eroded(old_place, 2) & behind.known), 4);
 }
 
 TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsTheSets) {
@@ -151,7 +151,7 @@ TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsTheSets) {
         // No piece of the set is taken for a performer, nor does it lag behind the light.
         const cv::Mat1b nearer = cv::abs(depth_m()) < 0.88 * cv::abs(before_m);
         ASSERT_LT(share_of(nearer, everywhere), 0.025) << "instant " << i;
-        ASSERT_LT(mean_unlike(surface().colour().download(), view.colour, everywhere), 5)
+        ASSERT_LT(mean_cost(surface().colour().download(), view.colour, everywhere), 5)
             << "instant " << i;
     }
     EXPECT_GT(share_of(plate().known, everywhere), 0.9);
@@ -223,16 +223,16 @@ TEST_F(StageMemoryTest, WhereNothingIsStillThereIsNoSet) {
     ASSERT_GT(cv::countNonZero(calm), 5000);
     EXPECT_LT(share_of(plate().known, always), 0.05);
     EXPECT_GT(share_of(plate().known, calm), 0.95);
-    const double known = preparer_.set_memory()->states().at(0).known;
+    const double known = preparer_.background_access()->states().at(0).known;
     EXPECT_LT(known, 1 - 0.8 * cv::countNonZero(always) / static_cast<double>(always.total()));
     // What is shown there is this instant's, in colour and in depth.
-    EXPECT_LT(mean_unlike(colour(), view.colour, always), 1);
+    EXPECT_LT(mean_cost(colour(), view.colour, always), 1);
     const double own = share_alike(matched_m(view), rig_.seen().depth_m, always);
     // Cards overlap at every other pixel, and performers' depth goes on beyond their edges.
     EXPECT_GT(share_alike(depth_m(), rig_.seen().depth_m, always), own - 0.1)
         << "the matcher: " << own;
     // A set that was saved says so too.
-    const LearntRigSet saved = preparer_.set_memory()->learnt().rigs.at(0);
+    const RigBackground saved = preparer_.background_access()->learnt().rigs.at(0);
     cv::Mat1b colour_certainty;
     cv::extractChannel(saved.colour, colour_certainty, 3);
     EXPECT_LT(cv::mean(cv::min(colour_certainty, saved.certainty), always)[0],

@@ -42,7 +42,7 @@ class StagedPreparerTest : public testing::Test {
             cv::erode(inside, inside, around);
         return inside;
     }
-    static double unlike(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
+    static double cost(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
         cv::Mat off, part;
         cv::absdiff(a, b, off);
         off.copyTo(part, where);
@@ -51,7 +51,7 @@ class StagedPreparerTest : public testing::Test {
 
     /// How far what a rig has learnt is from the empty stage at worst, metres.
     double learnt_off_m(std::size_t rig = 0) {
-        const DepthImage depth_m = preparer_.set_memory()->learnt().rigs.at(rig).depth_m;
+        const DepthImage depth_m = preparer_.background_access()->learnt().rigs.at(rig).depth_m;
         return cv::norm(depth_m, DepthImage(depth_m.size(), stage_wall_m), cv::NORM_INF);
     }
 
@@ -77,7 +77,7 @@ TEST_F(StagedPreparerTest, PutsPerformersBeforeTheSet) {
     cv::extractChannel(colour, share, 3);
     EXPECT_EQ(cv::countNonZero((share < 255) & square(-1)), 0);
     EXPECT_EQ(cv::countNonZero(share & ~square(1)), 0);
-    EXPECT_LE(unlike(colour, with.colour, square(-1)), 1);
+    EXPECT_LE(cost(colour, with.colour, square(-1)), 1);
     EXPECT_EQ(cv::norm(colour, cv::NORM_INF, ~square(1)), 0);
 }
 
@@ -135,12 +135,12 @@ TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
     const DepthImage depth_m = set.depth().download();
     const ColourImage colour = set.colour().download();
     EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), stage_wall_m), cv::NORM_INF), 0.02);
-    EXPECT_LE(unlike(colour, empty.colour, cv::Mat1b(colour.size(), uchar{255})), 3);
-    cv::Mat1b trust;
-    cv::extractChannel(colour, trust, 3);
-    const auto remembered = static_cast<uchar>(std::lround(255 * RigSurface::remembered_trust));
-    EXPECT_EQ(cv::countNonZero((trust != remembered) & square(0)), 0) << "it is not seen now";
-    EXPECT_EQ(cv::countNonZero((trust != 255) & ~square(4)), 0) << "it is";
+    EXPECT_LE(cost(colour, empty.colour, cv::Mat1b(colour.size(), uchar{255})), 3);
+    cv::Mat1b confidence;
+    cv::extractChannel(colour, confidence, 3);
+    const auto remembered = static_cast<uchar>(std::lround(255 * RigSurface::remembered_confidence));
+    EXPECT_EQ(cv::countNonZero((confidence != remembered) & square(0)), 0) << "it is not seen now";
+    EXPECT_EQ(cv::countNonZero((confidence != 255) & ~square(4)), 0) << "it is";
 }
 
 /// Depth that was closed but never measured is nothing to remember.
@@ -152,8 +152,8 @@ TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
         return DepthImage(instant.rigs.at(0).surface->depth().download());
     };
     for (int i = 0; i < 5; ++i) (void)prepared(torn);
-    const DepthImage guessed = set_m(*prepared(torn))(hole);
-    EXPECT_LT(cv::norm(guessed, DepthImage(hole.size(), -stage_wall_m), cv::NORM_INF), 0.01);
+    const DepthImage inpainted = set_m(*prepared(torn))(hole);
+    EXPECT_LT(cv::norm(inpainted, DepthImage(hole.size(), -stage_wall_m), cv::NORM_INF), 0.01);
     DepthView with = film(true);
     with.depth_m(hole) = 0.0f;
     const DepthImage hidden = set_m(*prepared(with));
@@ -166,16 +166,16 @@ TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
 TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
     const DepthView empty = film(false);
     for (int i = 0; i < 8; ++i) (void)prepared(empty);
-    const auto learnt = std::make_shared<const LearntSet>(preparer_.set_memory()->learnt());
+    const auto learnt = std::make_shared<const Background>(preparer_.background_access()->learnt());
     ASSERT_EQ(learnt->rigs.size(), 1u);
-    EXPECT_EQ(preparer_.set_memory()->states().at(0).known, 1);
-    EXPECT_FALSE(preparer_.set_memory()->states()[0].is_loaded);
+    EXPECT_EQ(preparer_.background_access()->states().at(0).known, 1);
+    EXPECT_FALSE(preparer_.background_access()->states()[0].is_loaded);
 
     StagedPreparer next(shaders_);
-    next.set_memory()->begin_with(learnt);
+    next.background_access()->begin_with(learnt);
     const DepthView with = film(true);
     next.take({&with, 1}, 0.2);
-    const RigSetState state = next.set_memory()->states().at(0);
+    const RigBackgroundState state = next.background_access()->states().at(0);
     EXPECT_EQ(state.known, 1);
     EXPECT_TRUE(state.is_loaded);
     EXPECT_EQ(state.misfit, "");
@@ -186,16 +186,16 @@ TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
                        cv::NORM_INF, square(-1)),
               0.01);
     const RigSurface& set = *instant->rigs[0].surface;
-    EXPECT_LE(unlike(set.colour().download(), empty.colour, square(0)), 3);
+    EXPECT_LE(cost(set.colour().download(), empty.colour, square(0)), 3);
     EXPECT_EQ(cv::countNonZero(DepthImage(set.depth().download()) <= 0), 0);
 }
 
 TEST_F(StagedPreparerTest, TellsWherePerformersAreForPeopleToLookAt) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
-    EXPECT_EQ(cv::countNonZero(preparer_.set_memory()->states().at(0).matte > 20), 0);
+    EXPECT_EQ(cv::countNonZero(preparer_.background_access()->states().at(0).matte > 20), 0);
     // It is looked at once a second.
     for (int i = 0; i < 6; ++i) (void)prepared(film(true));
-    const cv::Mat1b matte = preparer_.set_memory()->states().at(0).matte;
+    const cv::Mat1b matte = preparer_.background_access()->states().at(0).matte;
     ASSERT_EQ(matte.size(), cv::Size(staged_width_px, staged_height_px));
     EXPECT_GT(cv::mean(matte, square(-2))[0], 230);
     EXPECT_LT(cv::mean(matte, ~square(4))[0], 5);
@@ -203,13 +203,13 @@ TEST_F(StagedPreparerTest, TellsWherePerformersAreForPeopleToLookAt) {
 
 TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
-    auto learnt = std::make_shared<LearntSet>(preparer_.set_memory()->learnt());
+    auto learnt = std::make_shared<Background>(preparer_.background_access()->learnt());
     DepthView moved = film(false);
     moved.world_from_camera.translation().x() += 0.01;
     StagedPreparer other_place(shaders_);
-    other_place.set_memory()->begin_with(learnt);
+    other_place.background_access()->begin_with(learnt);
     other_place.take({&moved, 1}, 0.2);
-    RigSetState state = other_place.set_memory()->states().at(0);
+    RigBackgroundState state = other_place.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
     EXPECT_NE(state.misfit.find("another calibration or picture size of rig only"),
               std::string::npos)
@@ -218,10 +218,10 @@ TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
 
     learnt->rigs[0].rig = "another";
     StagedPreparer other_rig(shaders_);
-    other_rig.set_memory()->begin_with(learnt);
+    other_rig.background_access()->begin_with(learnt);
     const DepthView view = film(false);
     other_rig.take({&view, 1}, 0.2);
-    state = other_rig.set_memory()->states().at(0);
+    state = other_rig.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
     EXPECT_NE(state.misfit.find("has none of rig only"), std::string::npos) << state.misfit;
 }
@@ -230,18 +230,18 @@ TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
 /// a set that was loaded come back.
 TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(true));
-    preparer_.set_memory()->begin_with(
-        std::make_shared<const LearntSet>(preparer_.set_memory()->learnt()));
-    preparer_.set_memory()->learn_anew();
+    preparer_.background_access()->begin_with(
+        std::make_shared<const Background>(preparer_.background_access()->learnt()));
+    preparer_.background_access()->learn_anew();
     for (int i = 0; i < 6; ++i) (void)prepared(film(false));
-    EXPECT_EQ(preparer_.set_memory()->states().at(0).known, 1);
-    EXPECT_FALSE(preparer_.set_memory()->states()[0].is_loaded);
-    const LearntRigSet set = preparer_.set_memory()->learnt().rigs.at(0);
+    EXPECT_EQ(preparer_.background_access()->states().at(0).known, 1);
+    EXPECT_FALSE(preparer_.background_access()->states()[0].is_loaded);
+    const RigBackground set = preparer_.background_access()->learnt().rigs.at(0);
     EXPECT_LT(cv::norm(set.depth_m, DepthImage(set.depth_m.size(), stage_wall_m), cv::NORM_INF),
               0.02);
     preparer_.cut();
     (void)prepared(film(false));
-    EXPECT_FALSE(preparer_.set_memory()->states().at(0).is_loaded);
+    EXPECT_FALSE(preparer_.background_access()->states().at(0).is_loaded);
 }
 
 /// After a cut the picture comes first: a rig that is not in it learns from the next instant on.
@@ -251,7 +251,7 @@ TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
     const VirtualView target{staged_width_px, staged_height_px, views[0].K,
                              views[0].world_from_camera};
     const PrepareLevel one_rig{3, 1, false, false};
-    const auto learnt = [&] { return preparer_.set_memory()->learnt().rigs.size(); };
+    const auto learnt = [&] { return preparer_.background_access()->learnt().rigs.size(); };
     const auto show = [&](const PrepareLevel& level) {
         return preparer_.prepare(target, level)->rigs.size();
     };
@@ -282,7 +282,7 @@ TEST_F(StagedPreparerTest, LearnsTheSetsOfRigsThatAreNotShownInTurnAtTheCheapest
                              views[0].world_from_camera};
     const PrepareLevel one_rig{3, 1, false, false};
     preparer_.cut();
-    const auto learnt = [&] { return preparer_.set_memory()->learnt().rigs.size(); };
+    const auto learnt = [&] { return preparer_.background_access()->learnt().rigs.size(); };
     for (std::size_t known = 1; known <= views.size(); ++known) {
         preparer_.take(views, 0.2);
         (void)preparer_.prepare(target, one_rig);
@@ -290,7 +290,7 @@ TEST_F(StagedPreparerTest, LearnsTheSetsOfRigsThatAreNotShownInTurnAtTheCheapest
     }
 }
 
-class BetteredSetTest : public StagedPreparerTest {
+class RefinedBackgroundTest : public StagedPreparerTest {
   protected:
     static std::vector<DepthView> rigs(int width_px = staged_width_px) {
         std::vector<DepthView> views;
@@ -314,13 +314,13 @@ class BetteredSetTest : public StagedPreparerTest {
     VirtualView target_;
 };
 
-TEST_F(BetteredSetTest, IsMadeAPassAtATimeAndThenLeftAloneForAWhile) {
+TEST_F(RefinedBackgroundTest, IsMadeAPassAtATimeAndThenLeftAloneForAWhile) {
     for (int i = 0; i < 4; ++i) take_instant(rigs());
     EXPECT_GT(steps_until_done(), 3);
     EXPECT_EQ(steps_until_done(), 1) << "there is nothing to do before the next instants";
 }
 
-TEST_F(BetteredSetTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
+TEST_F(RefinedBackgroundTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
     for (int i = 0; i < 4; ++i) take_instant(rigs());
     ASSERT_TRUE(preparer_.improve_a_step(target_));
     take_instant(rigs(staged_width_px + 20));
@@ -335,7 +335,7 @@ TEST_F(BetteredSetTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
 }
 
 /// Three rigs that take a pole for the wall behind it.
-class MatchedSetTest : public StagedPreparerTest {
+class MatchedBackgroundTest : public StagedPreparerTest {
   protected:
     static constexpr double dt_s = 0.4;
 
@@ -343,7 +343,7 @@ class MatchedSetTest : public StagedPreparerTest {
     static std::vector<DepthView> rigs(const cv::Rect& pole) {
         std::vector<DepthView> views;
         for (const double x_m : {0.0, -0.4, 0.4}) {
-            const SetPicture set = set_with_pole(x_m, pole);
+            const BackgroundView set = background_with_pole(x_m, pole);
             DepthView view;
             view.name = std::to_string(x_m);
             view.K = set.K;
@@ -374,13 +374,13 @@ class MatchedSetTest : public StagedPreparerTest {
     }
 };
 
-TEST_F(MatchedSetTest, HasWhatTheRigsThemselvesCannotSee) {
+TEST_F(MatchedBackgroundTest, HasWhatTheRigsThemselvesCannotSee) {
     EXPECT_LT(pole_share(1.2), 0.1);
     EXPECT_GT(pole_share(4), 0.8);
 }
 
 /// Instants right after cuts are shown before anything is learnt of them.
-TEST_F(MatchedSetTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
+TEST_F(MatchedBackgroundTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
     const std::vector<DepthView> views = rigs(pole_place);
     for (int i = 0; i < 10; ++i) {
         preparer_.cut();
@@ -391,12 +391,12 @@ TEST_F(MatchedSetTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
     EXPECT_GT(pole_share(8), 0.8);
 }
 
-TEST_F(MatchedSetTest, OfALargePictureIsMatchedSmaller) {
+TEST_F(MatchedBackgroundTest, OfALargePictureIsMatchedSmaller) {
     const DepthView view = wall_and_square(0, 900, 700, {.square_x_m = 100});
     RigRoster rigs;
-    SetLearner learner(shaders_);
+    BackgroundModel learner(shaders_);
     for (int i = 0; i < 5; ++i) learner.learn(*rigs.upload({&view, 1}, dt_s).at(0));
-    const SetPicture set = SetLearner::picture(*rigs.shown()[0]);
+    const BackgroundView set = BackgroundModel::picture(*rigs.shown()[0]);
     EXPECT_EQ(set.colour.size(), cv::Size(450, 350));
     EXPECT_NEAR(set.K(0, 0), view.K(0, 0) / 2, 1e-6);
     EXPECT_LT(cv::norm(set.depth_m, DepthImage(350, 450, stage_wall_m), cv::NORM_INF), 0.01);
@@ -405,14 +405,14 @@ TEST_F(MatchedSetTest, OfALargePictureIsMatchedSmaller) {
     EXPECT_EQ(cv::countNonZero(known), 450 * 350);
 }
 
-TEST_F(MatchedSetTest, LosesWhatIsTakenAway) {
+TEST_F(MatchedBackgroundTest, LosesWhatIsTakenAway) {
     ASSERT_GT(pole_share(5.2), 0.8);
     EXPECT_LT(pole_share(4, cv::Rect()), 0.1);
 }
 
-TEST_F(MatchedSetTest, IsForgottenWithTheSet) {
+TEST_F(MatchedBackgroundTest, IsForgottenWithTheSet) {
     ASSERT_GT(pole_share(5.2), 0.8);
-    preparer_.set_memory()->learn_anew();
+    preparer_.background_access()->learn_anew();
     EXPECT_LT(pole_share(1.2), 0.1);
     EXPECT_GT(pole_share(4), 0.8) << "and matched anew";
 }
@@ -428,15 +428,15 @@ TEST_F(StagedPreparerTest, KeepsTheSetOverACut) {
 
 TEST_F(StagedPreparerTest, LearnsNothingOfARehearsal) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
-    const auto learnt = std::make_shared<const LearntSet>(preparer_.set_memory()->learnt());
+    const auto learnt = std::make_shared<const Background>(preparer_.background_access()->learnt());
     StagedPreparer next(shaders_);
-    next.set_memory()->begin_with(learnt);
+    next.background_access()->begin_with(learnt);
     const DepthView view = film(true);
-    next.rehearse({&view, 1}, {staged_width_px, staged_height_px, view.K, view.world_from_camera});
-    EXPECT_TRUE(next.set_memory()->learnt().rigs.empty());
+    next.warm_up({&view, 1}, {staged_width_px, staged_height_px, view.K, view.world_from_camera});
+    EXPECT_TRUE(next.background_access()->learnt().rigs.empty());
     next.take({&view, 1}, 0.2);
-    EXPECT_TRUE(next.set_memory()->states().at(0).is_loaded);
-    EXPECT_EQ(cv::norm(next.set_memory()->learnt().rigs.at(0).depth_m, learnt->rigs[0].depth_m,
+    EXPECT_TRUE(next.background_access()->states().at(0).is_loaded);
+    EXPECT_EQ(cv::norm(next.background_access()->learnt().rigs.at(0).depth_m, learnt->rigs[0].depth_m,
                        cv::NORM_INF, square(-1)),
               0)
         << "the square stands before it";
@@ -448,7 +448,7 @@ TEST_F(StagedPreparerTest, KeepsTheSetOfARigThatWasAway) {
     for (int i = 0; i < 8; ++i) preparer_.take(views, 0.2);
     for (int i = 0; i < 8; ++i) preparer_.take({views.data(), 1}, 0.2);
     EXPECT_EQ(prepared(views[0])->rigs.size(), 1u) << "it is not shown";
-    EXPECT_EQ(preparer_.set_memory()->learnt().rigs.size(), 2u) << "it can be saved";
+    EXPECT_EQ(preparer_.background_access()->learnt().rigs.size(), 2u) << "it can be saved";
     views[1] = film(true);
     views[1].name = "other";
     preparer_.take(views, 0.2);

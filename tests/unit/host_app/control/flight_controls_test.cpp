@@ -13,43 +13,43 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(HandsBox, AddsUpWhatComesAndKnowsTheEarliest) {
-    HandsBox box;
+TEST(OperatorInputBox, AddsUpWhatComesAndKnowsTheEarliest) {
+    OperatorInputBox box;
     EXPECT_FALSE(box.take().since);
     const MonotonicTime start{1h};
     box.put({}, start);
     EXPECT_FALSE(box.take().since) << "no hand moved";
     box.put({.orbit_azimuth_rad = 0.1}, start + 1ms);
     box.put({.orbit_azimuth_rad = 0.2, .toggle_freeze = true}, start + 5ms);
-    const HandsBox::Taken taken = box.take();
+    const OperatorInputBox::Taken taken = box.take();
     EXPECT_NEAR(taken.input.orbit_azimuth_rad, 0.3, 1e-12);
     EXPECT_TRUE(taken.input.toggle_freeze);
     EXPECT_EQ(taken.since, start + 1ms);
     EXPECT_FALSE(box.take().input.is_any()) << "every input is taken once";
 }
 
-TEST(HandsBox, KeepsACommandThatIsGivenAgainForTheNextStep) {
-    HandsBox box;
+TEST(OperatorInputBox, KeepsACommandThatIsGivenAgainForTheNextStep) {
+    OperatorInputBox box;
     const MonotonicTime start{1h};
     EXPECT_TRUE(box.put({.toggle_output = 1}, start));
     EXPECT_TRUE(box.put({.orbit_azimuth_rad = 0.1, .toggle_output = 2}, start + 1ms));
     EXPECT_TRUE(box.put({.orbit_azimuth_rad = 0.2, .mark_in = true}, start + 2ms));
     EXPECT_EQ(box.take().input.toggle_output, 1);
-    const HandsBox::Taken second = box.take();
+    const OperatorInputBox::Taken second = box.take();
     EXPECT_EQ(second.input.toggle_output, 2);
     EXPECT_TRUE(second.input.mark_in);
     EXPECT_NEAR(second.input.orbit_azimuth_rad, 0.3, 1e-12);
     EXPECT_EQ(second.since, start + 1ms);
 }
 
-TEST(HandsBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
-    HandsBox box;
+TEST(OperatorInputBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
+    OperatorInputBox box;
     std::size_t left_out = 0;
     for (int i = 0; i < 1000; ++i)
         left_out += box.put({.orbit_azimuth_rad = 0.001, .toggle_freeze = true}, {}) ? 0 : 1;
-    EXPECT_EQ(left_out, 1000 - HandsBox::most_waiting);
+    EXPECT_EQ(left_out, 1000 - OperatorInputBox::most_waiting);
     double turned_rad = 0;
-    for (std::size_t i = 0; i < HandsBox::most_waiting; ++i) {
+    for (std::size_t i = 0; i < OperatorInputBox::most_waiting; ++i) {
         const FlightInput input = box.take().input;
         EXPECT_TRUE(input.toggle_freeze);
         turned_rad += input.orbit_azimuth_rad;
@@ -58,8 +58,8 @@ TEST(HandsBox, LeavesOutCommandsBeyondItsBoundAndNoTurns) {
     EXPECT_FALSE(box.take().since);
 }
 
-TEST(HandsBox, KeepsTheOrderOfWhatIsAskedOfTime) {
-    HandsBox box;
+TEST(OperatorInputBox, KeepsTheOrderOfWhatIsAskedOfTime) {
+    OperatorInputBox box;
     box.put({.mark_in = true}, {});
     box.put({.replay = {{ReplayAction::make_clip}}}, {});
     box.put({.mark_out = true}, {});
@@ -82,8 +82,8 @@ TEST(FlightControlsInThePast, TheWayBackToLiveMovesNoCamera) {
     Pose last = controls.step(time_s, {}).view.camera().world_from_camera;
     double fastest = 0, at_live = 0;
     const auto fly = [&](const FlightInput& input, std::optional<double> pulse) {
-        controls.hands().put(input, {});
-        const PilotStep step = controls.step(time_s += 0.04, pulse);
+        controls.operator_input().put(input, {});
+        const CameraStep step = controls.step(time_s += 0.04, pulse);
         const Pose pose = step.view.camera().world_from_camera;
         const double way = (pose.matrix() - last.matrix()).norm();
         last = pose;
@@ -136,12 +136,12 @@ TEST(FlightControlsInATake, AFlightSaysWhatTimeItIs) {
     EXPECT_EQ(controls.step(0.5, 1050).time.at_pulse, 1050) << "frozen";
     EXPECT_NEAR(*controls.step(1.5, 1050).time.at_pulse, 1075, 1e-9);
     // Who holds time holds the flight; who turns it takes it over.
-    controls.hands().put({.toggle_freeze = true}, {});
-    const PilotStep held = controls.step(1.6, 1075);
+    controls.operator_input().put({.toggle_freeze = true}, {});
+    const CameraStep held = controls.step(1.6, 1075);
     EXPECT_FALSE(held.time.toggle_hold);
     EXPECT_NEAR(*held.time.at_pulse, 1075, 1e-9);
     EXPECT_NEAR(*controls.step(1.9, 1075).time.at_pulse, 1075, 1e-9);
-    controls.hands().put({.past_steps = 1}, {});
+    controls.operator_input().put({.past_steps = 1}, {});
     EXPECT_FALSE(controls.step(2, 1075).time.at_pulse);
 }
 
@@ -152,9 +152,9 @@ TEST(FlightControlsInATake, TheWheelScrubsFlightAndTimeBothWays) {
     double time_s = 1.5;
     controls.step(time_s, 1075);
     const auto scrubbed = [&](double steps) {
-        controls.hands().put({.wheel_steps = steps}, {});
+        controls.operator_input().put({.wheel_steps = steps}, {});
         for (int i = 0; i < 100; ++i) controls.step(time_s += 0.02, 1075);
-        const PilotStep step = controls.step(time_s += 0.02, 1075);
+        const CameraStep step = controls.step(time_s += 0.02, 1075);
         return std::pair(step.view.azimuth_rad, *step.time.at_pulse);
     };
     const auto [back_rad, back] = scrubbed(-10);
@@ -174,21 +174,21 @@ TEST(FlightControlsInATake, ALiveStageIsNotLed) {
 TEST(FlightControlsRecording, KeepsEveryStepWithItsTimeInTheTake) {
     FlightControls controls({.plan = {}, .pulse_rate_hz = 25, .has_past = true, .take_begin = 1000},
                             nullptr, [](int) { return std::nullopt; });
-    controls.hands().put({.toggle_recording = true}, {});
+    controls.operator_input().put({.toggle_recording = true}, {});
     for (int i = 0; i < 10; ++i) {
-        controls.hands().put({.orbit_azimuth_rad = 0.1}, {});
+        controls.operator_input().put({.orbit_azimuth_rad = 0.1}, {});
         controls.step(5 + 0.02 * i, 1000 + i);
         EXPECT_TRUE(controls.lines().is_recording);
     }
-    EXPECT_TRUE(controls.take_wishes().flight.empty()) << "it goes on";
-    controls.hands().put({.toggle_recording = true}, {});
+    EXPECT_TRUE(controls.take_requests().flight.empty()) << "it goes on";
+    controls.operator_input().put({.toggle_recording = true}, {});
     controls.step(5.2, 1010);
-    const FlightRecording flight = controls.take_wishes().flight;
+    const FlightRecording flight = controls.take_requests().flight;
     ASSERT_EQ(flight.size(), 10u);
     EXPECT_EQ(flight[0].time_s, 5);
     EXPECT_NEAR(*flight[9].take_s, 9 / 25.0, 1e-12);
     EXPECT_GT(flight[9].view.azimuth_rad, flight[1].view.azimuth_rad);
-    EXPECT_TRUE(controls.take_wishes().flight.empty()) << "once";
+    EXPECT_TRUE(controls.take_requests().flight.empty()) << "once";
     controls.keep_flight(Move({{0, OrbitView{}}, {1, OrbitView{}}}, false));
     controls.step(5.3, 1010);
     EXPECT_EQ(controls.lines().keyframes, 2u);
@@ -197,11 +197,11 @@ TEST(FlightControlsRecording, KeepsEveryStepWithItsTimeInTheTake) {
 TEST(FlightControlsPivot, GoesToTheSessionAndComesBackAsAPlaceOnTheStage) {
     FlightControls controls({.plan = {}, .pulse_rate_hz = 25}, nullptr,
                             [](int) { return std::nullopt; });
-    controls.hands().put({.pick = Eigen::Vector2d(0.25, 0.75)}, {});
+    controls.operator_input().put({.pick = Eigen::Vector2d(0.25, 0.75)}, {});
     controls.step(0, {});
-    EXPECT_EQ(controls.take_wishes().pick, Eigen::Vector2d(0.25, 0.75));
-    EXPECT_FALSE(controls.take_wishes().pick) << "once";
-    controls.hands().put({.pivot_m = Eigen::Vector3d(1, 1.2, -1)}, {});
+    EXPECT_EQ(controls.take_requests().pick, Eigen::Vector2d(0.25, 0.75));
+    EXPECT_FALSE(controls.take_requests().pick) << "once";
+    controls.operator_input().put({.pivot_m = Eigen::Vector3d(1, 1.2, -1)}, {});
     for (int i = 1; i < 200; ++i) controls.step(0.02 * i, {});
     EXPECT_TRUE(controls.step(4.1, {}).view.pivot_m.isApprox(Eigen::Vector3d(1, 1.2, -1), 1e-6));
 }
@@ -216,16 +216,16 @@ TEST(FlightControlsPivot, FollowsUntilAHandTakesItElsewhere) {
     };
     controls.follow({1, {1, 1, 0}});
     EXPECT_NEAR(pass().x(), 0, 1e-9) << "nobody asked for it";
-    controls.hands().put({.toggle_follow = true}, {});
+    controls.operator_input().put({.toggle_follow = true}, {});
     pass();
     EXPECT_TRUE(controls.lines().is_following);
     ASSERT_EQ(controls.lines().following.size(), 1u);
     controls.follow({controls.lines().following[0].camera, {1, 1, 0}});
     EXPECT_NEAR(pass().x(), 1, 1e-6);
-    controls.hands().put({.orbit_azimuth_rad = 0.3}, {});
+    controls.operator_input().put({.orbit_azimuth_rad = 0.3}, {});
     pass();
     EXPECT_TRUE(controls.lines().is_following) << "one may orbit meanwhile";
-    controls.hands().put({.pan_right_widths = 0.1}, {});
+    controls.operator_input().put({.pan_right_widths = 0.1}, {});
     const double panned = pass().x();
     EXPECT_FALSE(controls.lines().is_following);
     controls.follow({1, {-1, 1, 0}});
@@ -235,10 +235,10 @@ TEST(FlightControlsPivot, FollowsUntilAHandTakesItElsewhere) {
 TEST(FlightControlsRecording, EndsWithTheShow) {
     FlightControls controls({.plan = {}, .pulse_rate_hz = 25}, nullptr,
                             [](int) { return std::nullopt; });
-    controls.hands().put({.toggle_recording = true}, {});
+    controls.operator_input().put({.toggle_recording = true}, {});
     controls.step(0.1, {});
     controls.end_recording();
-    EXPECT_EQ(controls.take_wishes().flight.size(), 1u);
+    EXPECT_EQ(controls.take_requests().flight.size(), 1u);
 }
 
 /// A wheel in a pretended socket, and the steps that come of turning it.
@@ -300,15 +300,15 @@ class FlightControlsTest : public testing::Test {
     }
 
     /// The next one, so long after the one before.
-    PilotStep step(double after_s = 0.02) {
+    CameraStep step(double after_s = 0.02) {
         time_s_ += after_s;
-        const PilotStep step = controls_.step(time_s_, std::nullopt);
+        const CameraStep step = controls_.step(time_s_, std::nullopt);
         azimuth_rad_ = step.view.azimuth_rad;
         return step;
     }
 
     ScriptedSockets sockets_;
-    JogDeck deck_{sockets_.bus(), load_wheel_profiles(), {.raw_reports = false, .look_every = 5ms}};
+    JogDevices deck_{sockets_.bus(), load_wheel_profiles(), {.raw_reports = false, .look_every = 5ms}};
     FlightControls controls_{
         {.plan = start(), .pulse_rate_hz = 25, .has_past = true}, &deck_, rig_view};
     std::shared_ptr<ScriptedDevice> wheel_;
@@ -320,7 +320,7 @@ class FlightControlsTest : public testing::Test {
 TEST_F(FlightControlsTest, HoldsItsPoseWhileNoHandMoves) {
     const double before_rad = azimuth_rad_;
     for (int i = 0; i < 20; ++i) {
-        const PilotStep still = step();
+        const CameraStep still = step();
         EXPECT_FALSE(still.hand);
         EXPECT_FALSE(still.time.toggle_hold || still.time.to_live || still.next_synthesiser ||
                      still.toggle_source_map);
@@ -333,7 +333,7 @@ TEST_F(FlightControlsTest, ATurnOfTheWheelIsInTheNextStep) {
     const double before_rad = azimuth_rad_;
     const MonotonicTime before = MonotonicClock::now();
     turn(3);
-    const PilotStep turned = step();
+    const CameraStep turned = step();
     EXPECT_GT(std::abs(azimuth_rad_ - before_rad), 1e-3);
     ASSERT_TRUE(turned.hand);
     EXPECT_GE(*turned.hand, before);
@@ -394,14 +394,14 @@ TEST_F(FlightControlsTest, TheWheelGoesThroughThePastPulseByPulse) {
 TEST_F(FlightControlsTest, MouseAndWheelMeetInOneStep) {
     turn(1);
     const MonotonicTime earlier = MonotonicClock::now() - 1s;
-    controls_.hands().put({.toggle_freeze = true,
+    controls_.operator_input().put({.toggle_freeze = true,
                            .next_synthesiser = true,
                            .to_live = true,
-                           .toggle_novelty = true,
+                           .toggle_source_map = true,
                            .past_steps = -2},
                           earlier);
     const double before_rad = azimuth_rad_;
-    const PilotStep both = step();
+    const CameraStep both = step();
     EXPECT_TRUE(both.time.toggle_hold && both.next_synthesiser && both.time.to_live &&
                 both.toggle_source_map);
     EXPECT_EQ(both.time.pulses, -2);
@@ -413,7 +413,7 @@ TEST_F(FlightControlsTest, AWheelWhoseMapIsOpenMovesNothingAndDoesThenWhatItSays
     send({5, detent_, 0, 0, 0});
     step();
     controls_.wheels().serve_desk();
-    controls_.hands().put({.toggle_jog_map = true}, {});
+    controls_.operator_input().put({.toggle_jog_map = true}, {});
     step();
     for (int i = 0; i < 100; ++i) step();  // what was under way comes to rest
     const double before_rad = azimuth_rad_;
@@ -421,7 +421,7 @@ TEST_F(FlightControlsTest, AWheelWhoseMapIsOpenMovesNothingAndDoesThenWhatItSays
     push_button(3);
     push_button(1);
     for (int i = 0; i < 20; ++i) {
-        const PilotStep still = step();
+        const CameraStep still = step();
         EXPECT_FALSE(still.time.toggle_hold || still.hand);
     }
     EXPECT_NEAR(azimuth_rad_, before_rad, 1e-6) << "not even by the ring that is held";
@@ -474,28 +474,28 @@ FlightControls::Lines lines_after_a_turn(bool free_flight, double turn_deg) {
         [&] { return corridor; });
     EXPECT_FALSE(controls.lines().corridor.now) << "before the first step";
     for (int i = 1; i <= 500; ++i) {
-        controls.hands().put({.orbit_azimuth_rad = turn_deg / 500 * M_PI / 180}, {});
+        controls.operator_input().put({.orbit_azimuth_rad = turn_deg / 500 * M_PI / 180}, {});
         controls.step(0.02 * i, std::nullopt);
     }
     return controls.lines();
 }
 
 TEST(FlightControlsInACorridor, StandAtItsEndAndSayThatTheyAreAtItsEdge) {
-    const CorridorBooks books = lines_after_a_turn(false, 180).corridor;
-    ASSERT_TRUE(books.now);
-    EXPECT_GE(books.now->share, Corridor::end);
-    EXPECT_EQ(Corridor::place_of(books.now->share), CorridorPlace::edge);
-    EXPECT_GT(books.edge_s, 1);
-    EXPECT_EQ(books.beyond_s, 0);
+    const CorridorStats stats = lines_after_a_turn(false, 180).corridor;
+    ASSERT_TRUE(stats.now);
+    EXPECT_GE(stats.now->share, Corridor::end);
+    EXPECT_EQ(Corridor::place_of(stats.now->share), CorridorPlace::edge);
+    EXPECT_GT(stats.edge_s, 1);
+    EXPECT_EQ(stats.beyond_s, 0);
 }
 
 TEST(FlightControlsInACorridor, FreeFlightGoesBeyondAndSaysSo) {
-    const CorridorBooks books = lines_after_a_turn(true, 120).corridor;
-    ASSERT_TRUE(books.now);
-    EXPECT_EQ(Corridor::place_of(books.now->share), CorridorPlace::beyond);
-    EXPECT_EQ(books.now->loss, CoverageLoss::aside);
-    EXPECT_GT(books.beyond_s, 1);
-    EXPECT_EQ(books.least_share, books.now->share);
+    const CorridorStats stats = lines_after_a_turn(true, 120).corridor;
+    ASSERT_TRUE(stats.now);
+    EXPECT_EQ(Corridor::place_of(stats.now->share), CorridorPlace::beyond);
+    EXPECT_EQ(stats.now->loss, CoverageLoss::aside);
+    EXPECT_GT(stats.beyond_s, 1);
+    EXPECT_EQ(stats.least_share, stats.now->share);
 }
 
 TEST_F(FlightControlsTest, ASeekIsInTheNextStepAndInNoOther) {
@@ -509,7 +509,7 @@ TEST_F(FlightControlsTest, TellsTheMoveAsHandsHaveLeftIt) {
     controls_.step(0.1, std::nullopt);
     EXPECT_EQ(controls_.move(), nullptr);
     for (const double time_s : {0.2, 0.3}) {
-        controls_.hands().put({.add_keyframe = true}, MonotonicTime{1h});
+        controls_.operator_input().put({.add_keyframe = true}, MonotonicTime{1h});
         controls_.step(time_s, std::nullopt);
     }
     ASSERT_NE(controls_.move(), nullptr);
@@ -519,7 +519,7 @@ TEST_F(FlightControlsTest, TellsTheMoveAsHandsHaveLeftIt) {
 TEST_F(FlightControlsTest, TellsWhichShotsAreKept) {
     controls_.step(0.1, std::nullopt);
     EXPECT_FALSE(controls_.shots()[2]);
-    controls_.hands().put({.store_shot = 3}, MonotonicTime{1h});
+    controls_.operator_input().put({.store_shot = 3}, MonotonicTime{1h});
     const OrbitView view = controls_.step(0.2, std::nullopt).view;
     ASSERT_TRUE(controls_.shots()[2]);
     EXPECT_TRUE(is_same_view(controls_.shots()[2]->view.camera(), view.camera()));
@@ -527,29 +527,29 @@ TEST_F(FlightControlsTest, TellsWhichShotsAreKept) {
 }
 
 TEST_F(FlightControlsTest, GivesTheSessionWhatIsNotTheProgrammesToDo) {
-    controls_.hands().put({.toggle_take = true, .save_set = true, .toggle_output = 2},
+    controls_.operator_input().put({.toggle_take = true, .save_background = true, .toggle_output = 2},
                           MonotonicTime{1h});
-    EXPECT_FALSE(controls_.take_wishes().toggle_take) << "no step has taken it yet";
+    EXPECT_FALSE(controls_.take_requests().toggle_take) << "no step has taken it yet";
     step();
-    controls_.hands().put({.learn_set = true, .toggle_output = 1}, MonotonicTime{1h});
+    controls_.operator_input().put({.learn_background = true, .toggle_output = 1}, MonotonicTime{1h});
     step();
-    const SessionWishes wishes = controls_.take_wishes();
-    EXPECT_TRUE(wishes.toggle_take);
-    EXPECT_TRUE(wishes.save_set);
-    EXPECT_TRUE(wishes.learn_set);
-    EXPECT_EQ(wishes.outputs, (std::vector<int>{2, 1}));
-    EXPECT_TRUE(controls_.take_wishes().outputs.empty()) << "every wish is given once";
+    const SessionRequests requests = controls_.take_requests();
+    EXPECT_TRUE(requests.toggle_take);
+    EXPECT_TRUE(requests.save_background);
+    EXPECT_TRUE(requests.learn_background);
+    EXPECT_EQ(requests.outputs, (std::vector<int>{2, 1}));
+    EXPECT_TRUE(controls_.take_requests().outputs.empty()) << "every wish is given once";
 }
 
 TEST_F(FlightControlsTest, ATrackedCameraFliesWithoutAJumpUntilAHandSteers) {
     CameraState tracked = step().view.camera();
     tracked.world_from_camera.translation() += Eigen::Vector3d(1, 0, 0);
-    const auto distance = [&](const PilotStep& step) {
+    const auto distance = [&](const CameraStep& step) {
         return (step.camera.value_or(step.view.camera()).world_from_camera.translation() -
                 tracked.world_from_camera.translation())
             .norm();
     };
-    PilotStep now = step();
+    CameraStep now = step();
     for (double last = distance(now); last > 1e-9; last = distance(now)) {
         controls_.tracked().put(tracked, MonotonicClock::now());
         now = step();
@@ -562,7 +562,7 @@ TEST_F(FlightControlsTest, ATrackedCameraFliesWithoutAJumpUntilAHandSteers) {
     now = step();
     EXPECT_FALSE(controls_.lines().is_tracked) << "a hand has taken over";
     EXPECT_LT(distance(now), 0.1) << "from where it was";
-    controls_.hands().put({.toggle_tracking = true}, MonotonicTime{1h});
+    controls_.operator_input().put({.toggle_tracking = true}, MonotonicTime{1h});
     controls_.tracked().put(tracked, MonotonicClock::now());
     step();
     EXPECT_TRUE(controls_.lines().is_tracked);
@@ -570,10 +570,10 @@ TEST_F(FlightControlsTest, ATrackedCameraFliesWithoutAJumpUntilAHandSteers) {
 
 TEST_F(FlightControlsTest, HandsFlyThePreviewAndACutBringsItToAir) {
     const Pose before = step().view.world_from_camera();
-    controls_.hands().put({.toggle_preview = true}, {});
+    controls_.operator_input().put({.toggle_preview = true}, {});
     EXPECT_TRUE(step().preview->world_from_camera().isApprox(before, 1e-9));
-    controls_.hands().put({.orbit_azimuth_rad = 0.4}, {});
-    PilotStep now = step();
+    controls_.operator_input().put({.orbit_azimuth_rad = 0.4}, {});
+    CameraStep now = step();
     for (int i = 0; i < 200; ++i) {
         now = step();
         ASSERT_TRUE(now.view.world_from_camera().isApprox(before, 1e-12)) << "not moved on air";
@@ -582,25 +582,25 @@ TEST_F(FlightControlsTest, HandsFlyThePreviewAndACutBringsItToAir) {
     ASSERT_TRUE(controls_.lines().preview);
     const Pose previewed = now.preview->world_from_camera();
     EXPECT_GT((previewed.translation() - before.translation()).norm(), 0.5);
-    controls_.hands().put({.cut = true}, {});
+    controls_.operator_input().put({.cut = true}, {});
     now = step();
     EXPECT_TRUE(now.view.world_from_camera().isApprox(previewed, 1e-6));
     EXPECT_TRUE(now.preview->world_from_camera().isApprox(before, 1e-6));
-    controls_.hands().put({.fly_to_preview = true, .fly_to_preview_tenths = 20}, {});
+    controls_.operator_input().put({.fly_to_preview = true, .fly_to_preview_tenths = 20}, {});
     step();
     EXPECT_EQ(controls_.lines().fly_to_preview_s, 2);
     EXPECT_TRUE(controls_.lines().preview->fly_progress);
     for (int i = 0; i < 200; ++i) now = step();
     EXPECT_TRUE(now.view.world_from_camera().isApprox(before, 1e-6));
-    controls_.hands().put({.toggle_preview = true}, {});
+    controls_.operator_input().put({.toggle_preview = true}, {});
     EXPECT_FALSE(step().preview);
     EXPECT_FALSE(controls_.lines().preview);
 }
 
 TEST_F(FlightControlsTest, WithoutAPreviewNothingIsCutTo) {
     const OrbitView before = step().view;
-    controls_.hands().put({.cut = true}, {});
-    controls_.hands().put({.fly_to_preview = true}, {});
+    controls_.operator_input().put({.cut = true}, {});
+    controls_.operator_input().put({.fly_to_preview = true}, {});
     step();
     EXPECT_TRUE(is_same_view(step().view.camera(), before.camera()));
 }
@@ -608,34 +608,34 @@ TEST_F(FlightControlsTest, WithoutAPreviewNothingIsCutTo) {
 TEST_F(FlightControlsTest, ACutFromATrackedCameraDoesNotGlide) {
     CameraState tracked = step().view.camera();
     tracked.world_from_camera.translation() += Eigen::Vector3d(1, 0, 0);
-    controls_.hands().put({.toggle_preview = true}, {});
+    controls_.operator_input().put({.toggle_preview = true}, {});
     const Pose previewed = step().preview->world_from_camera();
     const auto track = [&] {
         controls_.tracked().put(tracked, MonotonicClock::now());
         return step();
     };
     for (int i = 0; i < 100; ++i) track();
-    controls_.hands().put({.orbit_elevation_rad = 0.0001}, {});
+    controls_.operator_input().put({.orbit_elevation_rad = 0.0001}, {});
     EXPECT_TRUE(track().camera) << "hands on preview leave the tracked camera on air";
-    controls_.hands().put({.cut = true}, {});
-    const PilotStep now = track();
+    controls_.operator_input().put({.cut = true}, {});
+    const CameraStep now = track();
     EXPECT_FALSE(now.camera);
     EXPECT_TRUE(now.view.world_from_camera().isApprox(previewed, 1e-3));
 }
 
 TEST_F(FlightControlsTest, APerformerIsFollowedByTheCameraThatWasTold) {
-    controls_.hands().put({.toggle_follow = true}, {});
+    controls_.operator_input().put({.toggle_follow = true}, {});
     step();
-    controls_.hands().put({.toggle_preview = true}, {});
+    controls_.operator_input().put({.toggle_preview = true}, {});
     step();
     ASSERT_EQ(controls_.lines().following.size(), 1u);
     EXPECT_FALSE(controls_.lines().is_following) << "the one in hand does not";
     const auto [camera, pivot_m] = controls_.lines().following[0];
     const Eigen::Vector3d there_m = pivot_m + Eigen::Vector3d(0.2, 0, 0);
-    controls_.hands().put({.cut = true}, {});
+    controls_.operator_input().put({.cut = true}, {});
     step();
     controls_.follow({camera, there_m});
-    PilotStep now = step();
+    CameraStep now = step();
     for (int i = 0; i < 200; ++i) now = step();
     EXPECT_TRUE(now.preview->pivot_m.isApprox(there_m, 1e-3));
     EXPECT_TRUE(now.view.pivot_m.isApprox(pivot_m, 1e-6));

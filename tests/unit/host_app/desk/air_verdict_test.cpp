@@ -30,7 +30,7 @@ TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
     state.waiting = true;
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);
     EXPECT_EQ(air_verdict(state).why, "no rig has sent a picture yet");
-    state.has_sets = true;
+    state.has_frame_sets = true;
     EXPECT_EQ(air_verdict(state).why, "the renderer compiles its shaders");
     state = good_state();
     state.signal = SignalState::stale;

@@ -370,10 +370,10 @@ TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
     std::ofstream(path("points/000006.ply")) << "mine";
     std::ofstream(path("points/partial-000003.ply")) << "half";
     std::vector<double> told;
-    const ExportBooks books = export_moments(take_, ply, part, path("points"),
+    const ExportStats stats = export_moments(take_, ply, part, path("points"),
                                              [&](double share) { told.push_back(share); });
-    EXPECT_EQ(books.written, 1u);
-    EXPECT_EQ(books.there, 3u);
+    EXPECT_EQ(stats.written, 1u);
+    EXPECT_EQ(stats.there, 3u);
     EXPECT_EQ(text("points/000003.ply"), whole);
     EXPECT_EQ(text("points/000006.ply"), "mine");
     EXPECT_FALSE(std::filesystem::exists(path("points/partial-000003.ply")));
@@ -439,9 +439,9 @@ TEST_F(TakeExportTest, LeavesDamagedFramesOutAndCountsThem) {
     bytes[TakeReader(file).frames(0)[1].colour.at + 50] ^= std::byte{1};
     write_bytes(file, bytes);
     const TakeReader take(file);
-    const ExportBooks books = export_moments(take, find_export_format("views"), {}, path("views"));
-    EXPECT_EQ(books.written, 4u);
-    EXPECT_EQ(books.damaged, 1u);
+    const ExportStats stats = export_moments(take, find_export_format("views"), {}, path("views"));
+    EXPECT_EQ(stats.written, 4u);
+    EXPECT_EQ(stats.damaged, 1u);
     EXPECT_EQ(load_view_set(path("views/000001")).views.size(), 1u);
     EXPECT_EQ(load_view_set(path("views/000002")).views.size(), 2u);
 }

@@ -73,7 +73,7 @@ class KeptFetchTest : public testing::Test {
         fetch.patience = patience;
         return fetch;
     }
-    static std::vector<FetchBooks> run(const KeptFetch& fetch, const StageConfig& stage) {
+    static std::vector<FetchStats> run(const KeptFetch& fetch, const StageConfig& stage) {
         const MonotonicTime end = MonotonicClock::now() + patience;
         return fetch.run(
             stage, [&] { return MonotonicClock::now() > end; }, [](const auto&) {});
@@ -113,9 +113,9 @@ class KeptFetchTest : public testing::Test {
 TEST_F(KeptFetchTest, BringsWhatTheRigsKeepByteForByte) {
     const auto north = start("north"), south = start("south");
     const StageConfig stage = stage_of({north.get(), south.get()}, {"north", "south"});
-    const std::vector<FetchBooks> books = run(all(), stage);
-    ASSERT_EQ(books.size(), 2u);
-    for (const FetchBooks& rig : books) {
+    const std::vector<FetchStats> stats = run(all(), stage);
+    ASSERT_EQ(stats.size(), 2u);
+    for (const FetchStats& rig : stats) {
         EXPECT_TRUE(rig.is_done);
         EXPECT_EQ(rig.trouble, "");
         EXPECT_EQ(rig.frames, 40u);
@@ -126,7 +126,7 @@ TEST_F(KeptFetchTest, BringsWhatTheRigsKeepByteForByte) {
     }
     EXPECT_EQ(north->status().hosts.at(0).fetched, 40u);
 
-    const std::vector<FetchBooks> again = run(all(), stage);
+    const std::vector<FetchStats> again = run(all(), stage);
     EXPECT_EQ(again[0].frames, 0u) << "all is here";
     EXPECT_EQ(again[0].there, 40u);
     expect_as_kept("north");
@@ -153,12 +153,12 @@ TEST_F(KeptFetchTest, BringsOnlyWhatATakeLacks) {
     write_small_take(path, {"north"}, first_, first_ + 39, gaps);
     KeptFetch fetch = all();
     fetch.take = std::make_shared<const TakeReader>(path);
-    const auto books = run(fetch, stage_of({north.get()}, {"north"}));
-    EXPECT_EQ(books[0].frames, gaps.size());
+    const auto stats = run(fetch, stage_of({north.get()}, {"north"}));
+    EXPECT_EQ(stats[0].frames, gaps.size());
     std::vector<std::uint64_t> brought;
     for (const auto& [pulse, frame] : frames_in(fetched(), "north")) brought.push_back(pulse);
     EXPECT_EQ(brought, gaps);
-    const TakeReader closing(books[0].files.at(0));
+    const TakeReader closing(stats[0].files.at(0));
     copy_takes({fetch.take.get(), &closing}, 0, ~std::uint64_t{0}, folder_.path() / "whole.mkv");
     EXPECT_TRUE(check_take(TakeReader(folder_.path() / "whole.mkv")).is_whole());
 }
@@ -178,11 +178,11 @@ TEST_F(KeptFetchTest, ARigThatIsStartedAnewIsTakenUpWhereItWas) {
         north.reset();
         north = start("north", stream);
     });
-    const auto books = run(fetch, stage);
+    const auto stats = run(fetch, stage);
     again.join();
-    EXPECT_TRUE(books[0].is_done);
-    EXPECT_EQ(books[0].trouble, "");
-    EXPECT_EQ(books[0].frames, 40u);
+    EXPECT_TRUE(stats[0].is_done);
+    EXPECT_EQ(stats[0].trouble, "");
+    EXPECT_EQ(stats[0].frames, 40u);
     EXPECT_GT(north->status().hosts.at(0).fetched, 0u) << "some came after";
     expect_as_kept("north");
 }
@@ -191,16 +191,16 @@ TEST_F(KeptFetchTest, PulsesThatTheRigHasNotEitherAreCounted) {
     const auto north = start("north");
     KeptFetch fetch = all();
     fetch.range = [this](int) { return PulseRange{first_ - 5, first_ + 60}; };
-    const auto books = run(fetch, stage_of({north.get()}, {"north"}));
-    EXPECT_EQ(books[0].frames, 40u);
-    EXPECT_EQ(books[0].not_kept, 25u);
-    EXPECT_EQ(books[0].trouble, "");
+    const auto stats = run(fetch, stage_of({north.get()}, {"north"}));
+    EXPECT_EQ(stats[0].frames, 40u);
+    EXPECT_EQ(stats[0].not_kept, 25u);
+    EXPECT_EQ(stats[0].trouble, "");
 }
 
 TEST_F(KeptFetchTest, ARigThatKeepsNothingSaysSo) {
     const Publisher north(open_stream(), "north");
-    const auto books = run(all(), stage_of({&north}, {"north"}));
-    EXPECT_THAT(books[0].trouble, HasSubstr("[keep]"));
+    const auto stats = run(all(), stage_of({&north}, {"north"}));
+    EXPECT_THAT(stats[0].trouble, HasSubstr("[keep]"));
     EXPECT_EQ(north.status().refused_fetches, 1u);
 }
 

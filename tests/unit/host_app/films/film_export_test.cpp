@@ -28,11 +28,11 @@ class FilmExport : public testing::Test {
     FilmSettings settings() const {
         return {{96, 72, {}}, take_->facts().pulse_rate_hz, default_synthesiser, 5};
     }
-    ExportBooks film(const std::vector<FilmPicture>& pictures, const std::string& name) const {
+    ExportStats film(const std::vector<FilmPicture>& pictures, const std::string& name) const {
         return export_film(take_, pictures, settings(), path(name), [] { return true; });
     }
     /// Its first pictures, and no more.
-    ExportBooks begin_film(const std::vector<FilmPicture>& pictures, const std::string& name,
+    ExportStats begin_film(const std::vector<FilmPicture>& pictures, const std::string& name,
                            int count) const {
         int begun = 0;
         return export_film(
@@ -178,9 +178,9 @@ TEST_F(FilmExport, GoesOnWhereItWasEndedWithoutCodingAnythingAnew) {
     EXPECT_NE(thrown_sentence([&] { film(flight(11), "film.mkv"); }).find("another export"),
               std::string::npos);
 
-    const ExportBooks books = film(pictures, "film.mkv");
-    EXPECT_EQ(books.there, 7u);
-    EXPECT_EQ(books.written, 5u);
+    const ExportStats stats = film(pictures, "film.mkv");
+    EXPECT_EQ(stats.there, 7u);
+    EXPECT_EQ(stats.written, 5u);
     EXPECT_FALSE(std::filesystem::exists(parts));
     EXPECT_EQ(packets_of(path("film.mkv")).substr(0, coded.size()), coded);
     EXPECT_EQ(film(pictures, "unbroken.mkv").written, 12u);
@@ -203,9 +203,9 @@ TEST_F(FilmExport, AFilmThatWasKilledGoesOn) {
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     ASSERT_FALSE(std::filesystem::exists(path("film.mp4")));
-    const ExportBooks books = film(pictures, "film.mp4");
-    EXPECT_GE(books.there, settings().part_pictures);
-    EXPECT_EQ(books.there + books.written, pictures.size());
+    const ExportStats stats = film(pictures, "film.mp4");
+    EXPECT_GE(stats.there, settings().part_pictures);
+    EXPECT_EQ(stats.there + stats.written, pictures.size());
     film(pictures, "unbroken.mp4");
     expect_same_film("film.mp4", "unbroken.mp4");
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))

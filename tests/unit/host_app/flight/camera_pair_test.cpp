@@ -17,33 +17,33 @@ class CameraPairTest : public testing::Test {
     void pass(double seconds) {
         for (double t = 0; t < seconds - 1e-9; t += 0.02) cameras_.advance(0.02);
     }
-    void hands(const FlightInput& input) { cameras_.in_hand().helm.take(input, no_rig); }
-    double on_air() const { return cameras_.programme().helm.view().azimuth_rad; }
-    double on_preview() const { return cameras_.preview()->helm.view().azimuth_rad; }
+    void operator_input(const FlightInput& input) { cameras_.in_hand().flight_controller.take(input, no_rig); }
+    double on_air() const { return cameras_.programme().flight_controller.view().azimuth_rad; }
+    double on_preview() const { return cameras_.preview()->flight_controller.view().azimuth_rad; }
     /// The preview's camera at 0.5 rad, at rest.
     void fly_preview_away() {
         cameras_.toggle_preview();
-        hands({.orbit_azimuth_rad = 0.5});
+        operator_input({.orbit_azimuth_rad = 0.5});
         pass(3);
     }
 
-    CameraPair cameras_{Helm(looking(0), {})};
+    CameraPair cameras_{FlightController(looking(0), {})};
 };
 
 TEST_F(CameraPairTest, HandsFlyTheProgrammesCameraUnlessThereIsAPreview) {
     EXPECT_EQ(cameras_.preview(), nullptr);
-    hands({.orbit_azimuth_rad = 0.2});
+    operator_input({.orbit_azimuth_rad = 0.2});
     pass(3);
     EXPECT_NEAR(on_air(), 0.2, 1e-6);
     cameras_.toggle_preview();
     EXPECT_NEAR(on_preview(), 0.2, 1e-6) << "it begins where the programme's camera is";
-    hands({.orbit_azimuth_rad = 0.3});
+    operator_input({.orbit_azimuth_rad = 0.3});
     pass(3);
     EXPECT_NEAR(on_preview(), 0.5, 1e-6);
     EXPECT_NEAR(on_air(), 0.2, 1e-6);
     cameras_.toggle_preview();
     EXPECT_EQ(cameras_.preview(), nullptr);
-    hands({.orbit_azimuth_rad = -0.1});
+    operator_input({.orbit_azimuth_rad = -0.1});
     pass(3);
     EXPECT_NEAR(on_air(), 0.1, 1e-6);
 }
@@ -53,7 +53,7 @@ TEST_F(CameraPairTest, ACutIsThereAtOnceAndComesBack) {
     cameras_.cut();
     EXPECT_NEAR(on_air(), 0.5, 1e-6);
     EXPECT_NEAR(on_preview(), 0, 1e-6);
-    hands({.orbit_azimuth_rad = -0.3});
+    operator_input({.orbit_azimuth_rad = -0.3});
     pass(3);
     EXPECT_NEAR(on_air(), 0.5, 1e-6) << "hands fly what is on preview now";
     cameras_.cut();
@@ -65,7 +65,7 @@ TEST_F(CameraPairTest, AnAutoFliesFromRestToRestInItsTimeWhileHandsFlyOn) {
     fly_preview_away();
     cameras_.fly_to_preview(2);
     EXPECT_NEAR(*cameras_.fly_progress(), 0, 1e-9);
-    hands({.orbit_azimuth_rad = 0.4});
+    operator_input({.orbit_azimuth_rad = 0.4});
     double last = on_air(), fastest = 0;
     for (int i = 0; i < 50; ++i) {
         pass(0.02);
@@ -93,52 +93,52 @@ TEST_F(CameraPairTest, ACutOnTheWayEndsTheFlight) {
 }
 
 TEST_F(CameraPairTest, TheProgrammeGoesOnAlongItsMoveAndAMoveOnPreviewGoesToAir) {
-    CameraPair cameras{Helm(looking(0), slow_move())};
+    CameraPair cameras{FlightController(looking(0), slow_move())};
     const auto pass_both = [&](double seconds) {
         for (double t = 0; t < seconds - 1e-9; t += 0.02) cameras.advance(0.02);
     };
     pass_both(2);
     cameras.toggle_preview();
-    cameras.in_hand().helm.take({.orbit_elevation_rad = 0.1}, no_rig);
+    cameras.in_hand().flight_controller.take({.orbit_elevation_rad = 0.1}, no_rig);
     pass_both(3);
-    EXPECT_NEAR(cameras.programme().helm.view().azimuth_rad, 0.5, 1e-6) << "hands leave it alone";
-    EXPECT_NEAR(cameras.preview()->helm.view().azimuth_rad, 0.2, 1e-6);
+    EXPECT_NEAR(cameras.programme().flight_controller.view().azimuth_rad, 0.5, 1e-6) << "hands leave it alone";
+    EXPECT_NEAR(cameras.preview()->flight_controller.view().azimuth_rad, 0.2, 1e-6);
     cameras.cut();
     pass_both(1);
-    EXPECT_NEAR(cameras.programme().helm.view().azimuth_rad, 0.2, 1e-6);
-    EXPECT_NEAR(cameras.preview()->helm.view().azimuth_rad, 0.6, 1e-6) << "it goes on there";
+    EXPECT_NEAR(cameras.programme().flight_controller.view().azimuth_rad, 0.2, 1e-6);
+    EXPECT_NEAR(cameras.preview()->flight_controller.view().azimuth_rad, 0.6, 1e-6) << "it goes on there";
     cameras.cut();
     pass_both(1);
-    EXPECT_NEAR(cameras.programme().helm.view().azimuth_rad, 0.7, 1e-6) << "and on air again";
-    EXPECT_TRUE(cameras.programme().helm.move_progress());
+    EXPECT_NEAR(cameras.programme().flight_controller.view().azimuth_rad, 0.7, 1e-6) << "and on air again";
+    EXPECT_TRUE(cameras.programme().flight_controller.move_progress());
 }
 
 TEST_F(CameraPairTest, WhatHandsChangeOfShotsAndMoveBothHave) {
     fly_preview_away();
-    hands({.store_shot = 3});
-    hands({.add_keyframe = true});
+    operator_input({.store_shot = 3});
+    operator_input({.add_keyframe = true});
     const auto change = cameras_.take_change();
     ASSERT_TRUE(change);
     EXPECT_TRUE(change->is_of_move);
-    EXPECT_EQ(cameras_.programme().helm.keyframes(), 1u);
-    cameras_.programme().helm.take({.recall_shot = 3}, no_rig);
+    EXPECT_EQ(cameras_.programme().flight_controller.keyframes(), 1u);
+    cameras_.programme().flight_controller.take({.recall_shot = 3}, no_rig);
     pass(3);
     EXPECT_NEAR(on_air(), 0.5, 1e-6);
     EXPECT_FALSE(cameras_.take_change()) << "told once";
 }
 
 TEST_F(CameraPairTest, AMoveThatIsFlownOnAirStaysAsItIsUntilItIsInHand) {
-    CameraPair cameras{Helm(looking(0), slow_move())};
+    CameraPair cameras{FlightController(looking(0), slow_move())};
     cameras.toggle_preview();
-    Helm& in_hand = cameras.in_hand().helm;
+    FlightController& in_hand = cameras.in_hand().flight_controller;
     in_hand.take({.toggle_move = true}, no_rig);
     in_hand.take({.add_keyframe = true}, no_rig);
     ASSERT_TRUE(cameras.take_change());
-    EXPECT_EQ(cameras.in_hand().helm.keyframes(), 3u);
+    EXPECT_EQ(cameras.in_hand().flight_controller.keyframes(), 3u);
     cameras.advance(0.02);
-    EXPECT_EQ(cameras.programme().helm.keyframes(), 2u);
+    EXPECT_EQ(cameras.programme().flight_controller.keyframes(), 2u);
     cameras.toggle_preview();
-    EXPECT_EQ(cameras.programme().helm.keyframes(), 3u);
+    EXPECT_EQ(cameras.programme().flight_controller.keyframes(), 3u);
 }
 
 TEST_F(CameraPairTest, CamerasAreKnownByTheirNumbersWhereverTheyStand) {

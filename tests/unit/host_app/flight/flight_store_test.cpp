@@ -21,13 +21,13 @@ class FlightStoreTest : public testing::Test {
         view.azimuth_rad = azimuth_rad;
         return view;
     }
-    static Helm::Change shot(double azimuth_rad) {
-        Helm::Change change;
+    static FlightController::Change shot(double azimuth_rad) {
+        FlightController::Change change;
         change.book.shots[0] = Shot{"wide", looking(azimuth_rad)};
         return change;
     }
-    static Helm::Change move(double azimuth_rad) {
-        Helm::Change change;
+    static FlightController::Change move(double azimuth_rad) {
+        FlightController::Change change;
         change.book.move = appended({}, looking(azimuth_rad), {}, 1, {});
         change.is_of_move = true;
         return change;

@@ -37,8 +37,8 @@ class ScriptedFeed {
         {
             const std::lock_guard lock(mutex_);
             ++status_.sets;
-            status_.complete_sets += set.present() == static_cast<int>(set.slots.size());
-            status_.newest_set = MonotonicClock::now();
+            status_.complete_frame_sets += set.present() == static_cast<int>(set.slots.size());
+            status_.newest_frame_set = MonotonicClock::now();
         }
         queue_.push(set);
     }

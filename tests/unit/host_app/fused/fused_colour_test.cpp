@@ -88,13 +88,13 @@ TEST_F(FusedColourTest, MixesTheRigsByTheAngleOfTheirLinesOfSight) {
 TEST_F(FusedColourTest, WeighsRigsByTheirTrustAndPresence) {
     add(-0.2, red).colour.setTo(cv::Scalar(200, 20, 20, 64));
     add(0.2, blue);
-    const double trust = 64 / 255.0;
-    EXPECT_LE(furthest(draw().colour(middle), mixed(red, trust / (1 + trust), blue)), 1);
+    const double confidence = 64 / 255.0;
+    EXPECT_LE(furthest(draw().colour(middle), mixed(red, confidence / (1 + confidence), blue)), 1);
     EXPECT_LE(furthest(draw(false, 0.5f).colour(middle),
-                       mixed(red, 0.5 * trust / (1 + 0.5 * trust), blue)),
+                       mixed(red, 0.5 * confidence / (1 + 0.5 * confidence), blue)),
               1);
     EXPECT_LE(furthest(draw(true, 0.5f).colour(middle),
-                       mixed(red, 0.5 * trust / (1 + 0.5 * trust), blue)),
+                       mixed(red, 0.5 * confidence / (1 + 0.5 * confidence), blue)),
               1);
 }
 
@@ -131,9 +131,9 @@ TEST_F(FusedColourTest, ClaimsNothingThatWasOnlyGuessed) {
     add(-0.2, red).depth_m.setTo(-wall_m);
     found_m_.setTo(-wall_m);
     for (const bool plainly : {false, true}) {
-        const cv::Vec4b guessed = draw(plainly).colour(middle);
-        EXPECT_EQ(guessed[3], 64);
-        EXPECT_LE(furthest(guessed, red), 1);
+        const cv::Vec4b inpainted = draw(plainly).colour(middle);
+        EXPECT_EQ(inpainted[3], 64);
+        EXPECT_LE(furthest(inpainted, red), 1);
     }
 }
 

@@ -79,7 +79,7 @@ class StageFusionTest : public testing::TestWithParam<Reached> {
 TEST_P(StageFusionTest, MeetsTheStageBetweenFourRigsWithExactDepth) {
     const DepthView views[] = {film(stage_, -45), film(stage_, -15), film(stage_, 15),
                                film(stage_, 45)};
-    synthesiser_->set_views(views);
+    synthesiser_->background_views(views);
     for (const double azimuth_deg : {0.0, -30.0, 30.0}) {
         const Score s =
             score(*synthesiser_, stage_, azimuth_deg,
@@ -92,7 +92,7 @@ TEST_P(StageFusionTest, MeetsTheStageBetweenFourRigsWithExactDepth) {
 
 TEST_P(StageFusionTest, MeetsTheStageBetweenTwoCloseRigs) {
     const DepthView views[] = {film(stage_, -4), film(stage_, 4)};
-    synthesiser_->set_views(views);
+    synthesiser_->background_views(views);
     const Score s = score(*synthesiser_, stage_, 0, std::string(GetParam().synthesiser) + "-close");
     EXPECT_GE(s.psnr_covered_db, GetParam().close_db);
     EXPECT_GE(s.ssim, GetParam().close_ssim);
@@ -114,7 +114,7 @@ TEST(FusedStage, IsWithinThirtyDecibelsBetweenRigsTwentyDegreesApart) {
     const auto synthesiser = make_synthesiser("fused", shaders);
     const DepthView views[] = {film(stage, -30, 640, 480), film(stage, -10, 640, 480),
                                film(stage, 10, 640, 480), film(stage, 30, 640, 480)};
-    synthesiser->set_views(views);
+    synthesiser->background_views(views);
     for (const double azimuth_deg : {0.0, -20.0, 20.0}) {
         const Score s = score(*synthesiser, stage, azimuth_deg,
                               "fused-close-arc-" + std::to_string(azimuth_deg), 640, 480);
@@ -138,13 +138,13 @@ double midway_psnr_db(VirtualStage& stage, const ShaderLibrary& shaders,
                       std::span<const DepthView> views, const std::string& name,
                       std::chrono::nanoseconds time = stage_time) {
     const auto synthesiser = make_synthesiser("fused", shaders);
-    synthesiser->set_views(views);
+    synthesiser->background_views(views);
     return score(*synthesiser, stage, 0, name, views[0].colour.cols, views[0].colour.rows, time)
         .psnr_db;
 }
 
 /// A third of a pixel of disparity is ten pixels in the picture of a rig far aside.
-TEST(RigConsensusOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
+TEST(MultiViewRefinementOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
     constexpr int width_px = 240, height_px = 180;
     constexpr double disparity_error_px = 0.3;
     const EglContext context;
@@ -162,15 +162,15 @@ TEST(RigConsensusOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
         cv::Mat1f disparity_px = f_baseline / view.depth_m + error_px;
         view.depth_m = f_baseline / disparity_px;
     }
-    const double bettered_db = midway_psnr_db(stage, shaders, views, "consensus-bettered");
+    const double refined_db = midway_psnr_db(stage, shaders, views, "consensus-bettered");
     // Without a baseline depth counts as measured some other way, and stays as it is.
     for (DepthView& view : views) view.baseline_m = 0;
     const double as_they_are_db = midway_psnr_db(stage, shaders, views, "consensus-as-they-are");
-    EXPECT_GE(bettered_db, as_they_are_db + 3);
-    EXPECT_GE(bettered_db, exact_db - 6);
+    EXPECT_GE(refined_db, as_they_are_db + 3);
+    EXPECT_GE(refined_db, exact_db - 6);
 }
 
-TEST(RigConsensusOnTheStage, CarvesAwayWhatOtherRigsSeeThrough) {
+TEST(MultiViewRefinementOnTheStage, CarvesAwayWhatOtherRigsSeeThrough) {
     constexpr int width_px = 240, height_px = 180;
     const EglContext context;
     const ShaderLibrary shaders;
@@ -206,7 +206,7 @@ std::map<std::string, double> errors_at_edges(std::initializer_list<const char*>
     std::map<std::string, double> errors;
     for (const char* name : names) {
         const auto synthesiser = make_synthesiser(name, shaders);
-        synthesiser->set_views(views);
+        synthesiser->background_views(views);
         const ColourImage picture = synthesiser->render(target).download();
         errors[name] = mean_error(picture, truth.colour,
                                   depth_edge_band(truth.depth_m, 5) & covered_mask(picture));
@@ -251,7 +251,7 @@ TEST(StageNoise, IsWeakerInTheFusedPictureThanInACameraOnAStillStage) {
                 z = static_cast<float>(f_baseline /
                                        (f_baseline / z + random.gaussian(disparity_noise_px)));
         }
-        synthesiser->set_views(views);
+        synthesiser->background_views(views);
         const ColourImage picture =
             synthesiser->render({width_px, height_px, truth.K, truth.world_from_camera}).download();
         ColourImage real = truth.colour.clone();
@@ -276,7 +276,7 @@ TEST(StageFades, LetARigThatDropsOutGoInSteps) {
     const VirtualView target{160, 120, left.K, camera_at(0, 160, 120).world_from_camera};
     const auto synthesiser = make_synthesiser("fused", shaders);
     const auto redness = [&](std::initializer_list<DepthView> views) {
-        synthesiser->set_views(views);
+        synthesiser->background_views(views);
         return cv::mean(synthesiser->render(target).download())[0];
     };
     const double both = redness({left, right});

@@ -24,7 +24,7 @@ LiveReport example() {
     report.programme.ticks = 1'234'567;
     report.programme.missed = 89;
     report.programme.latency_ms = {.count = 7, .p50 = 84, .p95 = 90, .p99 = 99, .max = 120};
-    report.programme.interval_ms = report.programme.hand_ms = report.programme.seek_ms =
+    report.programme.interval_ms = report.programme.input_ms = report.programme.seek_ms =
         report.programme.latency_ms;
     report.programme.render_ms = report.programme.latency_ms;
     report.programme.render_shares = {0.75, 0.25};
@@ -45,8 +45,8 @@ LiveReport example() {
     report.take.emplace();
     PortState port;
     port.name = "osc://:9000";
-    port.books.obeyed = 3;
-    port.books.malformed = 1;
+    port.stats.obeyed = 3;
+    port.stats.malformed = 1;
     report.ports = {port};
     return report;
 }

@@ -91,7 +91,7 @@ class OutputTest : public testing::Test {
         }
     }
     /// Nothing is under way any more.
-    void expect_books_that_add_up() {
+    void expect_stats_that_add_up() {
         const OutputState state = output_->state();
         EXPECT_EQ(state.offered, state.pictures + state.dropped + state.unheard);
         EXPECT_EQ(state.pictures, script_->count());
@@ -114,7 +114,7 @@ TEST_F(OutputTest, WritesEveryPictureInItsOrderAndEndsWell) {
     EXPECT_EQ(phase(), OutputPhase::off);
     EXPECT_EQ(output_->state().pictures, 40u);
     EXPECT_EQ(output_->state().dropped, 0u);
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, OneThatHangsHoldsNobodyUpAndLeavesTheOldestOut) {
@@ -128,7 +128,7 @@ TEST_F(OutputTest, OneThatHangsHoldsNobodyUpAndLeavesTheOldestOut) {
     script_->set([](Script& script) { script.hangs = false; });
     ASSERT_TRUE(wait_for([&] { return output_->state().queued == 0; }));
     EXPECT_EQ(script_->levels.back(), 99) << "the newest is never the one left out";
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, EndsInTimeThoughItsPeerHangs) {
@@ -139,7 +139,7 @@ TEST_F(OutputTest, EndsInTimeThoughItsPeerHangs) {
     output_->finish();
     EXPECT_EQ(phase(), OutputPhase::failed);
     EXPECT_EQ(output_->state().failure, "nobody took it in time; what came is kept");
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, AFilmThatFailsStaysFailedAndSaysWhatIsKept) {
@@ -157,7 +157,7 @@ TEST_F(OutputTest, AFilmThatFailsStaysFailedAndSaysWhatIsKept) {
     EXPECT_EQ(script_->finished, 0);
     EXPECT_EQ(output_->state().failures, 1u);
     EXPECT_EQ(output_->state().offered, 6u) << "nothing is offered to what has ended";
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, AStreamIsTriedAgainUntilItsPeerIsThere) {
@@ -181,7 +181,7 @@ TEST_F(OutputTest, AStreamIsTriedAgainUntilItsPeerIsThere) {
     EXPECT_EQ(script_->opened, 2);
     EXPECT_GE(output_->state().failures, 2u);
     output_->finish();
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, WritesWhatItWasGivenThoughItIsEndedAtOnce) {
@@ -190,7 +190,7 @@ TEST_F(OutputTest, WritesWhatItWasGivenThoughItIsEndedAtOnce) {
     output_->finish();
     EXPECT_EQ(script_->count(), 3u);
     EXPECT_EQ(script_->finished, 1);
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, IsEndedAndBegunAgainWhileLive) {
@@ -213,7 +213,7 @@ TEST_F(OutputTest, IsEndedAndBegunAgainWhileLive) {
     ASSERT_EQ(script_->count(), 5u);
     EXPECT_EQ(script_->ticks[3], 0) << "a time of its own";
     EXPECT_EQ(script_->finished, 2);
-    expect_books_that_add_up();
+    expect_stats_that_add_up();
 }
 
 TEST_F(OutputTest, WhoEndsWhatFailsIsNotToldOfItAgain) {

@@ -26,10 +26,10 @@ struct Orders {
     std::atomic<bool> fails_to_prepare = false;
     std::atomic<bool> draws_next_until_released = false, is_released = false;
     std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
-    std::atomic<int> rehearsals = 0, taken_at_rehearsal = 0;
-    std::atomic<std::size_t> rehearsed_rigs = 0;
-    std::atomic<double> rehearsed_apart_m = 0;  ///< the first two of them
-    std::function<void()> at_rehearsal;         ///< set before the first set is pushed
+    std::atomic<int> warm_ups = 0, taken_at_warm_up = 0;
+    std::atomic<std::size_t> warm_up_rigs = 0;
+    std::atomic<double> warm_up_apart_m = 0;  ///< the first two of them
+    std::function<void()> at_warm_up;         ///< set before the first set is pushed
     std::atomic<double> dt_s = 0;
 };
 
@@ -57,14 +57,14 @@ class OrderedPreparer final : public InstantPreparer {
         ++orders_->prepared;
         return std::make_shared<Instant>();
     }
-    void rehearse(std::span<const DepthView> views, const VirtualView&) override {
-        ++orders_->rehearsals;
-        if (orders_->at_rehearsal) orders_->at_rehearsal();
-        orders_->rehearsed_rigs = views.size();
-        orders_->rehearsed_apart_m =
+    void warm_up(std::span<const DepthView> views, const VirtualView&) override {
+        ++orders_->warm_ups;
+        if (orders_->at_warm_up) orders_->at_warm_up();
+        orders_->warm_up_rigs = views.size();
+        orders_->warm_up_apart_m =
             (views[1].world_from_camera.translation() - views[0].world_from_camera.translation())
                 .norm();
-        orders_->taken_at_rehearsal = orders_->taken.load();
+        orders_->taken_at_warm_up = orders_->taken.load();
     }
     void cut() override { ++orders_->cuts; }
 
@@ -96,7 +96,7 @@ class InstantThreadTest : public testing::Test {
         feed_.push(set);
     }
     void go_to(std::optional<double> pulse, std::uint64_t jumps) {
-        thread_->wish({.pulse = pulse, .target = {}, .level = {}, .jumps = jumps});
+        thread_->request({.pulse = pulse, .target = {}, .level = {}, .jumps = jumps});
     }
     bool wait_for_pulse(std::uint64_t pulse) {
         return eventually([&] {
@@ -129,13 +129,13 @@ TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
 TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
     feed_.push(feed_.set(4, {"south"}));
     ASSERT_TRUE(wait_for_pulse(4));
-    EXPECT_EQ(orders_->rehearsals, 1);
-    EXPECT_EQ(orders_->taken_at_rehearsal, 0);
-    EXPECT_EQ(orders_->rehearsed_rigs, 2u) << "what rigs do for each other is rehearsed too";
-    EXPECT_GT(orders_->rehearsed_apart_m, 0) << "from one place they would tell nothing new";
+    EXPECT_EQ(orders_->warm_ups, 1);
+    EXPECT_EQ(orders_->taken_at_warm_up, 0);
+    EXPECT_EQ(orders_->warm_up_rigs, 2u) << "what rigs do for each other is rehearsed too";
+    EXPECT_GT(orders_->warm_up_apart_m, 0) << "from one place they would tell nothing new";
     push(5);
     ASSERT_TRUE(wait_for_pulse(5));
-    EXPECT_EQ(orders_->rehearsals, 1);
+    EXPECT_EQ(orders_->warm_ups, 1);
 }
 
 /// Shaders differ by how many rigs are compared with one, but there is a most.
@@ -144,19 +144,19 @@ TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
     make_thread(feed_of_six_.feed());
     feed_of_six_.push(feed_of_six_.set(4, {"b", "c"}));
     ASSERT_TRUE(wait_for_pulse(4));
-    EXPECT_EQ(orders_->rehearsed_rigs, 4u);
+    EXPECT_EQ(orders_->warm_up_rigs, 4u);
 }
 
 TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
-    orders_->at_rehearsal = [&] {
+    orders_->at_warm_up = [&] {
         for (const std::uint64_t pulse : {5, 6}) push(pulse);
-        ASSERT_TRUE(eventually([&] { return thread_->books().superseded.sets == 1; }));
+        ASSERT_TRUE(eventually([&] { return thread_->stats().superseded.sets == 1; }));
     };
     push(4);
     ASSERT_TRUE(wait_for_pulse(6));
     EXPECT_EQ(orders_->prepared, 1);
-    EXPECT_EQ(thread_->books().superseded.sets, 2u);
-    EXPECT_EQ(thread_->books().superseded.frames.at("north"), 2u);
+    EXPECT_EQ(thread_->stats().superseded.sets, 2u);
+    EXPECT_EQ(thread_->stats().superseded.frames.at("north"), 2u);
 }
 
 TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
@@ -165,7 +165,7 @@ TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) 
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
     const auto shows = [&](double pulse, int moments, std::uint64_t wanted, double share) {
-        thread_->wish({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
+        thread_->request({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
         return eventually([&] {
             const auto newest = thread_->newest();
             return newest->set->trigger_index == wanted && newest->share == share;
@@ -182,8 +182,8 @@ TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) 
     EXPECT_TRUE(shows(5.5, 1, 5, 0));
     EXPECT_EQ(thread_->newest()->number, shown);
     EXPECT_TRUE(shows(6.5, 4, 6, 0.5)) << "there is no next one";
-    EXPECT_EQ(thread_->books().between, 3u);
-    EXPECT_EQ(thread_->books().prepared, 3u) << "of a stage's past all was counted when it came";
+    EXPECT_EQ(thread_->stats().between, 3u);
+    EXPECT_EQ(thread_->stats().prepared, 3u) << "of a stage's past all was counted when it came";
 }
 
 TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
@@ -226,14 +226,14 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
     go_to(3, 3);
     ASSERT_TRUE(eventually([&] { return orders_->taken == taken + 1; }));
     // A live one that is given up is counted.
-    const std::uint64_t superseded = thread_->books().superseded.sets;
+    const std::uint64_t superseded = thread_->stats().superseded.sets;
     ASSERT_TRUE(draw_until_the_jump(std::nullopt, 3));
     prepared = orders_->prepared;
     go_to(1, 4);
     ASSERT_TRUE(wait_for_pulse(1));
     EXPECT_EQ(orders_->prepared, prepared + 1);
-    EXPECT_EQ(thread_->books().superseded.sets, superseded + 1);
-    EXPECT_EQ(thread_->books().faults, 0);
+    EXPECT_EQ(thread_->stats().superseded.sets, superseded + 1);
+    EXPECT_EQ(thread_->stats().faults, 0);
 }
 
 TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) {
@@ -253,12 +253,12 @@ TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) 
 }
 
 TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
-    thread_->wish({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
+    thread_->request({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
     push(1);
     ASSERT_TRUE(eventually([&] { return orders_->prepared > 0; }));
     ASSERT_TRUE(wait_for_pulse(1));
     const auto before = thread_->newest();
-    thread_->wish({.pulse = {}, .is_held = true, .target = {}, .level = prepare_levels()[0]});
+    thread_->request({.pulse = {}, .is_held = true, .target = {}, .level = prepare_levels()[0]});
     ASSERT_TRUE(eventually([&] { return thread_->newest()->number > before->number; }));
     EXPECT_EQ(orders_->rank, 0);
     EXPECT_EQ(thread_->newest()->set, before->set);
@@ -268,7 +268,7 @@ TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
     std::this_thread::sleep_for(300ms);
     EXPECT_EQ(thread_->newest()->set, before->set);
     EXPECT_EQ(orders_->prepared, prepared) << "nothing better is wished for";
-    thread_->wish({.pulse = {}, .target = {}, .level = {}});
+    thread_->request({.pulse = {}, .target = {}, .level = {}});
     EXPECT_TRUE(wait_for_pulse(2));
 }
 
@@ -277,10 +277,10 @@ TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
-    thread_->wish({.pulse = 1.7, .target = {}, .level = {}});
+    thread_->request({.pulse = 1.7, .target = {}, .level = {}});
     ASSERT_TRUE(wait_for_pulse(1));
     EXPECT_FALSE(thread_->newest()->is_live);
-    EXPECT_EQ(thread_->books().prepared, 3u);
+    EXPECT_EQ(thread_->stats().prepared, 3u);
 }
 
 TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
@@ -292,11 +292,11 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
     thread.prepare_for("ordered", [this](const ShaderLibrary&) {
         return std::make_unique<OrderedPreparer>(orders_);
     });
-    InstantWish wish;
-    wish.target.width_px = 64;
-    wish.target.height_px = 48;
-    wish.target.K << 40, 0, 31.5, 0, 40, 23.5, 0, 0, 1;
-    wish.target.world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
+    InstantRequest request;
+    request.target.width_px = 64;
+    request.target.height_px = 48;
+    request.target.K << 40, 0, 31.5, 0, 40, 23.5, 0, 0, 1;
+    request.target.world_from_camera = look_at({0, 1, 4.5}, {0, 1, 0});
     const auto shows = [&](std::uint64_t pulse) {
         return eventually([&] {
             const auto newest = thread.newest();
@@ -306,26 +306,26 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
     const auto push_all = [&](std::uint64_t pulse) {
         many.push(many.set(pulse, {"1", "2", "3", "4", "5", "6"}));
     };
-    thread.wish(wish);
+    thread.request(request);
     for (const std::uint64_t pulse : {1, 2}) {
         push_all(pulse);
         ASSERT_TRUE(shows(pulse));
     }
     // The sixth is one more than the camera needs, and would be asked to stop a while later.
     static_assert(RigDemand::most_rigs == 5);
-    wish.is_held = true;
-    thread.wish(wish);
+    request.is_held = true;
+    thread.request(request);
     push_all(3);
     std::this_thread::sleep_for(RigDemand::hold + 100ms);
-    wish.is_held = false;
+    request.is_held = false;
     for (const double pulse : {1, 2, 1}) {
-        wish.pulse = pulse;
-        thread.wish(wish);
+        request.pulse = pulse;
+        thread.request(request);
         ASSERT_TRUE(shows(static_cast<std::uint64_t>(pulse)));
     }
     EXPECT_EQ(asks, 0);
-    wish.pulse.reset();
-    thread.wish(wish);
+    request.pulse.reset();
+    thread.request(request);
     push_all(4);
     EXPECT_TRUE(eventually([&] { return asks == 1; })) << "live it is";
 }
@@ -335,7 +335,7 @@ TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
     ASSERT_TRUE(wait_for_pulse(1));
     orders_->fails_to_take = true;
     push(2);
-    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 2; })) << "it tries again";
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 2; })) << "it tries again";
     EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "what was ready stays";
     orders_->fails_to_take = false;
     push(3);
@@ -375,51 +375,51 @@ TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
     push(3);
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(contexts_.losses(), 1);
-    EXPECT_EQ(thread_->books().faults, 1);
+    EXPECT_EQ(thread_->stats().faults, 1);
     EXPECT_EQ(thread_->close().sets, 3u);
-    EXPECT_EQ(thread_->books().prepared + thread_->books().superseded.sets, 3u);
+    EXPECT_EQ(thread_->stats().prepared + thread_->stats().superseded.sets, 3u);
 }
 
 TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 1; }));
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
-    EXPECT_EQ(thread_->books().faults, 1) << "it is not tried again";
+    EXPECT_EQ(thread_->stats().faults, 1) << "it is not tried again";
 }
 
 TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 1; }));
     orders_->draws_next_until_released = true;
     go_to(std::nullopt, 1);
     push(3);
     ASSERT_TRUE(eventually([&] { return !orders_->draws_next_until_released; }));
     orders_->is_released = true;
     EXPECT_TRUE(wait_for_pulse(3));
-    EXPECT_EQ(thread_->books().faults, 1);
+    EXPECT_EQ(thread_->stats().faults, 1);
 }
 
 TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
-    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 1; }));
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 1; }));
     orders_->fails_to_take = true;
     push(3);
-    ASSERT_TRUE(eventually([&] { return thread_->books().faults >= 3; }));
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 3; }));
     orders_->fails_to_take = false;
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
     EXPECT_EQ(thread_->close().sets, 4u);
-    const InstantThread::Books books = thread_->books();
-    EXPECT_EQ(books.prepared + books.superseded.sets, 4u);
+    const InstantThread::Stats stats = thread_->stats();
+    EXPECT_EQ(stats.prepared + stats.superseded.sets, 4u);
     for (const char* rig : {"north", "south"})
-        EXPECT_EQ(books.frames.at(rig) + books.superseded.frames.at(rig), 4u);
+        EXPECT_EQ(stats.frames.at(rig) + stats.superseded.frames.at(rig), 4u);
 }
 
 TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {

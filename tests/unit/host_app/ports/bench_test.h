@@ -17,20 +17,20 @@ class BenchTest : public testing::Test {
     }
     /// Until the port has counted so many messages, two seconds at the most.
     static void serve(ControlPort& port, std::uint64_t messages) {
-        for (int i = 0; i < 100 && all(port.books()) < messages; ++i)
+        for (int i = 0; i < 100 && all(port.stats()) < messages; ++i)
             port.serve(std::chrono::milliseconds(20));
     }
-    static std::uint64_t all(const PortBooks& books) {
-        return books.obeyed + books.unknown + books.malformed + books.dropped;
+    static std::uint64_t all(const PortStats& stats) {
+        return stats.obeyed + stats.unknown + stats.malformed + stats.dropped;
     }
 
     const int number_ = two_free_ports().first;
-    HandsBox hands_;
+    OperatorInputBox operator_input_;
     TrackedCamera tracked_;
     Tally tally_;
     LampBoard lamps_;
     LtcBoard ltc_;
-    ControlBench bench_{hands_, tracked_, tally_, lamps_, ltc_};
+    ControlBench bench_{operator_input_, tracked_, tally_, lamps_, ltc_};
     LocalSocket peer_;
 };
 

@@ -78,7 +78,7 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     picture.camera = some_camera();
     sink->take(picture);
     serve(*port, 1);
-    ASSERT_EQ(port->books().obeyed, 1u) << port->books().last_refusal;
+    ASSERT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
     const auto heard = tracked_.newest(MonotonicClock::now());
     ASSERT_TRUE(heard);
     EXPECT_TRUE(is_same_view(*heard, some_camera()));
@@ -87,8 +87,8 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     other->take(picture);
     peer_.send("damaged", number_);
     serve(*port, 3);
-    EXPECT_EQ(port->books().unknown, 1u) << "camera 1";
-    EXPECT_EQ(port->books().malformed, 1u);
+    EXPECT_EQ(port->stats().unknown, 1u) << "camera 1";
+    EXPECT_EQ(port->stats().malformed, 1u);
 }
 
 TEST_F(BenchTest, ALensThatSaysNoFieldOfViewNeedsOne) {
@@ -100,8 +100,8 @@ TEST_F(BenchTest, ALensThatSaysNoFieldOfViewNeedsOne) {
         const auto port = open("freed");
         peer_.send(bytes.data(), bytes.size(), number_);
         serve(*port, 1);
-        EXPECT_EQ(port->books().malformed, 1u);
-        EXPECT_NE(port->books().last_refusal.find("fov="), std::string::npos);
+        EXPECT_EQ(port->stats().malformed, 1u);
+        EXPECT_NE(port->stats().last_refusal.find("fov="), std::string::npos);
         EXPECT_FALSE(tracked_.newest(MonotonicClock::now()));
     }
     const auto port = open("freed", "?fov=60");

@@ -34,22 +34,22 @@ TEST_F(LtcPortTest, AFileIsHeardAndComparedWithTheHouse) {
     write("house.wav", *pal.frame_of(*house) + hour, 60);
     const auto port = open_port("ltc://" + at("house.wav"), bench_);
     serve(*port, 20);
-    EXPECT_GE(port->books().obeyed, 20u);
-    EXPECT_EQ(port->books().malformed, 0u);
+    EXPECT_GE(port->stats().obeyed, 20u);
+    EXPECT_EQ(port->stats().malformed, 0u);
     const LtcBoard::State state = ltc_.state();
     ASSERT_NE(state.code, "");
     // The file begins when it is opened, some time after it was written.
     EXPECT_LE(state.frames_ahead, hour);
     EXPECT_GT(state.frames_ahead, hour - 25 * 60);
-    EXPECT_NE(port->books().told.find("ahead of the house"), std::string::npos)
-        << port->books().told;
+    EXPECT_NE(port->stats().told.find("ahead of the house"), std::string::npos)
+        << port->stats().told;
 }
 
 TEST_F(LtcPortTest, WhatIsNoTimeCodeIsNeverShown) {
     write_wav(at("clicks.wav"), clicks(1.1));
     const auto port = open_port("ltc:" + at("clicks.wav"), bench_);
     for (int i = 0; i < 40; ++i) port->serve(std::chrono::milliseconds(20));
-    EXPECT_EQ(port->books().obeyed, 0u);
+    EXPECT_EQ(port->stats().obeyed, 0u);
     EXPECT_EQ(ltc_.state().code, "");
 }
 

@@ -26,8 +26,8 @@ TEST_F(OscPortTest, ObeysWhatOscsendSends) {
     oscsend("/vantage/freeze f 0.0");
     oscsend("/vantage/output/2 i 1");
     serve(*port_, 6);
-    EXPECT_EQ(port_->books().obeyed, 6u) << port_->books().last_refusal;
-    const FlightInput input = hands_.take().input;
+    EXPECT_EQ(port_->stats().obeyed, 6u) << port_->stats().last_refusal;
+    const FlightInput input = operator_input_.take().input;
     EXPECT_EQ(input.recall_shot, 3);
     EXPECT_NEAR(input.orbit_azimuth_rad, 5 * 3.14159265 / 180, 1e-6);
     EXPECT_TRUE(input.mark_in);
@@ -38,25 +38,25 @@ TEST_F(OscPortTest, ObeysWhatOscsendSends) {
 TEST_F(OscPortTest, TakesNumbersOfEveryKind) {
     for (const char* number : {"i 3", "h 3", "f 3.0", "d 3.0"}) {
         oscsend(fmt::format("/vantage/shot {}", number));
-        serve(*port_, all(port_->books()) + 1);
-        EXPECT_EQ(hands_.take().input.recall_shot, 3) << number;
+        serve(*port_, all(port_->stats()) + 1);
+        EXPECT_EQ(operator_input_.take().input.recall_shot, 3) << number;
     }
 }
 
 TEST_F(OscPortTest, TakesWordsWhereACommandHasThem) {
     oscsend("/vantage/cue_time s 20:15:07:12");
     serve(*port_, 1);
-    EXPECT_EQ(hands_.take().input.cue_time, "20:15:07:12");
+    EXPECT_EQ(operator_input_.take().input.cue_time, "20:15:07:12");
     oscsend("/vantage/name_clip s leap");
     oscsend("/vantage/clip i 12");
     serve(*port_, 3);
-    EXPECT_EQ(hands_.take().input.replay.at(0).words, "leap");
-    EXPECT_EQ(hands_.take().input.replay.at(0).number, 12) << "in a step of its own";
+    EXPECT_EQ(operator_input_.take().input.replay.at(0).words, "leap");
+    EXPECT_EQ(operator_input_.take().input.replay.at(0).number, 12) << "in a step of its own";
     for (const char* wrong : {"/vantage/name_clip", "/vantage/name_clip i 3",
                               "/vantage/name_clip ss a b", "/vantage/live s now"})
         oscsend(wrong);
     serve(*port_, 7);
-    EXPECT_EQ(port_->books().malformed, 4u);
+    EXPECT_EQ(port_->stats().malformed, 4u);
 }
 
 TEST_F(OscPortTest, CountsAndNeverObeysWhatDoesNotFit) {
@@ -69,10 +69,10 @@ TEST_F(OscPortTest, CountsAndNeverObeysWhatDoesNotFit) {
     peer_.send("no OSC at all", number_);
     peer_.send(std::string_view("#bundle\0\0\0\0\0\0\0\0\1\0\0\1\0live", 24), number_);
     serve(*port_, 8);
-    EXPECT_EQ(port_->books().malformed, 6u);
-    EXPECT_EQ(port_->books().unknown, 2u);
-    EXPECT_EQ(port_->books().obeyed, 0u);
-    EXPECT_FALSE(hands_.take().since) << "nothing of it was done";
+    EXPECT_EQ(port_->stats().malformed, 6u);
+    EXPECT_EQ(port_->stats().unknown, 2u);
+    EXPECT_EQ(port_->stats().obeyed, 0u);
+    EXPECT_FALSE(operator_input_.take().since) << "nothing of it was done";
 }
 
 TEST_F(OscPortTest, OfAFloodCommandsBeyondTheBoundAreCountedAndLeftOut) {
@@ -84,9 +84,9 @@ TEST_F(OscPortTest, OfAFloodCommandsBeyondTheBoundAreCountedAndLeftOut) {
     }
     peer_.send(freeze, number_);
     serve(*port_, flood + 1);
-    const PortBooks& books = port_->books();
-    EXPECT_EQ(books.obeyed + books.dropped, flood + 1);
-    EXPECT_EQ(books.obeyed, HandsBox::most_waiting) << "no more wait than that";
+    const PortStats& stats = port_->stats();
+    EXPECT_EQ(stats.obeyed + stats.dropped, flood + 1);
+    EXPECT_EQ(stats.obeyed, OperatorInputBox::most_waiting) << "no more wait than that";
 }
 
 TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
@@ -121,8 +121,8 @@ TEST_F(OscPortTest, TakesBundlesApart) {
     const std::string cue("\0\0\0\x14/vantage/cue\0\0\0\0,\0\0\0", 24);
     peer_.send(std::string("#bundle\0\0\0\0\0\0\0\0\1", 16) + live + cue, number_);
     serve(*port_, 2);
-    EXPECT_EQ(port_->books().obeyed, 2u) << port_->books().last_refusal;
-    const FlightInput input = hands_.take().input;
+    EXPECT_EQ(port_->stats().obeyed, 2u) << port_->stats().last_refusal;
+    const FlightInput input = operator_input_.take().input;
     EXPECT_TRUE(input.to_live && input.cue);
 }
 

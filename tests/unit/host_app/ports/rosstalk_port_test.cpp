@@ -60,8 +60,8 @@ TEST_F(BenchTest, RossTalkGivesTheCommandsOfItsMap) {
     const LocalCaller caller(number_);
     caller.say("GPI 4\r\n");
     serve(*port, 1);
-    EXPECT_EQ(port->books().obeyed, 1u) << port->books().last_refusal;
-    EXPECT_EQ(hands_.take().input.recall_shot, 7);
+    EXPECT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
+    EXPECT_EQ(operator_input_.take().input.recall_shot, 7);
 }
 
 TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
@@ -69,11 +69,11 @@ TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
     const LocalCaller caller(number_);
     caller.say("gpi 1\r\nGPI one\r\nGPI 999\r\nGPI 1\nXPT 1:\r\n\x1b[2J\r\n");
     serve(*port, 5);
-    EXPECT_EQ(port->books().unknown, 3u);
-    EXPECT_EQ(port->books().malformed, 2u);
-    EXPECT_EQ(port->books().obeyed, 0u);
-    EXPECT_EQ(port->books().last_refusal.find('\x1b'), std::string::npos);
-    EXPECT_FALSE(hands_.take().since);
+    EXPECT_EQ(port->stats().unknown, 3u);
+    EXPECT_EQ(port->stats().malformed, 2u);
+    EXPECT_EQ(port->stats().obeyed, 0u);
+    EXPECT_EQ(port->stats().last_refusal.find('\x1b'), std::string::npos);
+    EXPECT_FALSE(operator_input_.take().since);
 }
 
 TEST_F(BenchTest, RossTalkClosesWhoSendsNoEndAndHearsTheOthers) {
@@ -82,16 +82,16 @@ TEST_F(BenchTest, RossTalkClosesWhoSendsNoEndAndHearsTheOthers) {
     flood.say(std::string(100'000, 'x'));
     other.say("GPI 2\r\n");
     serve(*port, 2);
-    EXPECT_EQ(port->books().malformed, 1u);
-    EXPECT_EQ(port->books().obeyed, 1u);
-    EXPECT_TRUE(hands_.take().input.toggle_freeze);
+    EXPECT_EQ(port->stats().malformed, 1u);
+    EXPECT_EQ(port->stats().obeyed, 1u);
+    EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
     std::vector<std::unique_ptr<LocalCaller>> many;
     for (int i = 0; i < 12; ++i) {
         many.push_back(std::make_unique<LocalCaller>(number_));
         port->serve(std::chrono::milliseconds(0));
     }
-    serve(*port, all(port->books()) + 1);
-    EXPECT_GE(port->books().dropped, 1u) << "who is one too many is turned away and counted";
+    serve(*port, all(port->stats()) + 1);
+    EXPECT_GE(port->stats().dropped, 1u) << "who is one too many is turned away and counted";
 }
 
 TEST_F(BenchTest, RossTalkListensHereOnlyUnlessItIsOpen) {

@@ -98,8 +98,8 @@ TEST_F(BenchTest, TheMixerLightsTheTallyOfItsDisplayOnly) {
     peer_.send("no tally", number_);
     serve(*port, 4);
     EXPECT_EQ(tally_.state(), (Tally::State{.programme = true, .preview = false}));
-    EXPECT_EQ(port->books().obeyed, 3u);
-    EXPECT_EQ(port->books().malformed, 1u);
+    EXPECT_EQ(port->stats().obeyed, 3u);
+    EXPECT_EQ(port->stats().malformed, 1u);
 }
 
 TEST_F(BenchTest, AMixerMayTellItOverTcp) {
@@ -108,15 +108,15 @@ TEST_F(BenchTest, AMixerMayTellItOverTcp) {
     mixer.say(wrapped(v5(display(4, 2) + display(5, 1))).substr(0, 9));
     other.say("no tally");
     serve(*port, 1);
-    EXPECT_EQ(port->books().malformed, 1u);
+    EXPECT_EQ(port->stats().malformed, 1u);
     EXPECT_EQ(tally_.state(), Tally::State{});
     mixer.say(wrapped(v5(display(4, 2) + display(5, 1))).substr(9));
     serve(*port, 2);
-    EXPECT_EQ(port->books().obeyed, 1u) << port->books().last_refusal;
+    EXPECT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
     EXPECT_EQ(tally_.state(), (Tally::State{.programme = true, .preview = false}));
     mixer.say(wrapped(v5(word(1) + word(1) + word(6) + "VIRT1")));
     serve(*port, 3);
-    EXPECT_EQ(port->books().malformed, 2u) << "the text is cut off";
+    EXPECT_EQ(port->stats().malformed, 2u) << "the text is cut off";
     EXPECT_NE(thrown_sentence([&] { (void)open("tsl", "?over=pigeon"); }).find("tcp"),
               std::string::npos);
 }

@@ -250,18 +250,18 @@ TEST(Governor, KeepsTheLevelThatIsWishedFor) {
     EXPECT_EQ(governor.render_shares(now)[2], 1);
 }
 
-TEST(QualityWish, ReadsBestAutoAndNumbers) {
-    EXPECT_FALSE(QualityWish::parse("auto").level);
-    EXPECT_EQ(QualityWish::parse("best").level, 0u);
+TEST(QualityRequest, ReadsBestAutoAndNumbers) {
+    EXPECT_FALSE(QualityRequest::parse("auto").level);
+    EXPECT_EQ(QualityRequest::parse("best").level, 0u);
     for (std::size_t level = 0; level < render_levels().size(); ++level)
-        EXPECT_EQ(QualityWish::parse(std::to_string(level)).level, level);
+        EXPECT_EQ(QualityRequest::parse(std::to_string(level)).level, level);
 }
 
-TEST(QualityWish, RefusesTheRestWithTheMend) {
+TEST(QualityRequest, RefusesTheRestWithTheMend) {
     const std::string beyond = std::to_string(render_levels().size());
     for (const std::string text :
          {"", "high", "-1", "1.5", "2 ", "+1", beyond.c_str(), "99999999999999999999"}) {
-        const std::string sentence = thrown_sentence([&] { QualityWish::parse(text); });
+        const std::string sentence = thrown_sentence([&] { QualityRequest::parse(text); });
         EXPECT_NE(sentence.find("best, auto or a level from 0"), std::string::npos) << sentence;
         EXPECT_NE(sentence.find("'" + text + "'"), std::string::npos) << sentence;
     }

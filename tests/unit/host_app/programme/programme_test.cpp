@@ -23,15 +23,15 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Flies as it is told, and counts how often it is asked.
-class ScriptedPilot final : public Pilot {
+class ScriptedCameraSource final : public CameraSource {
   public:
-    ScriptedPilot() {
+    ScriptedCameraSource() {
         // At the rigs' own place, which sees the wall through and through.
         next_.view.distance_m = 4.5;
         next_.view.field_of_view_rad = 1.0;
     }
 
-    PilotStep step(double /*time_s*/, std::optional<double> /*past_pulse*/) override {
+    CameraStep step(double /*time_s*/, std::optional<double> /*past_pulse*/) override {
         const std::lock_guard lock(mutex_);
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;
@@ -39,12 +39,12 @@ class ScriptedPilot final : public Pilot {
         if (std::abs(next_.view.azimuth_rad + turn_rad_) > furthest_rad_) turn_rad_ = -turn_rad_;
         next_.view.azimuth_rad += turn_rad_;
         if (next_.preview) next_.preview->azimuth_rad += preview_turn_rad_;
-        PilotStep step = next_;
+        CameraStep step = next_;
         next_ = {.view = step.view, .preview = step.preview};
         return step;
     }
 
-    PilotStep fly_to_shot(int number) override {
+    CameraStep fly_to_shot(int number) override {
         const std::lock_guard lock(mutex_);
         shot_ = number;
         return {.view = next_.view};
@@ -82,7 +82,7 @@ class ScriptedPilot final : public Pilot {
 
   private:
     mutable std::mutex mutex_;
-    PilotStep next_;
+    CameraStep next_;
     double turn_rad_ = 0, furthest_rad_ = 0, preview_turn_rad_ = 0;
     int steps_ = 0, shot_ = 0;
     std::string failure_;
@@ -175,7 +175,7 @@ class SlowPreparer final : public InstantPreparer {
   private:
     /// As one that waits for its GPU.
     void sleep() const {
-        const DriverTurn::Pause pause;
+        const DriverLock::Pause pause;
         constexpr int step_ms = 5;
         // So that the test may end it.
         for (int slept_ms = 0; slept_ms < *sleep_ms_; slept_ms += step_ms)
@@ -214,7 +214,7 @@ class ProgrammeTest : public testing::Test {
         return make_programme();
     }
     Programme& make_programme() {
-        programme_.emplace(settings_, *instants_, pilot_);
+        programme_.emplace(settings_, *instants_, camera_source_);
         programme_->add(std::make_unique<NotingSink>(seen_));
         return *programme_;
     }
@@ -250,7 +250,7 @@ class ProgrammeTest : public testing::Test {
 
     ContextGroup contexts_;
     ScriptedFeed feed_{{"north", "south"}};
-    ScriptedPilot pilot_;
+    ScriptedCameraSource camera_source_;
     std::shared_ptr<Seen> seen_ = std::make_shared<Seen>();
     std::shared_ptr<std::atomic<int>> sleep_ms_ = std::make_shared<std::atomic<int>>(0);
     InstantThread::Settings instants_settings_;
@@ -279,9 +279,9 @@ TEST_F(ProgrammeTest, ShowsTheNewestInstant) {
 TEST_F(ProgrammeTest, HandsOutNothingBeforeTheFirstPicture) {
     make();
     start();
-    ASSERT_TRUE(eventually([&] { return pilot_.steps() > 10; })) << "hands are asked all the same";
+    ASSERT_TRUE(eventually([&] { return camera_source_.steps() > 10; })) << "hands are asked all the same";
     EXPECT_EQ(seen_->count(), 0u);
-    EXPECT_EQ(programme_->books().ticks, 0u);
+    EXPECT_EQ(programme_->stats().ticks, 0u);
     push(1);
     ASSERT_TRUE(wait_for_ticks(3));
     expect_every_tick_once();
@@ -295,10 +295,10 @@ TEST_F(ProgrammeTest, TicksGoOnWhileNoInstantComes) {
     ASSERT_TRUE(wait_for_ticks(20));
     programme_->stop();
     expect_every_tick_once();
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_EQ(books.ticks, seen_->count());
-    EXPECT_GE(books.pictures, 1u);
-    EXPECT_LE(books.pictures, 3u) << "nothing changed, so the same picture is handed out again";
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_EQ(stats.ticks, seen_->count());
+    EXPECT_GE(stats.pictures, 1u);
+    EXPECT_LE(stats.pictures, 3u) << "nothing changed, so the same picture is handed out again";
     EXPECT_TRUE(seen_->is_finished);
 }
 
@@ -307,30 +307,30 @@ TEST_F(ProgrammeTest, FliesOnWhileNoInstantComes) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    const std::uint64_t before = programme_->books().pictures;
-    pilot_.turn(0.01);
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > before + 10; }));
+    const std::uint64_t before = programme_->stats().pictures;
+    camera_source_.turn(0.01);
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > before + 10; }));
     EXPECT_EQ(shown_pulse(), 1u);
 }
 
 TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
     make_with_slow_preparer();
-    pilot_.turn(0.002);
+    camera_source_.turn(0.002);
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     *sleep_ms_ = 3'600'000;
     const std::size_t ticks_before = seen_->count();
-    const int steps_before = pilot_.steps();
-    const std::uint64_t pictures_before = programme_->books().pictures;
-    const std::uint64_t prepared_before = instants_->books().prepared;
+    const int steps_before = camera_source_.steps();
+    const std::uint64_t pictures_before = programme_->stats().pictures;
+    const std::uint64_t prepared_before = instants_->stats().prepared;
     std::uint64_t pulse = 1;
     EXPECT_TRUE(eventually([&] {
         push(++pulse);
-        return seen_->count() >= ticks_before + 50 && pilot_.steps() >= steps_before + 30 &&
-               programme_->books().pictures >= pictures_before + 20;
+        return seen_->count() >= ticks_before + 50 && camera_source_.steps() >= steps_before + 30 &&
+               programme_->stats().pictures >= pictures_before + 20;
     }));
-    EXPECT_LE(instants_->books().prepared, prepared_before + 1) << "it does sleep";
+    EXPECT_LE(instants_->stats().prepared, prepared_before + 1) << "it does sleep";
     *sleep_ms_ = 0;
     programme_->stop();
     expect_every_tick_once();
@@ -342,14 +342,14 @@ TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThan
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(rendered_turn_rad);
-    const std::uint64_t before = programme_->books().pictures;
+    camera_source_.turn(rendered_turn_rad);
+    const std::uint64_t before = programme_->stats().pictures;
     const auto begin = MonotonicClock::now();
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= before + 60; }));
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures >= before + 60; }));
     const double passed_ms = ms_since(begin);
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_GT(books.render_ms.p50, 1000 / settings_.rate_hz) << "longer than a tick";
-    const double rendered_ms = static_cast<double>(books.pictures - before) * books.render_ms.p50;
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_GT(stats.render_ms.p50, 1000 / settings_.rate_hz) << "longer than a tick";
+    const double rendered_ms = static_cast<double>(stats.pictures - before) * stats.render_ms.p50;
     EXPECT_LT(rendered_ms, 0.75 * passed_ms + 200) << "of " << passed_ms << " ms";
 }
 
@@ -358,10 +358,10 @@ TEST_F(ProgrammeTest, MakesNoPictureOfAPreviewThatNobodyAskedFor) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.01);
+    camera_source_.turn(0.01);
     ASSERT_TRUE(wait_for_ticks(20));
     EXPECT_FALSE(programme_->state().preview.view);
-    EXPECT_EQ(programme_->books().preview_pictures, 0u);
+    EXPECT_EQ(programme_->stats().preview_pictures, 0u);
 }
 
 TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
@@ -370,9 +370,9 @@ TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
     start();
     ASSERT_TRUE(wait_for_pulse(1));
     const CameraState stands = programme_->state().picture->job.camera;
-    pilot_.turn_preview(0.002);
-    pilot_.next([](PilotStep& step) { step.preview = step.view; });
-    ASSERT_TRUE(eventually([&] { return programme_->books().preview_pictures >= 10; }));
+    camera_source_.turn_preview(0.002);
+    camera_source_.next([](CameraStep& step) { step.preview = step.view; });
+    ASSERT_TRUE(eventually([&] { return programme_->stats().preview_pictures >= 10; }));
     const ProgrammeState state = programme_->state();
     ASSERT_TRUE(state.preview.picture);
     EXPECT_EQ(state.preview.picture->picture.size(), cv::Size(32, 24)) << "half of 64x48";
@@ -380,12 +380,12 @@ TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
     EXPECT_EQ(state.preview.picture->job.instant->set->trigger_index, 1u)
         << "of the instant that is there";
     EXPECT_TRUE(is_same_view(state.picture->job.camera, stands));
-    pilot_.next([](PilotStep& step) { step.preview.reset(); });
+    camera_source_.next([](CameraStep& step) { step.preview.reset(); });
     ASSERT_TRUE(eventually([&] { return !programme_->state().preview.picture; }));
     programme_->stop();
     expect_every_tick_once();
-    EXPECT_EQ(programme_->books().ticks, seen_->count());
-    EXPECT_GT(programme_->books().preview_ms.count, 0u);
+    EXPECT_EQ(programme_->stats().ticks, seen_->count());
+    EXPECT_GT(programme_->stats().preview_ms.count, 0u);
 }
 
 TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
@@ -393,14 +393,14 @@ TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(rendered_turn_rad);
-    pilot_.turn_preview(0.003);
-    pilot_.next([](PilotStep& step) { step.preview = step.view; });
-    ASSERT_TRUE(eventually([&] { return programme_->books().preview_pictures >= 10; }));
+    camera_source_.turn(rendered_turn_rad);
+    camera_source_.turn_preview(0.003);
+    camera_source_.next([](CameraStep& step) { step.preview = step.view; });
+    ASSERT_TRUE(eventually([&] { return programme_->stats().preview_pictures >= 10; }));
     programme_->stop();
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_EQ(books.ticks, seen_->count());
-    EXPECT_GE(books.pictures, books.preview_pictures) << "the programme goes first";
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_EQ(stats.ticks, seen_->count());
+    EXPECT_GE(stats.pictures, stats.preview_pictures) << "the programme goes first";
     expect_every_tick_once();
 }
 
@@ -409,17 +409,17 @@ TEST_F(ProgrammeTest, APreviewGoesOnAfterAResetOfTheGpuAndWithAnotherSynthesiser
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn_preview(0.002);
-    pilot_.next([](PilotStep& step) { step.preview = step.view; });
+    camera_source_.turn_preview(0.002);
+    camera_source_.next([](CameraStep& step) { step.preview = step.view; });
     const auto more_come = [&] {
-        const std::uint64_t before = programme_->books().preview_pictures;
-        return eventually([&] { return programme_->books().preview_pictures > before + 3; });
+        const std::uint64_t before = programme_->stats().preview_pictures;
+        return eventually([&] { return programme_->stats().preview_pictures > before + 3; });
     };
     ASSERT_TRUE(more_come());
     reset_gpu();
     ASSERT_TRUE(eventually([&] { return instants_->newest()->generation == 2; }));
     EXPECT_TRUE(more_come());
-    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    camera_source_.next([](CameraStep& step) { step.next_synthesiser = true; });
     ASSERT_TRUE(eventually([&] { return programme_->state().synthesiser != "mesh"; }));
     EXPECT_TRUE(eventually([&] {
         const auto picture = programme_->state().preview.picture;
@@ -432,13 +432,13 @@ TEST_F(ProgrammeTest, CountsWhatItRepeats) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.01);
+    camera_source_.turn(0.01);
     ASSERT_TRUE(wait_for_ticks(40));
     programme_->stop();
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_EQ(books.ticks, seen_->count()) << "sinks get every tick, also one that is repeated";
-    const std::uint64_t due = books.pictures + books.reprojected + books.repeated;
-    EXPECT_LE(due, books.ticks);
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_EQ(stats.ticks, seen_->count()) << "sinks get every tick, also one that is repeated";
+    const std::uint64_t due = stats.pictures + stats.reprojected + stats.repeated;
+    EXPECT_LE(due, stats.ticks);
     EXPECT_GE(due, 35u) << "every tick had another camera";
     expect_every_tick_once();
 }
@@ -450,13 +450,13 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
     start();
     ASSERT_TRUE(wait_for_pulse(1));
     // So slowly that hardly any picture is worth rendering, once it is known that they are long.
-    pilot_.turn(0.0001);
-    const std::uint64_t first = programme_->books().pictures;
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures >= first + 25; }));
-    const ProgrammeBooks before = programme_->books();
+    camera_source_.turn(0.0001);
+    const std::uint64_t first = programme_->stats().pictures;
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures >= first + 25; }));
+    const ProgrammeStats before = programme_->stats();
     ASSERT_TRUE(
-        eventually([&] { return programme_->books().reprojected >= before.reprojected + 20; }));
-    const ProgrammeBooks after = programme_->books();
+        eventually([&] { return programme_->stats().reprojected >= before.reprojected + 20; }));
+    const ProgrammeStats after = programme_->stats();
     EXPECT_LT(after.pictures - before.pictures, after.reprojected - before.reprojected);
     {
         const std::lock_guard lock(seen_->mutex);
@@ -475,7 +475,7 @@ TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
     start();
     ASSERT_TRUE(wait_for_pulse(1));
     constexpr double turn_rad = 0.004, furthest_rad = 0.8;
-    pilot_.turn(turn_rad, furthest_rad);
+    camera_source_.turn(turn_rad, furthest_rad);
     const auto azimuth_rad = [](const MadePicture& made) {
         return orbit_view_of(made.job.camera, 0).azimuth_rad;
     };
@@ -503,7 +503,7 @@ TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
         ASSERT_TRUE(wait_for_ticks(60));
-        EXPECT_EQ(programme_->books().pictures, pulse);
+        EXPECT_EQ(programme_->stats().pictures, pulse);
     }
 }
 
@@ -513,13 +513,13 @@ TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.0005);
-    ASSERT_TRUE(eventually([&] { return programme_->books().reprojected >= 5; }));
-    pilot_.turn(0);
+    camera_source_.turn(0.0005);
+    ASSERT_TRUE(eventually([&] { return programme_->stats().reprojected >= 5; }));
+    camera_source_.turn(0);
     EXPECT_TRUE(eventually([&] {
-        const ProgrammeBooks before = programme_->books();
-        if (!wait_for_ticks(40) || programme_->books().reprojected != before.reprojected ||
-            programme_->books().pictures != before.pictures)
+        const ProgrammeStats before = programme_->stats();
+        if (!wait_for_ticks(40) || programme_->stats().reprojected != before.reprojected ||
+            programme_->stats().pictures != before.pictures)
             return false;
         const ProgrammeState state = programme_->state();
         return !state.picture->rendered &&
@@ -535,8 +535,8 @@ TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
     ASSERT_TRUE(wait_for_pulse(1));
     // To and fro, until the reprojection is there first.
     double azimuth_rad = 0.5;
-    for (int cut = 0; cut < 100 && programme_->books().reprojected == 0; ++cut) {
-        pilot_.next([&](PilotStep& step) {
+    for (int cut = 0; cut < 100 && programme_->stats().reprojected == 0; ++cut) {
+        camera_source_.next([&](CameraStep& step) {
             step.preview = step.view;
             step.preview->azimuth_rad = azimuth_rad;
         });
@@ -545,11 +545,11 @@ TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
             return picture && std::abs(Reprojection::way(picture->job.camera,
                                                          programme_->state().view.camera())) > 0.4;
         }));
-        pilot_.next([&](PilotStep& step) { step.view.azimuth_rad = azimuth_rad; });
+        camera_source_.next([&](CameraStep& step) { step.view.azimuth_rad = azimuth_rad; });
         ASSERT_TRUE(wait_for_ticks(40));
         azimuth_rad = azimuth_rad > 0 ? -0.1 : 0.5;
     }
-    EXPECT_GT(programme_->books().reprojected, 0u);
+    EXPECT_GT(programme_->stats().reprojected, 0u);
     const std::lock_guard lock(seen_->mutex);
     EXPECT_EQ(seen_->empty_pictures, 0);
 }
@@ -559,10 +559,10 @@ TEST_F(ProgrammeTest, CutsToWhereNoPictureCanBeCarried) {
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    const std::uint64_t pictures = programme_->books().pictures;
-    pilot_.next([](PilotStep& step) { step.view.azimuth_rad += 0.5; });
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > pictures; }));
-    EXPECT_EQ(programme_->books().reprojected, 0u);
+    const std::uint64_t pictures = programme_->stats().pictures;
+    camera_source_.next([](CameraStep& step) { step.view.azimuth_rad += 0.5; });
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > pictures; }));
+    EXPECT_EQ(programme_->stats().reprojected, 0u);
 }
 
 TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
@@ -570,7 +570,7 @@ TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
     push(1, 200);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.001);
+    camera_source_.turn(0.001);
     ASSERT_TRUE(wait_for_ticks(20));
     for (int resets = 1; resets <= 2; ++resets) {
         reset_gpu();
@@ -578,8 +578,8 @@ TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
             const auto newest = instants_->newest();
             return newest->generation == static_cast<std::uint64_t>(1 + resets);
         }));
-        const std::uint64_t before = programme_->books().pictures;
-        ASSERT_TRUE(eventually([&] { return programme_->books().pictures > before + 5; }));
+        const std::uint64_t before = programme_->stats().pictures;
+        ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > before + 5; }));
     }
     const auto red = static_cast<unsigned char>(20);
     push(2, red);
@@ -587,9 +587,9 @@ TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
     ASSERT_TRUE(wait_for_ticks(2));
     programme_->stop();
     EXPECT_EQ(contexts_.losses(), 2);
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_GT(books.repeated + books.reprojected, 0u) << "what was due meanwhile";
-    EXPECT_EQ(books.ticks, seen_->count());
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_GT(stats.repeated + stats.reprojected, 0u) << "what was due meanwhile";
+    EXPECT_EQ(stats.ticks, seen_->count());
     EXPECT_NEAR(seen_->last_middle[0], red, 2);
     expect_every_tick_once();
 }
@@ -603,7 +603,7 @@ TEST_F(ProgrammeTest, ASinkThatThrowsIsClosedAndNamedAndTheOthersGoOn) {
     ASSERT_TRUE(wait_for_ticks(20));
     programme_->stop();
     EXPECT_EQ(broken->count(), 3u) << "it is asked no more";
-    const std::vector<SinkState> sinks = programme_->books().sinks;
+    const std::vector<SinkState> sinks = programme_->stats().sinks;
     ASSERT_EQ(sinks.size(), 2u);
     EXPECT_EQ(sinks[0].failure, "");
     EXPECT_EQ(sinks[0].pictures, seen_->count());
@@ -621,7 +621,7 @@ TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
     push(1);
     ASSERT_TRUE(wait_for_ticks(2));
     programme_->stop();
-    EXPECT_EQ(programme_->books().sinks.at(1).failure, "the line did not end well");
+    EXPECT_EQ(programme_->stats().sinks.at(1).failure, "the line did not end well");
     EXPECT_TRUE(seen_->is_finished);
 }
 
@@ -632,9 +632,9 @@ TEST_F(ProgrammeTest, CountsTicksThatPassedBeforeItCameToThem) {
     push(1);
     ASSERT_TRUE(wait_for_ticks(8));
     programme_->stop();
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_GE(static_cast<double>(books.missed), 0.5 * rate_hz - 2);
-    EXPECT_GE(books.late_ms.max, 400);
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_GE(static_cast<double>(stats.missed), 0.5 * rate_hz - 2);
+    EXPECT_GE(stats.late_ms.max, 400);
     expect_every_tick_once();
 }
 
@@ -650,7 +650,7 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
         const auto picture = programme_->state().picture;
         return picture && picture->job.instant->instant->level > 0;
     }));
-    pilot_.next([](PilotStep& step) { step.time.toggle_hold = true; });
+    camera_source_.next([](CameraStep& step) { step.time.toggle_hold = true; });
     ASSERT_TRUE(eventually([&] { return programme_->state().time.is_held; }));
     *sleep_ms_ = 0;
     ASSERT_TRUE(eventually([&] {
@@ -659,15 +659,15 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
     })) << "what stands still is shown as well as can be";
     EXPECT_EQ(programme_->state().render_level(), 0) << "of what is shown";
     EXPECT_EQ(programme_->state().prepare_level(), 0);
-    EXPECT_EQ(programme_->books().rest_ms.count, 1u);
-    EXPECT_GT(programme_->books().rest_ms.max, 0);
+    EXPECT_EQ(programme_->stats().rest_ms.count, 1u);
+    EXPECT_GT(programme_->stats().rest_ms.max, 0);
     const std::uint64_t held = shown_pulse();
     push(pulse + 10);
-    const std::uint64_t before = programme_->books().pictures;
-    pilot_.turn(0.01);
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > before + 5; }));
+    const std::uint64_t before = programme_->stats().pictures;
+    camera_source_.turn(0.01);
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > before + 5; }));
     EXPECT_EQ(shown_pulse(), held) << "the camera flies and time stands";
-    pilot_.next([](PilotStep& step) { step.time.toggle_hold = true; });
+    camera_source_.next([](CameraStep& step) { step.time.toggle_hold = true; });
     EXPECT_TRUE(wait_for_pulse(pulse + 10)) << "what came meanwhile";
     EXPECT_FALSE(programme_->state().time.is_held);
 }
@@ -681,20 +681,20 @@ TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
     EXPECT_FALSE(programme_->state().behind_s);
-    pilot_.next([](PilotStep& step) { step.time.pulses = -2; });
+    camera_source_.next([](CameraStep& step) { step.time.pulses = -2; });
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_NEAR(*programme_->state().behind_s, 2 / rate_hz, 1e-9);
     push(6);
     ASSERT_TRUE(eventually([&] { return *programme_->state().behind_s > 2.5 / rate_hz; }))
         << "it stands while the stage goes on";
     EXPECT_EQ(shown_pulse(), 3u);
-    pilot_.next([](PilotStep& step) { step.time.pulses = 1; });
+    camera_source_.next([](CameraStep& step) { step.time.pulses = 1; });
     ASSERT_TRUE(wait_for_pulse(4));
-    pilot_.next([](PilotStep& step) { step.time.pulses = -100; });
+    camera_source_.next([](CameraStep& step) { step.time.pulses = -100; });
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.next([](PilotStep& step) { step.time.pulses = 100; });
+    camera_source_.next([](CameraStep& step) { step.time.pulses = 100; });
     ASSERT_TRUE(wait_for_pulse(6));
-    pilot_.next([](PilotStep& step) { step.time.to_live = true; });
+    camera_source_.next([](CameraStep& step) { step.time.to_live = true; });
     push(7);
     ASSERT_TRUE(wait_for_pulse(7));
     EXPECT_FALSE(programme_->state().behind_s);
@@ -711,11 +711,11 @@ TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndGoesBackToLive) {
     for (std::uint64_t pulse = 1; pulse <= 8; ++pulse) push(pulse);
     ASSERT_TRUE(wait_for_pulse(8));
     const Pose live = programme_->state().picture->job.camera.world_from_camera;
-    pilot_.next([](PilotStep& step) { step.time.calls = {{ReplayAction::play_clip}}; });
+    camera_source_.next([](CameraStep& step) { step.time.calls = {{ReplayAction::play_clip}}; });
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(programme_->state().replay.mode, ReplayMode::clip);
-    EXPECT_EQ(pilot_.shot(), 5);
-    pilot_.next([](PilotStep& step) { step.time.to_live = true; });
+    EXPECT_EQ(camera_source_.shot(), 5);
+    camera_source_.next([](CameraStep& step) { step.time.to_live = true; });
     ASSERT_TRUE(eventually([&] { return !programme_->state().time.pulse; }));
     push(9);
     ASSERT_TRUE(wait_for_pulse(9));
@@ -733,23 +733,23 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
     // To stand where it is is no jump.
-    pilot_.next([](PilotStep& step) { step.time.speed_steps = 1; });
+    camera_source_.next([](CameraStep& step) { step.time.speed_steps = 1; });
     ASSERT_TRUE(eventually([&] { return programme_->state().time.pulse.has_value(); }));
-    EXPECT_EQ(programme_->books().seek_ms.count, 0u);
+    EXPECT_EQ(programme_->stats().seek_ms.count, 0u);
     for (std::uint64_t seek = 1; seek <= 3; ++seek) {
         const int pulses = seek == 2 ? 3 : -3;
         const std::uint64_t wanted = seek == 2 ? 5 : 2;
-        pilot_.next([&](PilotStep& step) { step.time.pulses = pulses; });
+        camera_source_.next([&](CameraStep& step) { step.time.pulses = pulses; });
         ASSERT_TRUE(wait_for_pulse(wanted));
-        ASSERT_TRUE(eventually([&] { return programme_->books().seek_ms.count == seek; }));
+        ASSERT_TRUE(eventually([&] { return programme_->stats().seek_ms.count == seek; }));
     }
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_GT(books.seek_ms.max, 0);
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_GT(stats.seek_ms.max, 0);
     // And where the time went: no step took more than the whole, and preparing takes time.
-    const SeekSteps<Percentiles>& steps = books.seek_steps_ms;
+    const SeekSteps<Percentiles>& steps = stats.seek_steps_ms;
     for (const Percentiles& step : {steps.wait, steps.fetch, steps.prepare, steps.picture}) {
         EXPECT_EQ(step.count, 3u);
-        EXPECT_LE(step.max, books.seek_ms.max);
+        EXPECT_LE(step.max, stats.seek_ms.max);
     }
     EXPECT_GT(steps.prepare.max, 0);
 }
@@ -759,9 +759,9 @@ TEST_F(ProgrammeTest, APictureThatIsPausedWaitsBetweenItsSlices) {
     push(1);
     ASSERT_TRUE(eventually([&] { return instants_->newest() != nullptr; }));
     const SynthesiserEntry entry = find_synthesiser(settings_.synthesiser);
-    PictureMaker still(entry, settings_.format, contexts_, instants_->right_of_way(),
+    PictureMaker still(entry, settings_.format, contexts_, instants_->render_priority(),
                        PictureMaker::Manner::in_slices);
-    PictureMaker other(entry, settings_.format, contexts_, instants_->right_of_way());
+    PictureMaker other(entry, settings_.format, contexts_, instants_->render_priority());
     ASSERT_TRUE(eventually([&] { return still.is_idle() && other.is_idle(); }));
     const PictureJob job{instants_->newest(), {}, render_levels().front()};
     still.pause(true);
@@ -787,13 +787,13 @@ TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
-    pilot_.next([](PilotStep& step) { step.time.pulses = -2; });
+    camera_source_.next([](CameraStep& step) { step.time.pulses = -2; });
     ASSERT_TRUE(wait_for_pulse(1));
     for (std::uint64_t pulse = 4; pulse <= 12; ++pulse) push(pulse);
     ASSERT_TRUE(eventually([&] { return instants_->past_span()->oldest == 10; }));
-    const std::uint64_t before = programme_->books().pictures;
-    pilot_.turn(0.01);
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > before + 10; }));
+    const std::uint64_t before = programme_->stats().pictures;
+    camera_source_.turn(0.01);
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > before + 10; }));
     EXPECT_EQ(shown_pulse(), 1u);
 }
 
@@ -802,10 +802,10 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.turn(0.001);
+    camera_source_.turn(0.001);
     ASSERT_TRUE(wait_for_ticks(3));
     const std::string before = programme_->state().synthesiser;
-    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    camera_source_.next([](CameraStep& step) { step.next_synthesiser = true; });
     ASSERT_TRUE(eventually([&] {
         const ProgrammeState state = programme_->state();
         return state.synthesiser != before &&
@@ -816,14 +816,14 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     ASSERT_TRUE(wait_for_ticks(3));
     // And back, and to it again: nothing of when it was last in use is shown.
     const std::string after = programme_->state().synthesiser;
-    pilot_.next([](PilotStep& step) { step.next_synthesiser = true; });
+    camera_source_.next([](CameraStep& step) { step.next_synthesiser = true; });
     ASSERT_TRUE(eventually([&] { return programme_->state().synthesiser != after; }));
     push(3, 120);
     ASSERT_TRUE(wait_for_pulse(3));
     ASSERT_TRUE(wait_for_ticks(3));
     programme_->stop();
     expect_every_tick_once();
-    EXPECT_EQ(programme_->books().faults, 0);
+    EXPECT_EQ(programme_->stats().faults, 0);
     EXPECT_NEAR(seen_->last_middle[0], 120, 2);
 }
 
@@ -833,14 +833,14 @@ TEST_F(ProgrammeTest, ShowsTheSourceMapWhileThatIsAskedFor) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     EXPECT_FALSE(programme_->state().picture->sources);
-    const auto toggle = [](PilotStep& step) { step.toggle_source_map = true; };
-    pilot_.next(toggle);
+    const auto toggle = [](CameraStep& step) { step.toggle_source_map = true; };
+    camera_source_.next(toggle);
     ASSERT_TRUE(eventually([&] { return programme_->state().picture->sources.has_value(); }));
     const SourceMap sources = *programme_->state().picture->sources;
     EXPECT_EQ(sources.shares.rigs.size(), 2u);
     EXPECT_EQ(sources.legend.size(), 2u);
     EXPECT_TRUE(programme_->state().source_map);
-    pilot_.next(toggle);
+    camera_source_.next(toggle);
     ASSERT_TRUE(eventually([&] { return !programme_->state().picture->sources; }));
 }
 
@@ -849,13 +849,13 @@ TEST_F(ProgrammeTest, TellsHowLongAHandTookToThePicture) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    EXPECT_EQ(programme_->books().hand_ms.count, 0u);
-    pilot_.next([](PilotStep& step) {
+    EXPECT_EQ(programme_->stats().input_ms.count, 0u);
+    camera_source_.next([](CameraStep& step) {
         step.view.azimuth_rad = 0.1;
         step.hand = MonotonicClock::now();
     });
-    ASSERT_TRUE(eventually([&] { return programme_->books().hand_ms.count == 1; }));
-    EXPECT_GT(programme_->books().hand_ms.max, 0);
+    ASSERT_TRUE(eventually([&] { return programme_->stats().input_ms.count == 1; }));
+    EXPECT_GT(programme_->stats().input_ms.max, 0);
 }
 
 TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
@@ -864,12 +864,12 @@ TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    pilot_.next([](PilotStep& step) { step.hand = MonotonicClock::now(); });
+    camera_source_.next([](CameraStep& step) { step.hand = MonotonicClock::now(); });
     ASSERT_TRUE(wait_for_ticks(3));
-    pilot_.next([](PilotStep& step) { step.view.azimuth_rad = 0.1; });
-    const std::uint64_t pictures = programme_->books().pictures;
-    ASSERT_TRUE(eventually([&] { return programme_->books().pictures > pictures; }));
-    EXPECT_EQ(programme_->books().hand_ms.count, 0u) << "its time is not the later picture's";
+    camera_source_.next([](CameraStep& step) { step.view.azimuth_rad = 0.1; });
+    const std::uint64_t pictures = programme_->stats().pictures;
+    ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > pictures; }));
+    EXPECT_EQ(programme_->stats().input_ms.count, 0u) << "its time is not the later picture's";
 }
 
 TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
@@ -877,7 +877,7 @@ TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    const auto mark = [](PilotStep& step) {
+    const auto mark = [](CameraStep& step) {
         step.hand = MonotonicClock::now();
         step.time.mark_in = true;
     };
@@ -885,11 +885,11 @@ TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
     for (std::uint64_t pulse = 2; pulse < 8; ++pulse) {
         push(pulse);
         ASSERT_TRUE(eventually([&] {
-            pilot_.next(mark);
+            camera_source_.next(mark);
             return shown_pulse() == pulse;
         }));
     }
-    EXPECT_EQ(programme_->books().hand_ms.count, 0u) << "pictures are new, but not of the hand";
+    EXPECT_EQ(programme_->stats().input_ms.count, 0u) << "pictures are new, but not of the hand";
 }
 
 TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
@@ -925,18 +925,18 @@ TEST_F(ProgrammeTest, GoesOnBlackWhereASynthesiserLacksWhatItNeeds) {
     ASSERT_TRUE(wait_for_pulse(1));
     const ColourImage picture = programme_->state().picture->picture;
     EXPECT_LT(picture(24, 32)[0], 100);
-    EXPECT_EQ(programme_->books().faults, 0);
+    EXPECT_EQ(programme_->stats().faults, 0);
 }
 
 TEST_F(ProgrammeTest, EndsWhenItsPlanDoes) {
     make();
     push(1);
     programme_->start([](std::uint64_t pictures, double) { return pictures >= 12; });
-    pilot_.turn(0.01);
+    camera_source_.turn(0.01);
     ASSERT_TRUE(eventually([&] { return programme_->is_over(); }));
     programme_->stop();
-    const ProgrammeBooks books = programme_->books();
-    EXPECT_GE(books.ticks, 12u);
+    const ProgrammeStats stats = programme_->stats();
+    EXPECT_GE(stats.ticks, 12u);
     expect_every_tick_once();
 }
 
@@ -944,7 +944,7 @@ TEST_F(ProgrammeTest, HandsOnWhatEndedIt) {
     make();
     start();
     EXPECT_FALSE(programme_->is_over());
-    pilot_.fail_with("the deck broke");
+    camera_source_.fail_with("the deck broke");
     EXPECT_TRUE(eventually([&] {
         try {
             return programme_->is_over();

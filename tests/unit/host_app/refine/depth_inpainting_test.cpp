@@ -62,7 +62,7 @@ DepthImage closed_by_halves(const DepthImage& map, int halvings) {
     return closed;
 }
 
-class DepthCloserTest : public testing::Test {
+class DepthInpaintingTest : public testing::Test {
   protected:
     DepthImage closed(const DepthImage& depth_m, const DepthImage& measured_m,
                       const ColourImage& picture) {
@@ -70,17 +70,17 @@ class DepthCloserTest : public testing::Test {
         const Texture measured = filled_texture(TextureFormat::r32f, measured_m);
         const Texture colours = filled_texture(TextureFormat::rgba8, picture, Filter::linear);
         const Texture result(TextureFormat::r32f, depth_m.cols, depth_m.rows);
-        closer_.close(depth, measured, colours, Framebuffer({&result}));
+        inpainting_.close(depth, measured, colours, Framebuffer({&result}));
         return result.download();
     }
     static ColourImage grey(cv::Size size) { return {size, cv::Vec4b(128, 128, 128, 255)}; }
 
     EglContext context_;
     ShaderLibrary shaders_;
-    DepthCloser closer_{shaders_};
+    DepthInpainting inpainting_{shaders_};
 };
 
-TEST_F(DepthCloserTest, KeepsWhatIsKnownAndWhatWasGuessed) {
+TEST_F(DepthInpaintingTest, KeepsWhatIsKnownAndWhatWasGuessed) {
     DepthImage map(29, 37, 0.0f);
     cv::RNG random(1);
     for (float& z : map) {
@@ -99,7 +99,7 @@ TEST_F(DepthCloserTest, KeepsWhatIsKnownAndWhatWasGuessed) {
 
 /// A hole beside a near and a far surface is a part of the one that it looks like, and of the far
 /// one if it looks like neither.
-TEST_F(DepthCloserTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
+TEST_F(DepthInpaintingTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
     const cv::Rect hole(20, 10, 8, 20);
     DepthImage map(40, 48, 4.0f);
     map.colRange(0, 24) = 2.0f;
@@ -121,7 +121,7 @@ TEST_F(DepthCloserTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
 
 /// The distances at which a direction is looked along grow by a half, and are rounded: the third
 /// pixel is met at 3.375.
-TEST_F(DepthCloserTest, WeighsTheNearerPixelsOfOneSurfaceMore) {
+TEST_F(DepthInpaintingTest, WeighsTheNearerPixelsOfOneSurfaceMore) {
     DepthImage map(1, 5, 0.0f);
     map(0, 0) = 2.0f;
     map(0, 4) = 2.05f;
@@ -132,7 +132,7 @@ TEST_F(DepthCloserTest, WeighsTheNearerPixelsOfOneSurfaceMore) {
 }
 
 /// What other rigs carved away is not guessed from beside, whatever it looks like.
-TEST_F(DepthCloserTest, ClosesWhatWasCarvedAwayByPullAndPush) {
+TEST_F(DepthInpaintingTest, ClosesWhatWasCarvedAwayByPullAndPush) {
     DepthImage map(41, 67, 0.0f);
     map.colRange(0, 9) = 2.0f;
     map.colRange(50, 67) = 4.0f;
@@ -145,7 +145,7 @@ TEST_F(DepthCloserTest, ClosesWhatWasCarvedAwayByPullAndPush) {
     EXPECT_GT(cv::norm(result, closed(map, map, grey(map.size())), cv::NORM_INF), 0.1);
 }
 
-TEST_F(DepthCloserTest, KnowsNothingOfAnEmptyMap) {
+TEST_F(DepthInpaintingTest, KnowsNothingOfAnEmptyMap) {
     const DepthImage nothing(21, 33, 0.0f);
     EXPECT_EQ(cv::countNonZero(closed(nothing, nothing, grey(nothing.size()))), 0);
 }

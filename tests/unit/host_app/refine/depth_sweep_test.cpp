@@ -32,7 +32,7 @@ class DepthSweepTest : public testing::Test {
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
         return DepthImage(
-            consensus_.better(compared(*views.shown()[0]), compared(views.shown())).download())(
+            refinement_.better(compared(*views.shown()[0]), compared(views.shown())).download())(
             middle);
     }
     /// Mean, relative.
@@ -42,7 +42,7 @@ class DepthSweepTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    RigConsensus consensus_{shaders_};
+    MultiViewRefinement refinement_{shaders_};
 };
 
 /// The others stand 1 m aside: 4 % of depth is a pixel of their 26 px of parallax.

@@ -12,15 +12,15 @@
 namespace vantage {
 namespace {
 
-class EdgeTrustTest : public testing::Test {
+class EdgeConfidenceTest : public testing::Test {
   protected:
     cv::Mat1b judged(const DepthView& view) {
         RigSurface surface;
         std::unique_ptr<ColourCorrector> corrector;
         std::unique_ptr<DepthUploader> uploader;
         surface.upload(view, corrector, uploader);
-        trust_.judge(surface);
-        return surface.trust().texture().download();
+        confidence_.judge(surface);
+        return surface.confidence().texture().download();
     }
     static DepthView picture(cv::Size size) {
         DepthView view;
@@ -30,17 +30,17 @@ class EdgeTrustTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    EdgeTrust trust_{shaders_};
+    EdgeConfidence confidence_{shaders_};
 };
 
 /// Of 255, by the distance to the nearest pixel of another surface: a fiftieth beside it, all from
 /// three pixels on, and between them the square of the way.
-int trust_at(double away_px) {
+int confidence_at(double away_px) {
     const double way = (std::min(away_px, 3.0) - 1) / 2;
     return static_cast<int>(std::lround(255 * (0.02 + 0.98 * way * way)));
 }
 
-TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
+TEST_F(EdgeConfidenceTest, GrowsWithTheDistanceFromADepthEdge) {
     DepthView view = picture({41, 29});
     view.depth_m = DepthImage(view.colour.size(), 4.0f);
     // Guessed depth is as much a surface; no depth is another one.
@@ -48,7 +48,7 @@ TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
     view.depth_m(20, 33) = 0.0f;
     // A slope that is none.
     view.depth_m.colRange(0, 4) = 3.9f;
-    const cv::Mat1b trust = judged(view);
+    const cv::Mat1b confidence = judged(view);
     const auto is_other = [&](int x, int y, int u, int v) {
         const float a = std::abs(view.depth_m(y, x)), b = std::abs(view.depth_m(v, u));
         return std::max(a, b) > 1.04f * std::min(a, b);
@@ -60,7 +60,7 @@ TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
             for (int v = std::max(y - 2, 0); v <= std::min(y + 2, view.colour.rows - 1); ++v)
                 for (int u = std::max(x - 2, 0); u <= std::min(x + 2, view.colour.cols - 1); ++u)
                     if (is_other(x, y, u, v)) nearest = std::min(nearest, std::hypot(u - x, v - y));
-            EXPECT_NEAR(trust(y, x), trust_at(nearest), 1) << x << ' ' << y;
+            EXPECT_NEAR(confidence(y, x), confidence_at(nearest), 1) << x << ' ' << y;
             edges += nearest < 3;
         }
     EXPECT_GT(edges, 100);
@@ -68,18 +68,18 @@ TEST_F(EdgeTrustTest, GrowsWithTheDistanceFromADepthEdge) {
 
 /// Where the set is seen now, and where a performer, hardly there, stands before what is
 /// remembered.
-TEST_F(EdgeTrustTest, IsAShareOfWhatTheColoursOfASetCount) {
-    cv::Mat1b trust(2, 8);
-    for (int x = 0; x < 8; ++x) trust.col(x) = 36 * x;
-    ColourImage colours(trust.size());
+TEST_F(EdgeConfidenceTest, IsAShareOfWhatTheColoursOfASetCount) {
+    cv::Mat1b confidence(2, 8);
+    for (int x = 0; x < 8; ++x) confidence.col(x) = 36 * x;
+    ColourImage colours(confidence.size());
     cv::RNG random(1);
     random.fill(colours, cv::RNG::UNIFORM, 0, 256);
     FullscreenPass pass(shaders_, "colours_now.frag");
     const Texture target(TextureFormat::rgba8, 8, 2);
-    const Texture trusted = texture_of(TextureFormat::r8, trust);
-    const Texture matte = texture_of(TextureFormat::r8, cv::Mat1b(trust.size(), uchar{50}));
-    const Texture performers = texture_of(TextureFormat::r32f, DepthImage(trust.size(), 2.0f));
-    const Texture behind = texture_of(TextureFormat::r32f, DepthImage(trust.size(), 4.0f));
+    const Texture trusted = texture_of(TextureFormat::r8, confidence);
+    const Texture matte = texture_of(TextureFormat::r8, cv::Mat1b(confidence.size(), uchar{50}));
+    const Texture performers = texture_of(TextureFormat::r32f, DepthImage(confidence.size(), 2.0f));
+    const Texture behind = texture_of(TextureFormat::r32f, DepthImage(confidence.size(), 4.0f));
     for (const int counts : {255, 128, 4}) {
         for (cv::Vec4b& c : colours) c[3] = static_cast<uchar>(counts);
         const Texture set = texture_of(TextureFormat::rgba8, colours);
@@ -89,31 +89,31 @@ TEST_F(EdgeTrustTest, IsAShareOfWhatTheColoursOfASetCount) {
             texture.bind(unit);
             program.set(name, unit++);
         };
-        bind("set_colour", set);
+        bind("background_colour", set);
         bind("picture", set);
         bind("seen", matte);
         bind("matte", matte);
         bind("performers", performers);
-        bind("set_depth", behind);
-        bind("trust", trusted);
+        bind("background_depth", behind);
+        bind("confidence", trusted);
         const ColourImage now = drawn_by(pass, target);
         for (int y = 0; y < now.rows; ++y)
             for (int x = 0; x < now.cols; ++x) {
                 for (int c = 0; c < 3; ++c) EXPECT_EQ(now(y, x)[c], colours(y, x)[c]);
-                EXPECT_NEAR(now(y, x)[3], std::max(counts * trust(y, x) / 255.0, 1.0), 1);
+                EXPECT_NEAR(now(y, x)[3], std::max(counts * confidence(y, x) / 255.0, 1.0), 1);
                 EXPECT_GE(now(y, x)[3], 1) << "what is there counts";
             }
     }
 }
 
 /// A pixel of the map spans two of the picture.
-TEST_F(EdgeTrustTest, CountsPixelsOfThePictureWhateverTheMapsSize) {
+TEST_F(EdgeConfidenceTest, CountsPixelsOfThePictureWhateverTheMapsSize) {
     DepthView view = picture({32, 2});
     view.depth_m = DepthImage(1, 16, 2.0f);
     view.depth_m.colRange(8, 16) = 3.0f;
-    const cv::Mat1b trust = judged(view);
+    const cv::Mat1b confidence = judged(view);
     for (int x = 0; x < 32; ++x)
-        EXPECT_NEAR(trust(0, x), trust_at(x < 16 ? 16 - x : x - 15), 1) << x;
+        EXPECT_NEAR(confidence(0, x), confidence_at(x < 16 ? 16 - x : x - 15), 1) << x;
 }
 
 }  // namespace

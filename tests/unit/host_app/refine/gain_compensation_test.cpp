@@ -6,7 +6,7 @@ namespace vantage {
 namespace {
 
 using Gains = Eigen::Vector3d;
-constexpr double look_s = ColourHarmoniser::look_period_s;
+constexpr double look_s = GainCompensation::look_period_s;
 
 /// A patterned wall at z = 4 m, seen from (x, 0, 0) along z by a rig whose picture comes out with
 /// its own gains in linear light.
@@ -32,19 +32,19 @@ DepthView wall(const std::string& name, double x_m, const Gains& gains) {
 }
 
 /// The largest ratio, less 1, between two rigs' colours of one surface after the gains.
-double difference(const ColourHarmoniser& harmoniser,
+double difference(const GainCompensation& gain_compensation,
                   const std::map<std::string, Gains>& distorted) {
     double most = 0;
     for (const auto& [a, gains_a] : distorted)
         for (const auto& [b, gains_b] : distorted)
             for (int c = 0; c < 3; ++c)
-                most = std::max(most, harmoniser.rigs().at(a).gain()[c] * gains_a[c] /
-                                              (harmoniser.rigs().at(b).gain()[c] * gains_b[c]) -
+                most = std::max(most, gain_compensation.rigs().at(a).gain()[c] * gains_a[c] /
+                                              (gain_compensation.rigs().at(b).gain()[c] * gains_b[c]) -
                                           1);
     return most;
 }
 
-class HarmonisedRigs : public testing::Test {
+class CompensatedRigs : public testing::Test {
   protected:
     std::vector<DepthView> views() const {
         return {wall("west", -0.5, distorted_.at("west")),
@@ -53,118 +53,118 @@ class HarmonisedRigs : public testing::Test {
     }
     std::map<std::string, Gains> distorted_{
         {"west", {1.1, 1.0, 0.92}}, {"middle", {1, 1, 1}}, {"east", {0.9, 1.05, 1.0}}};
-    ColourHarmoniser harmoniser_;
+    GainCompensation gain_compensation_;
 };
 
-TEST_F(HarmonisedRigs, BecomeOfOneColourWithoutOvershootAndWithoutDrift) {
+TEST_F(CompensatedRigs, BecomeOfOneColourWithoutOvershootAndWithoutDrift) {
     const std::vector<DepthView> views = this->views();
-    harmoniser_.see(views, look_s);
-    double before = difference(harmoniser_, distorted_);
+    gain_compensation_.see(views, look_s);
+    double before = difference(gain_compensation_, distorted_);
     EXPECT_GT(before, 0.15);
     for (int look = 0; look < 150; ++look) {
-        harmoniser_.see(views, look_s);
-        const double now = difference(harmoniser_, distorted_);
+        gain_compensation_.see(views, look_s);
+        const double now = difference(gain_compensation_, distorted_);
         EXPECT_LT(now, before + 0.002) << look;
         before = now;
         Gains mean = Gains::Zero();
-        for (const auto& [name, rig] : harmoniser_.rigs()) mean += rig.log_gain / 3;
+        for (const auto& [name, rig] : gain_compensation_.rigs()) mean += rig.log_gain / 3;
         ASSERT_LT(mean.norm(), 1e-9) << "the stage as a whole keeps its colour";
     }
     EXPECT_LT(before, 0.012);
-    EXPECT_GT(harmoniser_.rigs().at("middle").samples, 500);
+    EXPECT_GT(gain_compensation_.rigs().at("middle").samples, 500);
 }
 
-TEST_F(HarmonisedRigs, AreCorrectedAfterTheirCalibration) {
+TEST_F(CompensatedRigs, AreCorrectedAfterTheirCalibration) {
     DepthView view = views()[0];
     view.colour_correction.matrix << 0.9, 0.1, 0, 0, 1, 0, 0.05, 0, 0.95;
     const Eigen::Matrix3d of_calibration = view.colour_correction.matrix;
-    harmoniser_.apply(view);
+    gain_compensation_.apply(view);
     EXPECT_EQ(view.colour_correction.matrix, of_calibration) << "a rig never seen";
     const std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 20; ++look) harmoniser_.see(views, look_s);
-    harmoniser_.apply(view);
-    const Gains gain = harmoniser_.rigs().at("west").gain();
+    for (int look = 0; look < 20; ++look) gain_compensation_.see(views, look_s);
+    gain_compensation_.apply(view);
+    const Gains gain = gain_compensation_.rigs().at("west").gain();
     EXPECT_LT(gain[0], 0.98) << "it is too red";
     EXPECT_TRUE(view.colour_correction.matrix.isApprox(gain.asDiagonal() * of_calibration));
 }
 
-TEST_F(HarmonisedRigs, AreLeftAloneWhereNobodySeesTheDifference) {
+TEST_F(CompensatedRigs, AreLeftAloneWhereNobodySeesTheDifference) {
     distorted_ = {{"west", {1.003, 1, 0.997}}, {"middle", {1, 1, 1}}, {"east", {1, 0.998, 1}}};
     std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 100; ++look) harmoniser_.see(views, look_s);
+    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, look_s);
     for (DepthView& view : views) {
-        harmoniser_.apply(view);
+        gain_compensation_.apply(view);
         EXPECT_TRUE(view.colour_correction.is_identity()) << view.name;
     }
 }
 
-TEST_F(HarmonisedRigs, NeverChangeFasterThanTheEyeForgives) {
+TEST_F(CompensatedRigs, NeverChangeFasterThanTheEyeForgives) {
     distorted_["east"] = {0.7, 1.3, 1.0};
     const std::vector<DepthView> views = this->views();
     for (int look = 0; look < 30; ++look) {
-        const auto before = harmoniser_.rigs();
-        harmoniser_.see(views, look_s);
+        const auto before = gain_compensation_.rigs();
+        gain_compensation_.see(views, look_s);
         for (const auto& [name, rig] : before)
-            ASSERT_LE((harmoniser_.rigs().at(name).log_gain - rig.log_gain).cwiseAbs().maxCoeff(),
-                      ColourHarmoniser::slew_per_s * look_s + 1e-12);
+            ASSERT_LE((gain_compensation_.rigs().at(name).log_gain - rig.log_gain).cwiseAbs().maxCoeff(),
+                      GainCompensation::slew_per_s * look_s + 1e-12);
     }
 }
 
 /// A thing as bright as can be walks through one rig's picture only, over a third of its width: a
 /// performer that hides the wall there, or a lamp's reflection.
-TEST_F(HarmonisedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
+TEST_F(CompensatedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
     distorted_ = {{"west", {1, 1, 1}}, {"middle", {1, 1, 1}}, {"east", {1, 1, 1}}};
     for (const bool has_depth : {true, false}) {
-        ColourHarmoniser harmoniser;
+        GainCompensation gain_compensation;
         for (int look = 0; look < 60; ++look) {
             std::vector<DepthView> views = this->views();
             const cv::Rect thing(2 * look % 80, 0, 40, 91);
             views[1].colour(thing).setTo(cv::Scalar(240, 235, 230, 255));
             if (has_depth) views[1].depth_m(thing).setTo(2.5f);
-            harmoniser.see(views, look_s);
-            for (const auto& [name, rig] : harmoniser.rigs())
+            gain_compensation.see(views, look_s);
+            for (const auto& [name, rig] : gain_compensation.rigs())
                 ASSERT_LT(rig.log_gain.cwiseAbs().maxCoeff(), 0.01)
                     << name << ", look " << look << ", has_depth " << has_depth;
         }
     }
 }
 
-TEST_F(HarmonisedRigs, GoOnFromTheirLastGainsWhenTheyComeBack) {
+TEST_F(CompensatedRigs, GoOnFromTheirLastGainsWhenTheyComeBack) {
     std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 100; ++look) harmoniser_.see(views, look_s);
-    const Gains last = harmoniser_.rigs().at("east").log_gain;
+    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, look_s);
+    const Gains last = gain_compensation_.rigs().at("east").log_gain;
     EXPECT_GT(last.norm(), 0.05);
     const DepthView east = views.back();
     views.pop_back();
-    for (int look = 0; look < 50; ++look) harmoniser_.see(views, look_s);
-    EXPECT_EQ(harmoniser_.rigs().at("east").log_gain, last);
+    for (int look = 0; look < 50; ++look) gain_compensation_.see(views, look_s);
+    EXPECT_EQ(gain_compensation_.rigs().at("east").log_gain, last);
     views.push_back(east);
-    harmoniser_.see(views, look_s);
-    EXPECT_LT((harmoniser_.rigs().at("east").log_gain - last).norm(), 0.01);
+    gain_compensation_.see(views, look_s);
+    EXPECT_LT((gain_compensation_.rigs().at("east").log_gain - last).norm(), 0.01);
 }
 
-TEST_F(HarmonisedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
+TEST_F(CompensatedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
     const DepthView apart[] = {wall("west", -10, {1.2, 1, 1}), wall("east", 10, {1, 1, 1})};
-    for (int look = 0; look < 10; ++look) harmoniser_.see(apart, look_s);
-    for (const auto& [name, rig] : harmoniser_.rigs()) {
+    for (int look = 0; look < 10; ++look) gain_compensation_.see(apart, look_s);
+    for (const auto& [name, rig] : gain_compensation_.rigs()) {
         EXPECT_EQ(rig.log_gain, Gains(Gains::Zero())) << name;
         EXPECT_EQ(rig.samples, 0);
     }
     DepthView without_depth = wall("middle", 0, {1, 1, 1});
     without_depth.depth_m.release();
     const DepthView blind[] = {without_depth, wall("east", 0.1, {1, 1, 1})};
-    harmoniser_.see(blind, look_s);
-    EXPECT_EQ(harmoniser_.rigs().count("middle"), 0u);
+    gain_compensation_.see(blind, look_s);
+    EXPECT_EQ(gain_compensation_.rigs().count("middle"), 0u);
 }
 
-TEST_F(HarmonisedRigs, AreLookedAtAFewTimesASecondOnly) {
+TEST_F(CompensatedRigs, AreLookedAtAFewTimesASecondOnly) {
     const std::vector<DepthView> views = this->views();
-    harmoniser_.see(views, 0);
-    const Gains first = harmoniser_.rigs().at("west").log_gain;
-    harmoniser_.see(views, 0.5 * look_s);
-    EXPECT_EQ(harmoniser_.rigs().at("west").log_gain, first);
-    harmoniser_.see(views, 0.5 * look_s);
-    EXPECT_NE(harmoniser_.rigs().at("west").log_gain, first);
+    gain_compensation_.see(views, 0);
+    const Gains first = gain_compensation_.rigs().at("west").log_gain;
+    gain_compensation_.see(views, 0.5 * look_s);
+    EXPECT_EQ(gain_compensation_.rigs().at("west").log_gain, first);
+    gain_compensation_.see(views, 0.5 * look_s);
+    EXPECT_NE(gain_compensation_.rigs().at("west").log_gain, first);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int consensus_width_px = 161, consensus_height_px = 107;
+constexpr int refinement_width_px = 161, refinement_height_px = 107;
 constexpr double f_px = 400, baseline_m = 0.5;
 constexpr float far_wall_m = 4;
 /// In both cameras' pictures, apart from each other, on the wall and as what is put there moves.
@@ -23,37 +23,37 @@ const cv::Rect behind(120, 60, 20, 16);
 DepthView wall(double x_m) {
     DepthView view;
     view.name = std::to_string(x_m);
-    view.K << f_px, 0, 0.5 * (consensus_width_px - 1), 0, f_px, 0.5 * (consensus_height_px - 1), 0,
+    view.K << f_px, 0, 0.5 * (refinement_width_px - 1), 0, f_px, 0.5 * (refinement_height_px - 1), 0,
         0, 1;
     view.world_from_camera.translation().x() = x_m;
     view.baseline_m = baseline_m;
     view.colour =
-        ColourImage(consensus_height_px, consensus_width_px, cv::Vec4b(90, 120, 150, 255));
-    view.depth_m = DepthImage(consensus_height_px, consensus_width_px, far_wall_m);
+        ColourImage(refinement_height_px, refinement_width_px, cv::Vec4b(90, 120, 150, 255));
+    view.depth_m = DepthImage(refinement_height_px, refinement_width_px, far_wall_m);
     return view;
 }
 
 /// Beside a rig whose second camera stands where this rig looks from.
 class FaultyPairTest : public testing::Test {
   protected:
-    DepthImage bettered(const DepthView& own, const DepthView& other, bool is_matched = false) {
+    DepthImage refined(const DepthView& own, const DepthView& other, bool is_matched = false) {
         const DepthView pair[] = {own, other};
         RigRoster views;
         views.upload(pair, nominal_dt_s);
         ComparedView view = compared(*views.shown()[0]);
         view.is_matched = is_matched;
-        return consensus_.better(view, compared(views.shown())).download();
+        return refinement_.better(view, compared(views.shown())).download();
     }
 
     EglContext context_;
     ShaderLibrary shaders_;
-    RigConsensus consensus_{shaders_};
+    MultiViewRefinement refinement_{shaders_};
 };
 
 TEST_F(FaultyPairTest, KeepsWhatTheOtherCannotConfirmWhereThePairHardlyErrs) {
     DepthView own = wall(0);
     own.depth_m(behind) = 1.5f * far_wall_m;
-    const DepthImage kept = bettered(own, wall(baseline_m));
+    const DepthImage kept = refined(own, wall(baseline_m));
     EXPECT_EQ(cv::norm(kept, own.depth_m, cv::NORM_INF), 0);
 }
 
@@ -63,12 +63,12 @@ TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) 
     // A tenth of the map is before the wall, and the other camera sees the wall through it.
     const cv::Rect before(130, 5, 30, 40);
     own.depth_m(before) = 0.9f * far_wall_m;
-    const DepthImage left = bettered(own, wall(baseline_m));
+    const DepthImage left = refined(own, wall(baseline_m));
     EXPECT_EQ(cv::countNonZero(left(before)), 0);
     EXPECT_EQ(cv::countNonZero(left(behind) != -1.5f * far_wall_m), 0);
     // What it does confirm, and what is outside its picture, stays.
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
-    EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, consensus_height_px)) != far_wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, refinement_height_px)) != far_wall_m), 0);
 }
 
 TEST_F(FaultyPairTest, IsOnlyCarvedWhereItWasMatched) {
@@ -78,7 +78,7 @@ TEST_F(FaultyPairTest, IsOnlyCarvedWhereItWasMatched) {
     own.depth_m(before) = 0.9f * far_wall_m;
     DepthImage carved = own.depth_m.clone();
     carved(before) = 0;
-    EXPECT_EQ(cv::norm(bettered(own, wall(baseline_m), true), carved, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(refined(own, wall(baseline_m), true), carved, cv::NORM_INF), 0);
 }
 
 /// Both matchers may be wrong in the same way: then the surfaces meet and the colours do not.
@@ -86,7 +86,7 @@ TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
     DepthView own = wall(0);
     own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.9f * far_wall_m;
     own.colour(behind).setTo(cv::Scalar(200, 20, 20, 255));
-    const DepthImage left = bettered(own, wall(baseline_m));
+    const DepthImage left = refined(own, wall(baseline_m));
     EXPECT_EQ(cv::countNonZero(left(behind) != -far_wall_m), 0);
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
 }
@@ -100,36 +100,36 @@ TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
     own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.7f * far_wall_m;
     DepthView other = wall(baseline_m);
     other.baseline_m = own.baseline_m;
-    EXPECT_EQ(cv::countNonZero(bettered(own, other)(behind)), behind.area());
+    EXPECT_EQ(cv::countNonZero(refined(own, other)(behind)), behind.area());
 }
 
 /// A rig between two others, all of them before a wall and a square, whose matcher took a strip of
 /// the wall beside the square for the square.
 class DoubtedStripTest : public testing::Test {
   protected:
-    static constexpr int consensus_width_px = 161, consensus_height_px = 119;
+    static constexpr int refinement_width_px = 161, refinement_height_px = 119;
     static constexpr float far_wall_m = 4, square_m = 2;
     static const cv::Rect strip;
 
     static DepthView film(double x_m) {
         DepthView view =
-            wall_and_square(x_m, consensus_width_px, consensus_height_px, {.waves = true});
+            wall_and_square(x_m, refinement_width_px, refinement_height_px, {.waves = true});
         view.baseline_m = 0.05;
         return view;
     }
 
-    DepthImage bettered_strip(const DepthView& own, bool is_matched = false) {
+    DepthImage refined_strip(const DepthView& own, bool is_matched = false) {
         const DepthView rigs[] = {own, film(-0.4), film(0.4)};
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
         ComparedView view = compared(*views.shown()[0]);
         view.is_matched = is_matched;
-        return consensus_.better(view, compared(views.shown())).download()(strip);
+        return refinement_.better(view, compared(views.shown())).download()(strip);
     }
 
     EglContext context_;
     ShaderLibrary shaders_;
-    RigConsensus consensus_{shaders_};
+    MultiViewRefinement refinement_{shaders_};
 };
 
 const cv::Rect DoubtedStripTest::strip(42, 40, 6, 40);
@@ -139,7 +139,7 @@ TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
     ASSERT_EQ(cv::countNonZero(own.depth_m(strip) != far_wall_m), 0);
     ASSERT_EQ(own.depth_m(60, 50), square_m);
     own.depth_m(strip) = square_m;
-    const DepthImage mended = bettered_strip(own);
+    const DepthImage mended = refined_strip(own);
     const int right = cv::countNonZero(cv::abs(mended - far_wall_m) < 0.03 * far_wall_m);
     EXPECT_GE(right, 0.9 * strip.area()) << mended;
 }
@@ -147,9 +147,9 @@ TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
 TEST_F(DoubtedStripTest, ThatWasMatchedTakesOverDepthOnlyWhereItIsCarvedAway) {
     DepthView own = film(0);
     own.depth_m(strip) = 1.3f * far_wall_m;
-    EXPECT_EQ(cv::countNonZero(bettered_strip(own, true) != 1.3f * far_wall_m), 0);
+    EXPECT_EQ(cv::countNonZero(refined_strip(own, true) != 1.3f * far_wall_m), 0);
     own.depth_m(strip) = square_m;
-    const DepthImage mended = bettered_strip(own, true);
+    const DepthImage mended = refined_strip(own, true);
     EXPECT_GE(cv::countNonZero(mended == far_wall_m), 0.9 * strip.area()) << mended;
 }
 
@@ -158,7 +158,7 @@ TEST_F(DoubtedStripTest, KeepsItsDepthInAMapThatErrsNowhereElseAndHardlyHere) {
     // Fewer pixels than what is measured, not matched, has wrong.
     const cv::Rect few(strip.x, strip.y, 3, 12);
     own.depth_m(few) = 1.3f * far_wall_m;
-    const DepthImage kept = bettered_strip(own);
+    const DepthImage kept = refined_strip(own);
     EXPECT_EQ(cv::norm(kept, own.depth_m(strip), cv::NORM_INF), 0);
 }
 

@@ -12,8 +12,8 @@ inline constexpr float wall_behind_m = 4, near_pole_m = 2;
 inline const cv::Rect pole_place(80, 20, 3, 80);
 
 /// A rig at x that looks at a checkered wall behind a pole, and takes the pole for the wall.
-inline SetPicture set_with_pole(double x_m, const cv::Rect& pole = pole_place) {
-    SetPicture set;
+inline BackgroundView background_with_pole(double x_m, const cv::Rect& pole = pole_place) {
+    BackgroundView set;
     set.K << 150, 0, 80, 0, 150, 60, 0, 0, 1;
     set.world_from_camera.translation().x() = x_m;
     set.baseline_m = 0.15;

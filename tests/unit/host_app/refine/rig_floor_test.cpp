@@ -36,7 +36,7 @@ DepthView film_of_floor(double aside_m, double eye_height_m = 1.5) {
 class RigFloorTest : public testing::Test {
   protected:
     /// Of the first of three rigs, as they stand above the floor of the world.
-    DepthImage bettered(const cv::Vec4b& strip_colour, double eye_height_m = 1.5) {
+    DepthImage refined(const cv::Vec4b& strip_colour, double eye_height_m = 1.5) {
         DepthView own = film_of_floor(0, eye_height_m);
         floor_m_ = own.depth_m.clone();
         wrong_m_ = 1.4f * floor_m_;
@@ -47,7 +47,7 @@ class RigFloorTest : public testing::Test {
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
         return DepthImage(
-            consensus_.better_set(compared(*views.shown()[0]), compared(views.shown())).download())(
+            refinement_.refine_background(compared(*views.shown()[0]), compared(views.shown())).download())(
             strip);
     }
     int like(const DepthImage& depth_m, const DepthImage& map_m) const {
@@ -56,20 +56,20 @@ class RigFloorTest : public testing::Test {
 
     EglContext context_;
     ShaderLibrary shaders_;
-    RigConsensus consensus_{shaders_};
+    MultiViewRefinement refinement_{shaders_};
     DepthImage floor_m_, wrong_m_;
 };
 
 TEST_F(RigFloorTest, APlainFloorIsWhereTheWorldHasIt) {
-    EXPECT_EQ(like(bettered({200, 210, 205, 255}), floor_m_), strip.area());
+    EXPECT_EQ(like(refined({200, 210, 205, 255}), floor_m_), strip.area());
 }
 
 TEST_F(RigFloorTest, WhatLooksOtherwiseThanTheFloorDoesToOtherRigsIsNone) {
-    EXPECT_EQ(like(bettered({20, 40, 160, 255}), floor_m_), 0);
+    EXPECT_EQ(like(refined({20, 40, 160, 255}), floor_m_), 0);
 }
 
 TEST_F(RigFloorTest, WhereNothingLiesOnTheWorldsFloorThereIsNone) {
-    EXPECT_EQ(like(bettered({200, 210, 205, 255}, 2.5), floor_m_), 0);
+    EXPECT_EQ(like(refined({200, 210, 205, 255}, 2.5), floor_m_), 0);
 }
 
 }  // namespace

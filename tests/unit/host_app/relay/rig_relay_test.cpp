@@ -177,7 +177,7 @@ TEST_F(RigRelayTest, AsksTheRigOnlyForWhatSomeHostAsksFor) {
     const std::unique_ptr<RigRelay> relay = relay_of(rig);
     ASSERT_TRUE(eventually([&] { return rig.status().hosts.size() == 1; }));
     rig.publish(make_frame(1));
-    EXPECT_EQ(rig.status().hosts[0].counters.thinned, 1u) << "nobody wants it";
+    EXPECT_EQ(rig.status().hosts[0].counters.skipped, 1u) << "nobody wants it";
     Tap came;
     StageReceiver host(behind(*relay, "first.key"), StageReceiver::Purpose::film, came.tap());
     host.ask("rig-a", true, 2);
@@ -189,10 +189,10 @@ TEST_F(RigRelayTest, AsksTheRigOnlyForWhatSomeHostAsksFor) {
     }));
     const LinkCounters before = rig.status().hosts[0].counters;
     rig.publish(make_frame(10'001));
-    EXPECT_EQ(rig.status().hosts[0].counters.thinned, before.thinned + 1) << "every second one";
+    EXPECT_EQ(rig.status().hosts[0].counters.skipped, before.skipped + 1) << "every second one";
     EXPECT_FALSE(came.came().contains(10'001));
     // Hosts see in their account what was left out before it came to the relay.
-    ASSERT_TRUE(eventually([&] { return of(host).link.thinned >= 1; }));
+    ASSERT_TRUE(eventually([&] { return of(host).link.skipped >= 1; }));
 }
 
 TEST_F(RigRelayTest, SaysWhyARigGivesNothingAndTakesItBackWhenItIsStartedAnew) {

@@ -13,7 +13,7 @@ class PastTime : public testing::TestWithParam<double> {
   protected:
     PastTime() { use_time_zone("Europe/Stockholm"); }
     /// Ten minutes before and after midnight there.
-    PastSets::Span span() const {
+    PastFrameSets::Span span() const {
         const PulseGrid grid(GetParam());
         constexpr std::int64_t midnight_s = 1'795'042'800, ns = 1'000'000'000;
         return {.oldest = grid.index_at_or_before(tai_from_ns((midnight_s - 600) * ns)),

@@ -57,7 +57,7 @@ class ReplayTest : public testing::Test {
     }
 
     Replay replay_;
-    std::optional<PastSets::Span> span_ = PastSets::Span{.oldest = 1000, .newest = 2000};
+    std::optional<PastFrameSets::Span> span_ = PastFrameSets::Span{.oldest = 1000, .newest = 2000};
     std::uint64_t shown_ = 2000;
 };
 
@@ -345,10 +345,10 @@ TEST_F(ReplayTest, AClipThatIsLostWhileItPlaysStandsAndSaysSo) {
     ask(Action::clip_speed, 1);
     ask(Action::play_clip);
     pass(2);
-    span_ = PastSets::Span{.oldest = 1105, .newest = 2105};
+    span_ = PastFrameSets::Span{.oldest = 1105, .newest = 2105};
     pass(1);
     EXPECT_NE(state().notice.find("the beginning of clip 1 leaves"), std::string::npos);
-    span_ = PastSets::Span{.oldest = 1200, .newest = 2200};
+    span_ = PastFrameSets::Span{.oldest = 1200, .newest = 2200};
     pass(1);
     EXPECT_TRUE(replay_.transport().is_held()) << "the last picture, and nothing else";
     EXPECT_FALSE(replay_.transport().pulse());
@@ -398,7 +398,7 @@ TEST(ReplayOfATake, KnowsNoLiveAndBeginsWithItsBook) {
     book.clips[3] = {.in = 30, .out = 40, .speed = 0.5};
     book.list = {{.clip = 3}, {.clip = 3, .speed = 2}};
     Replay replay(Transport::of_take(10, 1), book);
-    const std::optional<PastSets::Span> span = PastSets::Span{.oldest = 0, .newest = 100};
+    const std::optional<PastFrameSets::Span> span = PastFrameSets::Span{.oldest = 0, .newest = 100};
     EXPECT_EQ(replay.state().mode, ReplayMode::past);
     EXPECT_EQ(replay.state().hand, 3);
     replay.take({.calls = {{Action::play_list}}}, 10, span);

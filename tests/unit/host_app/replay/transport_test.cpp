@@ -18,7 +18,7 @@ class TransportTest : public testing::Test {
     void advance(double dt_s) { transport_.advance(dt_s, 25, span_); }
 
     Transport transport_;
-    std::optional<PastSets::Span> span_ = PastSets::Span{.oldest = 100, .newest = 160};
+    std::optional<PastFrameSets::Span> span_ = PastFrameSets::Span{.oldest = 100, .newest = 160};
 };
 
 TEST_F(TransportTest, IsLiveUntilSomebodySaysOtherwise) {
@@ -73,7 +73,7 @@ TEST_F(TransportTest, StopsAtBothEndsOfWhatIsKept) {
 
 TEST_F(TransportTest, MovesOnFromWhatTheBufferHasDropped) {
     travel(-1000, 155);
-    span_ = PastSets::Span{.oldest = 130, .newest = 190};
+    span_ = PastFrameSets::Span{.oldest = 130, .newest = 190};
     travel(+1, 100);
     EXPECT_EQ(transport_.pulse(), 130);
 }

@@ -21,7 +21,7 @@ TEST(DeskFigures, SayWhatTheSummarySays) {
     report.programme.render_shares = {0, 0, 0, 0, 0.96, 0.04};
     report.programme.prepare_shares = {0, 1};
     report.instants_prepared = 141;
-    report.sets_superseded = 3;
+    report.frame_sets_superseded = 3;
     const std::vector<DeskFigure> figures = desk_figures(report);
     EXPECT_EQ(value_of(figures, "ticks, reprojected, repeated, missed"), "450, 31, 7, 2");
     EXPECT_EQ(value_of(figures, "between pictures"), "67 ms, 99 % 69, at worst 134");

@@ -146,9 +146,9 @@ TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
     push(13);
     show().finish();
     const LiveReport report = show().report();
-    EXPECT_EQ(report.sets_closed, 14u);
-    EXPECT_EQ(report.sets_complete, 10u);
-    EXPECT_EQ(report.instants_prepared + report.sets_superseded, 14u);
+    EXPECT_EQ(report.frame_sets_closed, 14u);
+    EXPECT_EQ(report.frame_sets_complete, 10u);
+    EXPECT_EQ(report.instants_prepared + report.frame_sets_superseded, 14u);
     ASSERT_EQ(report.rigs.size(), 2u);
     EXPECT_EQ(report.rigs[0].fused + report.rigs[0].superseded, 14u);
     EXPECT_EQ(report.rigs[1].fused + report.rigs[1].superseded, 10u);
@@ -158,7 +158,7 @@ TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
     const nlohmann::ordered_json json = to_json(report);
     EXPECT_EQ(json["sets"]["partial"], 4);
     EXPECT_EQ(json["sets"]["fused"], report.instants_prepared);
-    EXPECT_EQ(json["instants"]["skipped"], report.sets_superseded);
+    EXPECT_EQ(json["instants"]["skipped"], report.frame_sets_superseded);
     EXPECT_EQ(json["rigs"][0]["name"], "north");
     EXPECT_EQ(json["rigs"][0]["host"]["fused"], report.rigs[0].fused);
     EXPECT_NEAR(json["rigs"][0]["colour"]["gains"][1], 1, 0.01) << "both show one colour";
@@ -187,13 +187,13 @@ TEST_F(LiveShowTest, DoesNotCountAgainWhatIsLookedAtAgain) {
     }
     for (const double steps : {-2, +1, -2}) {
         const std::uint64_t before = show().state().picture->job.instant->set->trigger_index;
-        show().controls().hands().put({.past_steps = steps}, MonotonicClock::now());
+        show().controls().operator_input().put({.past_steps = steps}, MonotonicClock::now());
         ASSERT_TRUE(shows(before + static_cast<std::uint64_t>(static_cast<std::int64_t>(steps))));
     }
     show().finish();
     const LiveReport report = show().report();
     EXPECT_EQ(report.instants_prepared, 4u);
-    EXPECT_EQ(report.sets_closed, 4u);
+    EXPECT_EQ(report.frame_sets_closed, 4u);
     EXPECT_EQ(report.rigs[0].fused, 4u);
 }
 
@@ -236,7 +236,7 @@ TEST_F(LiveShowTest, AFilmDoesNotBeginBeforeTheFirstPicture) {
     show().start();
     std::this_thread::sleep_for(400ms);
     push(1);
-    ASSERT_TRUE(wait_for([&] { return show().books().ticks > 5; }));
+    ASSERT_TRUE(wait_for([&] { return show().stats().ticks > 5; }));
     show().finish();
     const ProbedFilm film = probe_film(settings_.outputs[0]);
     ASSERT_FALSE(film.times_s.empty());
@@ -260,10 +260,10 @@ TEST_F(LiveShowTest, ReportsTheSourceMapAndTheEyesOfTheLastPicture) {
     settings_.format.stereoscopy = Stereoscopy{};
     plan_.frames = 1;
     const LiveReport report = fly();
-    ASSERT_TRUE(report.novelty);
-    EXPECT_EQ(report.novelty->rigs.size(), 2u);
-    EXPECT_NEAR(report.novelty->rigs.at("north") + report.novelty->rigs.at("south") +
-                    report.novelty->filled,
+    ASSERT_TRUE(report.source_map);
+    EXPECT_EQ(report.source_map->rigs.size(), 2u);
+    EXPECT_NEAR(report.source_map->rigs.at("north") + report.source_map->rigs.at("south") +
+                    report.source_map->filled,
                 1, 1e-6);
     const nlohmann::ordered_json json = to_json(report);
     EXPECT_EQ(json["stereoscopic"]["convergence_m"], 4.5);

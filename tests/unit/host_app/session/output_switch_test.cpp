@@ -13,7 +13,7 @@ class OutputSwitchTest : public testing::Test {
         : desk_({.format = {.width_px = 64, .height_px = 48, .encoder = "libx264"},
                  .urls = {"udp://127.0.0.1:5998", "udp://127.0.0.1:5999"}}),
           switch_(desk_) {}
-    OutputDesk desk_;
+    OutputSupervisor desk_;
     OutputSwitch switch_;
     const MonotonicTime now_ = MonotonicClock::now();
 };

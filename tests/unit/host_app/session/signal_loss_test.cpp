@@ -72,7 +72,7 @@ TEST_F(NoPictureYet, IsWhatTheLogSaysWhileTheRendererIsMade) {
     ASSERT_TRUE(show_->wait_for_rigs(30s, stop_));
     EXPECT_EQ(ProgressLog(plan_).line(*show_),
               "no picture yet: the renderer compiles its shaders, 2 of 2 rigs give pictures");
-    EXPECT_TRUE(desk().has_sets);
+    EXPECT_TRUE(desk().has_frame_sets);
 }
 
 class NoFrameYet : public SignalLoss {
@@ -83,7 +83,7 @@ TEST_F(NoFrameYet, IsNotTakenForARendererThatIsNotReady) {
     EXPECT_EQ(ProgressLog(plan_).line(*show_), "no picture yet: no rig has sent one");
     const DeskState state = desk();
     EXPECT_TRUE(state.waiting);
-    EXPECT_FALSE(state.has_sets);
+    EXPECT_FALSE(state.has_frame_sets);
     for (const DeskRig& rig : state.rigs) EXPECT_EQ(rig.state, RigState::starting) << rig.name;
 }
 

@@ -111,7 +111,7 @@ TEST_F(SurfacePick, GoesWithAPerformer) {
     Eigen::Vector3d pivot(0.2, 1.1, 0.3);
     for (int i = 0; i < 20; ++i) {
         performer_ += Eigen::Vector2d(-0.05, 0.03);
-        const auto found = performer_near(set(), pivot);
+        const auto found = foreground_near(set(), pivot);
         ASSERT_TRUE(found) << i;
         pivot = *found;
         EXPECT_LT(std::hypot(pivot.x() - performer_.x(), pivot.z() - performer_.y()), 0.25) << i;
@@ -119,7 +119,7 @@ TEST_F(SurfacePick, GoesWithAPerformer) {
     }
 }
 
-TEST_F(SurfacePick, StaysWhereNobodyIs) { EXPECT_FALSE(performer_near(set(), {-1.2, 1, 1.2})); }
+TEST_F(SurfacePick, StaysWhereNobodyIs) { EXPECT_FALSE(foreground_near(set(), {-1.2, 1, 1.2})); }
 
 }  // namespace
 }  // namespace vantage

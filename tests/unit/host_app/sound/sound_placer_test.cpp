@@ -22,8 +22,8 @@ TEST(SoundPlacer, PlacesBlocksOneBehindTheOtherWhateverTheSystemsClockSays) {
         EXPECT_EQ(placed.samples, sound);
         next = placed.end();
     }
-    EXPECT_EQ(placer.books().lost + placer.books().dropped, 0u);
-    EXPECT_EQ(placer.books().inserted + placer.books().removed, 0u);
+    EXPECT_EQ(placer.stats().lost + placer.stats().dropped, 0u);
+    EXPECT_EQ(placer.stats().inserted + placer.stats().removed, 0u);
 }
 
 class DriftingDevice : public testing::TestWithParam<int> {};
@@ -42,7 +42,7 @@ TEST_P(DriftingDevice, IsKeptWithinMillisecondsOfTime) {
         next = placed.end();
         ASSERT_NEAR(static_cast<double>(next - device_begin), true_end, 0.003 * sound_rate_hz) << i;
     }
-    EXPECT_NEAR(placer.books().drift_ppm(), ppm, 0.1 * std::abs(ppm) + 2);
+    EXPECT_NEAR(placer.stats().drift_ppm(), ppm, 0.1 * std::abs(ppm) + 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Clocks, DriftingDevice, testing::Values(-300, -20, 50, 300));
@@ -53,11 +53,11 @@ TEST(SoundPlacer, LeavesAGapWhereADeviceWasAwayAndDropsWhatComesTooFast) {
     placer.place(sound, after(480));
     const SoundBlock back = placer.place(sound, after(960 + 48'000));
     EXPECT_EQ(back.first, device_begin + 480 + 48'000);
-    EXPECT_EQ(placer.books().lost, 48'000u);
+    EXPECT_EQ(placer.stats().lost, 48'000u);
     for (int i = 0; i < 100; ++i) placer.place(sound, after(960 + 48'000));
-    EXPECT_EQ(placer.books().dropped, (100u - 25u) * 480u)
+    EXPECT_EQ(placer.stats().dropped, (100u - 25u) * 480u)
         << "a quarter of a second is no run-away";
-    EXPECT_EQ(placer.books().heard, 102u * 480u);
+    EXPECT_EQ(placer.stats().heard, 102u * 480u);
 }
 
 TEST(Stretched, GivesTheSameBitsWhereNothingChangesAndASmoothToneWhereItDoes) {

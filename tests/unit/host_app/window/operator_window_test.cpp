@@ -17,7 +17,7 @@ namespace {
 constexpr int width_px = 640, height_px = 480;
 constexpr double pi = std::numbers::pi;
 
-class OperatorHands : public testing::Test {
+class OperatorInput : public testing::Test {
   protected:
     void SetUp() override {
         if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
@@ -27,7 +27,7 @@ class OperatorHands : public testing::Test {
         window_.emplace("Vantage", width_px, height_px);
         look(0);
         // Without a window manager nobody else gives it the keyboard.
-        screen_->hands(
+        screen_->operator_input(
             {"search", "--sync", "--name", "Vantage", "windowfocus", "mousemove", "320", "240"});
         // The picture alone, so that it is as wide as the window.
         after({"key", "Tab"});
@@ -49,7 +49,7 @@ class OperatorHands : public testing::Test {
                 std::to_string(cvRound(rect.top + 0.3 * rect.height))};
     }
     FlightInput after(const std::vector<std::string>& commands, double dt_s = 0) {
-        screen_->hands(commands);
+        screen_->operator_input(commands);
         return look(dt_s);
     }
 
@@ -59,7 +59,7 @@ class OperatorHands : public testing::Test {
     std::optional<double> sought_;
 };
 
-TEST_F(OperatorHands, LeftDragOrbits) {
+TEST_F(OperatorInput, LeftDragOrbits) {
     after({"mousedown", "1"});
     const FlightInput input = after({"mousemove", "384", "192"});
     EXPECT_NEAR(input.orbit_azimuth_rad, -0.1 * pi, 1e-6) << "a tenth of the width";
@@ -69,14 +69,14 @@ TEST_F(OperatorHands, LeftDragOrbits) {
     EXPECT_FALSE(after({"mousemove", "320", "240"}).steers()) << "the button is up";
 }
 
-TEST_F(OperatorHands, ADragBetweenTwoPicturesIsWholeAndNothingElseIs) {
+TEST_F(OperatorInput, ADragBetweenTwoPicturesIsWholeAndNothingElseIs) {
     const FlightInput input = after({"mousemove", "360", "300", "mousedown", "1", "mousemove",
                                      "424", "300", "mouseup", "1", "mousemove", "320", "240"});
     EXPECT_NEAR(input.orbit_azimuth_rad, -0.1 * pi, 1e-6);
     EXPECT_EQ(input.orbit_elevation_rad, 0);
 }
 
-TEST_F(OperatorHands, OfTwoPicturesHandsFlyThePreviews) {
+TEST_F(OperatorInput, OfTwoPicturesHandsFlyThePreviews) {
     state_.preview.emplace();
     look(0);
     ASSERT_TRUE(window_->drawn().preview);
@@ -95,7 +95,7 @@ TEST_F(OperatorHands, OfTwoPicturesHandsFlyThePreviews) {
     EXPECT_TRUE(after({"key", "apostrophe"}).fly_to_preview);
 }
 
-TEST_F(OperatorHands, RightAndMiddleDragShift) {
+TEST_F(OperatorInput, RightAndMiddleDragShift) {
     for (const char* button : {"3", "2"}) {
         after({"mousedown", button});
         const FlightInput input = after({"mousemove", "384", "272"});
@@ -106,7 +106,7 @@ TEST_F(OperatorHands, RightAndMiddleDragShift) {
     }
 }
 
-TEST_F(OperatorHands, WheelGoesNearerAndWithControlZooms) {
+TEST_F(OperatorInput, WheelGoesNearerAndWithControlZooms) {
     EXPECT_NEAR(after({"click", "4"}).dolly, 0.12, 1e-6);
     EXPECT_NEAR(after({"click", "5", "click", "5"}).dolly, -0.24, 1e-6);
     after({"keydown", "Control_L"});
@@ -116,7 +116,7 @@ TEST_F(OperatorHands, WheelGoesNearerAndWithControlZooms) {
     after({"keyup", "Control_L"});
 }
 
-TEST_F(OperatorHands, HeldKeysActAsLongAsTheyAreHeld) {
+TEST_F(OperatorInput, HeldKeysActAsLongAsTheyAreHeld) {
     const struct {
         const char* key;
         double FlightInput::*amount;
@@ -136,7 +136,7 @@ TEST_F(OperatorHands, HeldKeysActAsLongAsTheyAreHeld) {
     }
 }
 
-TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
+TEST_F(OperatorInput, KeysAskForWhatTheHelpSays) {
     EXPECT_TRUE(after({"key", "space"}).toggle_freeze);
     EXPECT_TRUE(after({"key", "r"}).reset);
     EXPECT_TRUE(after({"key", "p"}).toggle_move);
@@ -158,7 +158,7 @@ TEST_F(OperatorHands, KeysAskForWhatTheHelpSays) {
     EXPECT_EQ(stored.recall_shot, 0);
 }
 
-TEST_F(OperatorHands, KeysOfClipsAskReplay) {
+TEST_F(OperatorInput, KeysOfClipsAskReplay) {
     const std::pair<const char*, ReplayAction> keys[] = {
         {"BackSpace", ReplayAction::last_cue},        {"y", ReplayAction::make_clip},
         {"ctrl+y", ReplayAction::trim_clip},          {"Next", ReplayAction::clip_step},
@@ -173,7 +173,7 @@ TEST_F(OperatorHands, KeysOfClipsAskReplay) {
     }
 }
 
-TEST_F(OperatorHands, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
+TEST_F(OperatorInput, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
     FlightInput input = after({"key", "Return", "type", "clip_sp"});
     input.add(after({"key", "Tab"}));
     input.add(after({"type", " 50"}));
@@ -191,7 +191,7 @@ TEST_F(OperatorHands, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
     EXPECT_EQ(after({"key", "Return"}).cue_time, "20:15:07");
 }
 
-TEST_F(OperatorHands, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
+TEST_F(OperatorInput, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
     show_the_desk();
     after({"mousemove", "40", "10"});
     after({"mousedown", "1"});
@@ -199,7 +199,7 @@ TEST_F(OperatorHands, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
     after({"mouseup", "1"});
 }
 
-TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
+TEST_F(OperatorInput, F1ShowsTheHelpAndTabHidesThePanels) {
     const auto bright = [&] {
         look(0);
         cv::Mat1b lit;
@@ -220,7 +220,7 @@ TEST_F(OperatorHands, F1ShowsTheHelpAndTabHidesThePanels) {
     EXPECT_LT(bright(), plain / 2);
 }
 
-TEST_F(OperatorHands, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
+TEST_F(OperatorInput, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
     show_the_desk();
     DeskTime time;
     time.oldest = 1000;
@@ -244,7 +244,7 @@ TEST_F(OperatorHands, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
     EXPECT_TRUE(after({"click", "1"}).to_live);
 }
 
-TEST_F(OperatorHands, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
+TEST_F(OperatorInput, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
     show_the_desk();
     state_.plan.emplace();
     after({"key", "ctrl+Tab"});
@@ -269,7 +269,7 @@ TEST_F(OperatorHands, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
     EXPECT_TRUE(window_->arrangement().switches.panels) << "Tab alone is another key";
 }
 
-TEST_F(OperatorHands, ShiftAndTabPutTheRigsAway) {
+TEST_F(OperatorInput, ShiftAndTabPutTheRigsAway) {
     show_the_desk();
     EXPECT_TRUE(window_->arrangement().switches.rigs);
     after({"key", "shift+Tab"});
@@ -277,7 +277,7 @@ TEST_F(OperatorHands, ShiftAndTabPutTheRigsAway) {
     EXPECT_TRUE(window_->arrangement().switches.panels);
 }
 
-TEST_F(OperatorHands, RigsHaveAWindowOfTheirOwnWhenAsked) {
+TEST_F(OperatorInput, RigsHaveAWindowOfTheirOwnWhenAsked) {
     show_the_desk();
     Texture colour(TextureFormat::rgba8, 160, 120, Filter::linear);
     colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
@@ -296,7 +296,7 @@ TEST_F(OperatorHands, RigsHaveAWindowOfTheirOwnWhenAsked) {
     };
     EXPECT_GT(pixels_of_rigs(window_->rigs_window()->screenshot()), 4 * 20000);
     EXPECT_EQ(pixels_of_rigs(window_->screenshot()), 0) << "they are there in place of here";
-    screen_->hands({"search", "--sync", "--name", "Vantage rigs", "windowfocus"});
+    screen_->operator_input({"search", "--sync", "--name", "Vantage rigs", "windowfocus"});
     EXPECT_TRUE(after({"key", "p"}).toggle_move) << "its keys are the desk's";
     after({"key", "ctrl+shift+Tab"});
     EXPECT_EQ(window_->rigs_window(), nullptr);
@@ -304,7 +304,7 @@ TEST_F(OperatorHands, RigsHaveAWindowOfTheirOwnWhenAsked) {
     EXPECT_GT(pixels_of_rigs(window_->screenshot()), 4 * 1000);
 }
 
-TEST_F(OperatorHands, TheDeskIsArrangedAsItWasLeft) {
+TEST_F(OperatorInput, TheDeskIsArrangedAsItWasLeft) {
     DeskArrangement desk = window_->arrangement();
     desk.switches = {.panels = true, .rigs = false, .outside = true, .eye = {1, 0.3, 0.1}};
     desk.window = WindowPlace{30, 20, 500, 400};
@@ -322,7 +322,7 @@ TEST_F(OperatorHands, TheDeskIsArrangedAsItWasLeft) {
     EXPECT_EQ(window_->arrangement().window->x, 30);
 }
 
-TEST_F(OperatorHands, AClickOnAShotRecallsIt) {
+TEST_F(OperatorInput, AClickOnAShotRecallsIt) {
     show_the_desk();
     state_.shots.resize(shot_places);
     state_.shots[3].name = "kept";
@@ -333,24 +333,24 @@ TEST_F(OperatorHands, AClickOnAShotRecallsIt) {
     EXPECT_EQ(after({"click", "1"}).recall_shot, 4);
 }
 
-TEST_F(OperatorHands, ATakeThatRunsIsEndedByTheSecondPressOnly) {
+TEST_F(OperatorInput, ATakeThatRunsIsEndedByTheSecondPressOnly) {
     state_.take.emplace().is_running = true;
     look(0);
     EXPECT_FALSE(after({"key", "t"}).toggle_take);
     EXPECT_TRUE(after({"key", "t"}).toggle_take);
 }
 
-TEST_F(OperatorHands, AKeyframeIsTakenOutByTheSecondPressOnly) {
+TEST_F(OperatorInput, AKeyframeIsTakenOutByTheSecondPressOnly) {
     EXPECT_FALSE(after({"key", "x"}).remove_keyframe);
     EXPECT_TRUE(after({"key", "x"}).remove_keyframe);
 }
 
-TEST_F(OperatorHands, TheSetIsForgottenByTheSecondPressOnly) {
-    EXPECT_FALSE(after({"key", "ctrl+j"}).learn_set);
-    EXPECT_TRUE(after({"key", "ctrl+j"}).learn_set);
+TEST_F(OperatorInput, TheSetIsForgottenByTheSecondPressOnly) {
+    EXPECT_FALSE(after({"key", "ctrl+j"}).learn_background);
+    EXPECT_TRUE(after({"key", "ctrl+j"}).learn_background);
 }
 
-TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {
+TEST_F(OperatorInput, AKeptShotIsReplacedByTheSecondPressOnly) {
     state_.shots.resize(shot_places);
     state_.shots[2].is_kept = true;
     look(0);
@@ -359,7 +359,7 @@ TEST_F(OperatorHands, AKeptShotIsReplacedByTheSecondPressOnly) {
     EXPECT_EQ(after({"key", "ctrl+4"}).store_shot, 4) << "nothing is kept there";
 }
 
-TEST_F(OperatorHands, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
+TEST_F(OperatorInput, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
     using What = WheelCall::What;
     EXPECT_TRUE(after({"key", "ctrl+m"}).toggle_jog_map);
     DeskWheel wheel;
@@ -381,7 +381,7 @@ TEST_F(OperatorHands, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
     EXPECT_TRUE(after({"key", "p"}).toggle_move) << "keys are the desk's again";
 }
 
-TEST_F(OperatorHands, EscapeEndsWhenItIsPressedAgain) {
+TEST_F(OperatorInput, EscapeEndsWhenItIsPressedAgain) {
     after({"key", "Escape"});
     EXPECT_FALSE(window_->closed()) << "the first time it asks";
     after({"key", "Escape"});

@@ -14,7 +14,7 @@ std::vector<FilmedPair> noisy_pairs(const ShaderLibrary& library) {
     constexpr int width = 311, height = 239;
     std::vector<FilmedPair> pairs;
     for (const std::uint64_t set : {1, 2, 3})
-        pairs.push_back(filmed_set(library, set, {width, height}, 1));
+        pairs.push_back(filmed_background(library, set, {width, height}, 1));
     for (const std::uint64_t seed : {4, 5}) {
         const StereoScene scene = make_random_scene(
             seed, {.width_px = width, .height_px = height, .disparities = 48}, {});

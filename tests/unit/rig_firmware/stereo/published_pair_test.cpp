@@ -36,12 +36,12 @@ class Tsukuba : public testing::Test {
 constexpr MatchPreset presets[] = {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast};
 
 TEST_F(Tsukuba, BooksThatLookAlikeHaveNoFalseBarBeforeThem) {
-    const cv::Rect books(40, 40, 70, 50);
+    const cv::Rect stats(40, 40, 70, 50);
     double farthest = 0, nearest = 0;
-    cv::minMaxLoc(truth_px_(books), &farthest, &nearest);
+    cv::minMaxLoc(truth_px_(stats), &farthest, &nearest);
     for (const MatchPreset preset : presets) {
         const auto matcher = matcher_of(preset);
-        const cv::Mat1f found = matched(*matcher, {left_, right_, {}})(books);
+        const cv::Mat1f found = matched(*matcher, {left_, right_, {}})(stats);
         EXPECT_EQ(cv::countNonZero(found > nearest + 2), 0) << static_cast<int>(preset);
     }
 }

@@ -57,34 +57,34 @@ TEST_F(TemporalPassTest, AgreesWithItsCpuFormBitForBit) {
 }
 
 /// What comes of one still pixel whose disparity is found to be this, frame after frame, in px.
-std::vector<float> steadied_px(const std::vector<int>& found_px) {
+std::vector<float> denoised_px(const std::vector<int>& found_px) {
     TemporalReference reference;
-    std::vector<float> steadied;
+    std::vector<float> denoised;
     for (const int px : found_px) {
         const auto d = static_cast<unsigned short>(px * disparity_steps_per_px);
         const DisparityImage result = reference.run(DisparityImage(1, 1, d), GreyImage(1, 1, 90));
-        steadied.push_back(static_cast<float>(result(0, 0)) / disparity_steps_per_px);
+        denoised.push_back(static_cast<float>(result(0, 0)) / disparity_steps_per_px);
     }
-    return steadied;
+    return denoised;
 }
 
 TEST(TemporalReference, HoldsAgainstWhatComesLessOftenAndGivesWayToWhatStays) {
     std::vector<int> found;
     for (int i = 0; i < 60; ++i) found.push_back(i % 3 == 2 ? 30 : 10);
     for (int i = 0; i < 40; ++i) found.push_back(30);
-    const std::vector<float> steadied = steadied_px(found);
-    for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(steadied[i], 10) << "frame " << i;
-    EXPECT_EQ(steadied.back(), 30);
+    const std::vector<float> denoised = denoised_px(found);
+    for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(denoised[i], 10) << "frame " << i;
+    EXPECT_EQ(denoised.back(), 30);
 }
 
 TEST(TemporalReference, ChangesSeldomWhereNoDisparityPrevails) {
     std::vector<int> found;
     cv::RNG random(3);
     for (int i = 0; i < 400; ++i) found.push_back(random.uniform(5, 45));
-    const std::vector<float> steadied = steadied_px(found);
+    const std::vector<float> denoised = denoised_px(found);
     int jumps = 0;
-    for (std::size_t i = 1; i < steadied.size(); ++i)
-        jumps += std::abs(steadied[i] - steadied[i - 1]) > 1;
+    for (std::size_t i = 1; i < denoised.size(); ++i)
+        jumps += std::abs(denoised[i] - denoised[i - 1]) > 1;
     EXPECT_LE(jumps, 100) << "found ones jump nearly 400 times";
 }
 
@@ -137,10 +137,10 @@ TEST_F(TemporalPassTest, HalvesTheNoiseOfWhatAMatcherFindsOnAStillStageWithNoisy
             pair = film.at(1s, {.sigma = 2}, static_cast<std::uint64_t>(frame));
             const Texture left = uploaded(pair.left), right = uploaded(pair.right);
             const Texture& found = matcher->match(left, right);
-            const DisparityImage steadied = pass.run(found, left).download();
+            const DisparityImage denoised = pass.run(found, left).download();
             if (frame < warm_up) continue;
             raw.add(found.download());
-            steady.add(steadied);
+            steady.add(denoised);
         }
         // Over the pixels whose depth is found at all: a mismatch that jumps by pixels is no noise
         // of a measurement.
@@ -193,7 +193,7 @@ TEST_F(TemporalPassTest, EdgesOfMovingPerformersKeepTheirPlaceWithinAPixel) {
         const Texture left = uploaded(pair.left), right = uploaded(pair.right);
         const Texture& found = matcher->match(left, right);
         const cv::Mat1f raw = to_float_px(found.download()),
-                        steadied = to_float_px(pass.run(found, left).download());
+                        denoised = to_float_px(pass.run(found, left).download());
         for (int y = 0; y < height && frame > 0; ++y)
             for (int x = 41; x < width; ++x) {
                 const float step = pair.disparity_px(y, x) - pair.disparity_px(y, x - 1);
@@ -206,7 +206,7 @@ TEST_F(TemporalPassTest, EdgesOfMovingPerformersKeepTheirPlaceWithinAPixel) {
                 if (raw_at > reach_px) continue;
                 ++moving;
                 raw_errors += raw_at;
-                const int at = distance_of_edge(steadied, y, x, halfway, step > 0, reach_px);
+                const int at = distance_of_edge(denoised, y, x, halfway, step > 0, reach_px);
                 errors += at;
                 displaced += at > raw_at + 1;
             }
@@ -234,11 +234,11 @@ TEST_F(TemporalPassTest, AMovingEdgeKeepsItsPlaceAndLeavesNoTrail) {
                 picture(y, x) = {level, level, level, 255};
                 disparity(y, x) = near ? 640 : 320;
             }
-        const DisparityImage steadied = run(pass, disparity, picture);
+        const DisparityImage denoised = run(pass, disparity, picture);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 if (std::abs(x - edge) > 1 && std::abs(x - edge + 16) > 1) {
-                    ASSERT_EQ(steadied(y, x), disparity(y, x)) << x << " in frame " << frame;
+                    ASSERT_EQ(denoised(y, x), disparity(y, x)) << x << " in frame " << frame;
                 }
     }
 }

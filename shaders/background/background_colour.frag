@@ -1,0 +1,47 @@
+// The colour of a rig's set: where it is seen now, the mean of the instants since it last changed, else what was seen
+// before.
+#include "colour_change.glsl"
+#include "background_kinds.glsl"
+#include "background_known.glsl"
+
+uniform sampler2D picture;  // this instant's
+uniform sampler2D before;   // mean of the instants before; alpha: how many, less where it showed other things, see background_known.glsl
+uniform sampler2D seen;     // from background_compare.frag
+uniform sampler2D matte;    // the performers' share
+uniform float has_before;     // 0: there is no instant before
+uniform float most_instants;  // that the mean is of
+
+layout(location = 0) out vec4 shown;  // alpha: 1 where the set is seen now
+layout(location = 1) out vec4 mean;
+
+// Changes of colour (0..1): up to `noise` they are averaged away, from `motion` on taken as they come.
+const float noise = 0.01, motion = 0.02;
+const float pixel_share = 0.4;  // a pixel's noise is larger than that of a window
+const float hidden_from = 0.02; // of the matte around a pixel
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec2 size = vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy / size;
+    vec4 now = texelFetch(picture, at, 0);
+    shown = vec4(now.rgb, 1.0);
+    mean = vec4(now.rgb, 0.0);
+    if (has_before == 0.0) return;
+    vec4 past = texelFetch(before, at, 0);
+    float hidden = 0.0;
+    for (int k = 0; k < 4; ++k)
+        hidden = max(hidden, textureLod(matte, uv + 1.5 / size * (2.0 * vec2(k & 1, k >> 1) - 1.0), 0.0).r);
+    if (hidden > hidden_from) {
+        mean = past;
+        shown = vec4(past.rgb, 0.25);
+        return;
+    }
+    vec2 here = textureLod(seen, uv, 0.0).rg;
+    float change = max(here.g, pixel_share * largest(now.rgb - past.rgb));
+    // What shows another thing may go on to; light and shadow come and go over a set that is known.
+    bool is_other = is_kind(here.r, untold) || is_kind(here.r, new_background);
+    float instants = !is_other     ? min(past.a + 1.0, most_instants)
+                     : past.a > 1.0 ? 0.5 * past.a
+                                    : max(past.a - 1.0, most_unrest);
+    mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise, motion, change))), instants);
+    shown = vec4(mean.rgb, 1.0);
+}

@@ -1,2 +1,0 @@
-// The blocks of pixels for which performer_far.frag finds a depth.
-const int block_px = 4;  // sides
