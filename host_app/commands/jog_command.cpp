@@ -160,7 +160,7 @@ void monitor(const JogOptions& options) {
     // Before the deck's threads, so that they leave the signals to it.
     StopSignal stop;
     JogDevices deck(make_system_jog_bus(), load_all_wheel_profiles(options.wheels),
-                 {.raw_reports = options.raw});
+                    {.raw_reports = options.raw});
     log_info("waiting for jog wheels, plugged in now or later, to be moved; Ctrl-C ends");
     const MonotonicTime start = MonotonicClock::now();
     const auto is_over = [&](std::uint64_t events) {

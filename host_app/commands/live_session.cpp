@@ -36,7 +36,7 @@ void run_live_session(const LiveOptions& options) {
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
     const std::unique_ptr<JogDevices> deck = options.show.make_deck();
     TakeControl takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s),
-                   !options.show.audio.empty());
+                      !options.show.audio.empty());
     if (!options.take.empty()) takes.begin(options.take);
     // Ends before the takes that its sound goes to.
     LiveSettings heard = settings;

@@ -61,10 +61,11 @@ void play(const PlayOptions& options) {
     const bool has_operator_input = options.show.jog.value_or(!options.show.headless);
     // A flight that says where in the take it is ends by itself.
     const bool leads = plan.move && plan.move->take_s_at(0);
-    if (leads && options.show.headless && !has_operator_input && !plan.move->loops() && !plan.frames &&
-        !plan.seconds)
+    if (leads && options.show.headless && !has_operator_input && !plan.move->loops() &&
+        !plan.frames && !plan.seconds)
         plan.seconds = plan.move->duration_s();
-    settings.ends_with_take = options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
+    settings.ends_with_take =
+        options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
         fail("what loops or stands has no end: say --frames or --seconds with --headless");
     // It begins with what is heard where the take is begun.

@@ -22,7 +22,7 @@ constexpr double most_repeated = 0.25;
 std::string why_not(const DeskState& state) {
     if (state.waiting)
         return state.has_frame_sets ? "the renderer compiles its shaders"
-                              : "no rig has sent a picture yet";
+                                    : "no rig has sent a picture yet";
     if (state.is_of_take()) return "";
     if (state.signal == SignalState::no_signal) return "no rig gives pictures";
     if (state.signal == SignalState::stale) return "the newest picture is old";

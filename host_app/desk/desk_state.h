@@ -32,10 +32,10 @@ struct DeskRig {
     const Texture* mask = nullptr;         ///< the performers, white; null: they are not told
     double nearest_m = 0, farthest_m = 0;  ///< of the depth picture's colours; 0: not known
     std::optional<double> temperature_c = {};
-    std::string clock = {};                 ///< a few words; empty: it says nothing
-    std::string calibration = {};           ///< age and residual; empty: it has none
-    std::optional<double> background_known = {};   ///< share of its set; nothing: none is learnt
-    std::vector<std::string> worries = {};  ///< what a technician should look after
+    std::string clock = {};                       ///< a few words; empty: it says nothing
+    std::string calibration = {};                 ///< age and residual; empty: it has none
+    std::optional<double> background_known = {};  ///< share of its set; nothing: none is learnt
+    std::vector<std::string> worries = {};        ///< what a technician should look after
 };
 
 /// A step of a frame's way, median.
@@ -232,7 +232,7 @@ struct DeskState {
     std::string ltc;  ///< that comes in, and by how much it differs; empty: none
     std::uint64_t pulse = 0;
     bool is_ltc_off = false;
-    bool waiting = true;    ///< no instant is ready yet
+    bool waiting = true;          ///< no instant is ready yet
     bool has_frame_sets = false;  ///< of frames, whether ready or not
     SignalState signal = SignalState::live;
     bool recording = false;  ///< a film

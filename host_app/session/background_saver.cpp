@@ -9,7 +9,8 @@
 
 namespace vantage {
 
-BackgroundSaver::BackgroundSaver(LiveShow& show, std::filesystem::path path) : show_(show), path_(std::move(path)) {
+BackgroundSaver::BackgroundSaver(LiveShow& show, std::filesystem::path path)
+    : show_(show), path_(std::move(path)) {
     if (path_.empty()) return;
     if (std::filesystem::exists(path_))
         fail("the set cannot be saved to {}: there is such a file; move it or name another",

@@ -12,8 +12,8 @@ constexpr std::chrono::milliseconds timecode_period{250};
 
 ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
     if (urls.empty()) return;
-    desk_.emplace(urls, ControlBench{show.controls().operator_input(), show.controls().tracked(), tally_,
-                                     lamps_, ltc_});
+    desk_.emplace(urls, ControlBench{show.controls().operator_input(), show.controls().tracked(),
+                                     tally_, lamps_, ltc_});
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,

@@ -265,7 +265,8 @@ LiveReport LiveShow::report() const {
     for (const RigStatus& rig : status.rigs) {
         RigAccount account{rig, count_of(instants.frames, rig.rig),
                            count_of(instants.superseded.frames, rig.rig)};
-        if (const auto gain_compensation = instants.gain_compensation.find(rig.rig); gain_compensation != instants.gain_compensation.end())
+        if (const auto gain_compensation = instants.gain_compensation.find(rig.rig);
+            gain_compensation != instants.gain_compensation.end())
             account.gain_compensation = gain_compensation->second;
         for (const RigBackgroundState& set : instants.sets)
             if (set.rig == rig.rig) account.set = set;

@@ -32,11 +32,11 @@ struct LiveSettings {
     bool overwrites = false;                ///< a film that is there may be replaced
     std::filesystem::path contact_sheet;    ///< empty: none
     bool free_flight = false;               ///< hands may leave the corridor
-    bool compensate_gains = true;                  ///< the rigs' colours, by a ColourHarmoniser
+    bool compensate_gains = true;           ///< the rigs' colours, by a ColourHarmoniser
     std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
     SyncProof sync_proof = {};                             ///< of a live stage
-    std::shared_ptr<const Background> set = nullptr;        ///< that rigs begin with; null: none
-    std::shared_ptr<const PastFrameSets> take = nullptr;        ///< that is played; null: a live stage
+    std::shared_ptr<const Background> set = nullptr;       ///< that rigs begin with; null: none
+    std::shared_ptr<const PastFrameSets> take = nullptr;   ///< that is played; null: a live stage
     Replay replay = {};                                    ///< at first
     bool ends_with_take = false;                           ///< where it is played to its end
     std::shared_ptr<PictureSound> sound = nullptr;         ///< of the programme; null: none
@@ -52,7 +52,8 @@ class LiveShow {
     /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
     /// or there can be no stereoscopic picture of this width, or an output cannot be.
     /// Without a deck no wheel flies; else it must outlive the show.
-    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDevices* deck);
+    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
+             JogDevices* deck);
 
     /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
     /// there and says which are missing. Throws Error, with every rig's state, if none came, and at

@@ -16,9 +16,9 @@
 #include "host_app/desk/windows/operator_window.h"
 #include "host_app/desk/windows/screen_windows.h"
 #include "host_app/metrics/open_metrics.h"
+#include "host_app/output/frame_set_timecode.h"
 #include "host_app/output/media/picture_encoder.h"
 #include "host_app/output/picture_target.h"
-#include "host_app/output/frame_set_timecode.h"
 #include "host_app/replay/past_time.h"
 #include "host_app/session/corridor_watch.h"
 #include "host_app/session/options/help_words.h"
@@ -353,7 +353,7 @@ void ShowSession::find_pivots(const SessionRequests& requests, MonotonicTime now
 
 /// What hands asked for beyond the programme itself.
 void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& sets, ControlRoom& room,
-                                MonotonicTime now) {
+                                  MonotonicTime now) {
     const SessionRequests requests = show.controls().take_requests();
     keep_flights(requests);
     find_pivots(requests, now);

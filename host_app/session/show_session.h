@@ -34,7 +34,8 @@ struct ShowOptions {
     std::string quality = "auto";
     std::uint64_t frames = 0;
     double seconds = 0;
-    bool headless = false, json = false, source_map = false, compensate_gains = true, overwrite = false;
+    bool headless = false, json = false, source_map = false, compensate_gains = true,
+         overwrite = false;
     bool free_flight = false;
     StereoscopicOptions stereoscopic;
     std::optional<bool> jog;  ///< default: with a window
@@ -67,7 +68,7 @@ struct ShowSession {
     FlightStore& flights;
     ClipStore& clips;
     std::optional<DeskStore> desk;
-    TakeControl* takes;     ///< null: nothing can be recorded
+    TakeControl* takes;  ///< null: nothing can be recorded
     std::string played;  ///< the take that is shown; empty: the stage is live
     /// Without a window: waits until there is something to show. False: it was told to stop.
     std::function<bool(StopSignal&)> wait;
@@ -88,7 +89,7 @@ struct ShowSession {
     void show_metrics(const ControlRoom& room, MonotonicTime now);
     void find_pivots(const SessionRequests& requests, MonotonicTime now);
     void follow_requests(class OutputSwitch& outputs, BackgroundSaver& sets, ControlRoom& room,
-                       MonotonicTime now);
+                         MonotonicTime now);
     void finish(ControlRoom& room, BackgroundSaver& sets, const class CorridorWatch& corridor,
                 const std::function<ColourImage()>& last_picture);
 };

@@ -21,8 +21,8 @@ std::vector<DeskFigure> desk_figures(const LiveReport& report) {
     add_ms("exposure to picture", programme.latency_ms);
     add_ms("hand to picture", programme.input_ms);
     add_ms("jump to picture", programme.seek_ms);
-    figures.push_back({"instants, skipped",
-                       fmt::format("{}, {}", report.instants_prepared, report.frame_sets_superseded)});
+    figures.push_back({"instants, skipped", fmt::format("{}, {}", report.instants_prepared,
+                                                        report.frame_sets_superseded)});
     figures.push_back({"rendering, by level", shares_text(programme.render_shares)});
     figures.push_back({"preparing, by level", shares_text(programme.prepare_shares)});
     return figures;

@@ -58,7 +58,8 @@ std::optional<Eigen::Vector3d> surface_at(const FrameSet& set, const CameraState
     return std::nullopt;
 }
 
-std::optional<Eigen::Vector3d> foreground_near(const FrameSet& set, const Eigen::Vector3d& pivot_m) {
+std::optional<Eigen::Vector3d> foreground_near(const FrameSet& set,
+                                               const Eigen::Vector3d& pivot_m) {
     std::vector<Eigen::Vector2d> around;
     const Eigen::Vector2d start(pivot_m.x(), pivot_m.z());
     for_each_rig_point(set, most_points_of_a_rig,

@@ -45,7 +45,7 @@ struct LiveReport {
     TransportState time;                          ///< at the end
     ReplayState replay;                           ///< at the end
     std::uint64_t shown_pulse = 0;                ///< of the last picture
-    std::optional<PastFrameSets::Span> past;           ///< that can be gone back to
+    std::optional<PastFrameSets::Span> past;      ///< that can be gone back to
     double pulse_rate_hz = 0;
     OrbitView view;  ///< of the last picture
     CorridorStats corridor;
@@ -66,12 +66,13 @@ struct LiveReport {
     Percentiles network_ms, decode_ms, prepare_ms, encode_ms;
 
     std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
-    std::optional<SourceShares> source_map;  ///< of the last picture, where its source map was shown
+    std::optional<SourceShares>
+        source_map;  ///< of the last picture, where its source map was shown
 
     std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
 
     std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
-    std::string saved_background;          ///< where the set was saved last; empty: nowhere
+    std::string saved_background;   ///< where the set was saved last; empty: nowhere
     std::string played;             ///< the take that was played; empty: the stage was live
 
     std::optional<SoundState> sound;  ///< nothing: the programme has none

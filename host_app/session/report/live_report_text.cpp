@@ -153,8 +153,8 @@ std::string results_text(const LiveReport& report) {
         text += "pixels of the last picture by rig:";
         for (const auto& [rig, share] : report.source_map->rigs)
             text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
-        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.source_map->filled,
-                            100 * report.source_map->remembered);
+        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n",
+                            100 * report.source_map->filled, 100 * report.source_map->remembered);
     }
     for (const DeckDevice& wheel : report.wheels)
         text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
@@ -170,7 +170,8 @@ std::string results_text(const LiveReport& report) {
         if (!port.stats.told.empty())
             text += fmt::format("control: {}: {}\n", port.name, port.stats.told);
     if (report.take) text += take_text(*report.take);
-    if (!report.saved_background.empty()) text += fmt::format("set saved to {}\n", report.saved_background);
+    if (!report.saved_background.empty())
+        text += fmt::format("set saved to {}\n", report.saved_background);
     if (report.sound) text += sound_text(*report.sound);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
@@ -240,8 +241,9 @@ std::string to_text(const LiveReport& report) {
     text += fmt::format(
         "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
         "newer one, {} dropped\n",
-        report.frame_sets_closed, report.frame_sets_complete, report.frame_sets_closed - report.frame_sets_complete,
-        report.instants_prepared, report.frame_sets_superseded, report.frame_sets_dropped);
+        report.frame_sets_closed, report.frame_sets_complete,
+        report.frame_sets_closed - report.frame_sets_complete, report.instants_prepared,
+        report.frame_sets_superseded, report.frame_sets_dropped);
     text += corridor_text(report) + '\n' + rig_tables(report);
     if (!report.rigs.empty()) text += counters_legend() + '\n';
     text += fmt::format("signal at the end: {}\n", title_of(report.signal));
