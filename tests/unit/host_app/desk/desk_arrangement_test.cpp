@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/desk/desk_store.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 

@@ -1,4 +1,4 @@
-#include "host_app/desk/desk_screen.h"
+#include "host_app/desk/panels/desk_parts.h"
 
 #include <cstdlib>
 #include <set>

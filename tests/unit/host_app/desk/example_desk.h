@@ -4,7 +4,7 @@
 
 #include "common/gl/objects/texture.h"
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/panels/shot_places.h"
+#include "host_app/desk/desk_layout.h"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "host_app/desk/panels/outside_view.h"
+#include "host_app/desk/panels/stage_outside.h"
 
 #include <gtest/gtest.h>
 

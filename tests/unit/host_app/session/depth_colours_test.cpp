@@ -1,4 +1,4 @@
-#include "host_app/desk/feed/depth_colours.h"
+#include "host_app/desk/feed/rig_pictures.h"
 
 #include <gtest/gtest.h>
 

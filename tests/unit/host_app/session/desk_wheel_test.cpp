@@ -1,4 +1,4 @@
-#include "host_app/desk/feed/desk_wheel.h"
+#include "host_app/desk/feed/desk_values.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
-#include "host_app/session/corridor_watch.h"
+#include "host_app/session/report/show_log.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"

@@ -1,4 +1,4 @@
-#include "host_app/session/report/rig_silence.h"
+#include "host_app/session/report/rig_words.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "host_app/desk/feed/shot_pictures.h"
+#include "host_app/desk/feed/bin_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "common/gl/context/egl_context.h"
 #include "host_app/desk/feed/desk_feed.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/progress_log.h"
+#include "host_app/session/report/show_log.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "host_app/desk/feed/surface_pick.h"
+#include "host_app/desk/feed/stage_points.h"
 
 #include <cmath>
 #include <random>

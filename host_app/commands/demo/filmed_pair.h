@@ -12,7 +12,8 @@
 
 namespace vantage {
 
-/// What a real rig filmed: pictures, a folder, 'pattern*.png' or a video a side.
+/// Recorded material of one stereo pair: two pictures, folders, patterns such as 'left*.png', or
+/// videos.
 struct FilmedPair {
     std::filesystem::path left, right;  ///< right "-": both sides in one picture
     std::filesystem::path calibration;  ///< empty: a rectified pair of unknown cameras
@@ -20,17 +21,16 @@ struct FilmedPair {
     std::optional<double> rate_hz;
 };
 
-/// Runs a program of ours to its end and gives what it printed with --json. Throws Error with what
-/// it said where it failed.
+/// Runs one of our programs to its end and returns its --json output. Throws Error with the
+/// program's own message if it fails.
 using AskProgram = std::function<nlohmann::json(const std::string& program,
                                                 const std::vector<std::string>& arguments)>;
 
-/// The source that plays the pair.
+/// Returns the [source] table of a rig that plays the pair.
 toml::table source_of(const FilmedPair& pair, double rate_hz);
 
-/// Looks at the first pair to learn how large, how fast and how far away what was filmed is: adds
-/// the rig to the stage, adapts `size`, and gives the move to fly before it, as text of a flight
-/// file.
+/// Adds a rig that plays the pair to the stage. It measures size, rate and depth of the first pair
+/// and adapts `size` to them. Returns the text of a flight file for a flight around the scene.
 std::string add_filmed_rig(const FilmedPair& pair, const AskProgram& ask, DemoStage& stage,
                            DemoSize& size);
 

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host_app/desk/panels/bin_cell.h"
 #include "host_app/desk/panels/desk_parts.h"
-#include "host_app/desk/panels/shot_places.h"
 
 namespace vantage {
 namespace {
@@ -20,7 +18,7 @@ void draw_clip(const Pen& pen, const DeskRect& place, const DeskClip& clip) {
     pen.fill(head, palette::panel);
     pen.text(head.left + 0.25f * em, head.top + 0.1f * em, palette::text, length);
     if (!clip.loss.empty()) {
-        // Over the picture and not over its name.
+        // Between the clip's length and its name.
         const DeskRect shown{place.left, head.bottom(), place.width,
                              place.height - head.height - 1.2f * em};
         pen.fill(shown, palette::veil);
@@ -43,13 +41,28 @@ void draw_clip(const Pen& pen, const DeskRect& place, const DeskClip& clip) {
 
 }  // namespace
 
+void draw_bin_cell(const Pen& pen, const DeskRect& place, const Texture* picture,
+                   const std::string& words, const ImVec4& colour) {
+    const float em = pen.em();
+    pen.fill(place, palette::panel);
+    if (picture)
+        pen.image(place.fitted(static_cast<float>(picture->height_px()) /
+                               static_cast<float>(picture->width_px())),
+                  *picture);
+    const DeskRect label{place.left, place.bottom() - 1.2f * em,
+                         std::min(pen.width_of(words, true) + 0.5f * em, place.width), 1.2f * em};
+    if (picture) pen.fill(label, palette::panel);
+    pen.text_until(place.right(), label.left + 0.25f * em, label.top + 0.1f * em, colour, words,
+                   true);
+}
+
 void draw_clips(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots) {
     if (rect.is_empty()) return;
     const std::vector<DeskClip>& clips = state.replay.clips;
     const float gap = 0.25f * pen.em();
     const float height = rect.height / shot_places - gap;
     constexpr auto places = static_cast<std::size_t>(shot_places);
-    // The clip in hand is always among those that there is room for.
+    // The clip in hand is always visible.
     const auto in_hand = static_cast<std::size_t>(
         std::find_if(clips.begin(), clips.end(),
                      [](const DeskClip& clip) { return clip.is_in_hand; }) -
@@ -63,6 +76,23 @@ void draw_clips(const Pen& pen, const DeskRect& rect, const DeskState& state, De
         const Clipping clipping(pen, place);
         draw_clip(pen, place, clips[first + i]);
         spots.clips.push_back({place, clips[first + i].number});
+    }
+}
+
+void draw_shots(const Pen& pen, const DeskRect& rect, const DeskState& state, DeskSpots& spots) {
+    if (rect.is_empty()) return;
+    const float gap = 0.25f * pen.em();
+    const float height = rect.height / shot_places - gap;
+    for (int number = 1; number <= shot_places; ++number) {
+        const auto at = static_cast<std::size_t>(number - 1);
+        const DeskShot shot = at < state.shots.size() ? state.shots[at] : DeskShot{};
+        const DeskRect place{rect.left, rect.top + static_cast<float>(at) * (height + gap),
+                             rect.width, height};
+        const Clipping clipping(pen, place);
+        draw_bin_cell(pen, place, shot.picture, fmt::format("{} {}", number, shot.name),
+                      shot.is_kept ? palette::text : palette::dim);
+        if (shot.is_kept) pen.outline(place, palette::accent);
+        if (!shot.name.empty()) spots.shots.push_back({place, number});
     }
 }
 

@@ -4,13 +4,14 @@
 
 #include <Eigen/Core>
 
+#include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/desk_layout.h"
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/outside_eye.h"
 
 namespace vantage {
 
-/// From the stage (metres) to the window, as that eye sees it in this part of the window.
+/// The perspective projection of the desk's 3-D view: from the stage (metres) to the window
+/// (pixels).
 class OutsideMap {
   public:
     OutsideMap(const DeskRect& rect, const DeskPlan& plan, const OutsideEye& eye);
@@ -19,12 +20,12 @@ class OutsideMap {
         float x, y;
         double depth_m;
     };
-    /// Nothing: it is behind the eye.
+    /// Projects a point; nothing if it lies behind the eye.
     std::optional<Place> at(const Eigen::Vector3d& point_m) const;
-    /// What there is of the way between two points before the eye; nothing: none of it.
     struct Line {
         Place from, to;
     };
+    /// Projects the part of a line that lies before the eye; nothing if there is none.
     std::optional<Line> line(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m) const;
     double px_per_m(double depth_m) const { return focal_px_ / depth_m; }
 

@@ -1,4 +1,4 @@
-#include "host_app/commands/rigs/pair_preview.h"
+#include "host_app/commands/demo/filmed_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,15 +9,15 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "host_app/commands/demo/demo_moves.h"
+#include "host_app/commands/demo/demo_stage.h"
 
 namespace vantage {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// A rig whose cameras nobody measured is taken to see 30 degrees, with the baseline that puts the
-/// middle of its scene 2 m away.
+/// Without a calibration the cameras are assumed to see 30 degrees, and the baseline is chosen so
+/// that the middle of the scene is 2 m away.
 constexpr double assumed_view_deg = 30, assumed_depth_m = 2;
 constexpr int assumed_disparities = 128;
 
@@ -43,20 +43,20 @@ std::string add_bare_pair(const FilmedPair& pair, const AskProgram& ask, DemoSta
     return demo_move("pair.toml");
 }
 
-/// A quarter of the width, in steps of 32.
+/// The default search range: a quarter of the width, in steps of 32.
 int usual_disparities(int width_px) { return std::clamp(32 * ((width_px / 4 + 31) / 32), 64, 256); }
 
-/// Half of the time is the matcher's; a processor that draws everything shares it with the host.
-double rate_that_is_held(double gpu_ms, double own_hz, bool is_software) {
-    const double most_hz = (is_software ? 0.5 : 1.0) * matching_ms_a_second / gpu_ms;
-    // Four digits, as a person would write it.
-    const double rate_hz = std::clamp(most_hz, std::min(0.2, own_hz), own_hz);
+/// Returns the rate that the matcher keeps up with in half of the GPU's time, or in a quarter of a
+/// software renderer's, rounded to four digits.
+double sustained_rate_hz(double gpu_ms, double own_hz, bool is_software) {
+    const double max_hz = (is_software ? 0.5 : 1.0) * matching_ms_a_second / gpu_ms;
+    const double rate_hz = std::clamp(max_hz, std::min(0.2, own_hz), own_hz);
     const double step = std::pow(10, std::floor(std::log10(rate_hz)) - 3);
     return std::round(rate_hz / step) * step;
 }
 
-/// Before a rig that looks from `eye` along `axis`: a single rig shows its scene from one side
-/// only, so the flight stays within some baselines of it.
+/// Returns a flight in front of the rig. It stays within some baselines of it, since a single rig
+/// sees its scene from one side only.
 std::string move_before(const nlohmann::json& rectified, double median_disparity_px) {
     const auto number = [&](const char* key) { return rectified.at(key).get<double>(); };
     const auto eye = rectified.at("position_m").get<std::array<double, 3>>();
@@ -125,15 +125,15 @@ std::string add_filmed_rig(const FilmedPair& pair, const AskProgram& ask, DemoSt
              size.preset, "--repeats", "3", "-o", first / "disparity.pfm", "--json"});
     const auto own_hz = seen.value("material_rate_hz", nlohmann::json());
     size.rate_hz = pair.rate_hz.value_or(
-        rate_that_is_held(matched.at("gpu_ms").get<double>(),
+        sustained_rate_hz(matched.at("gpu_ms").get<double>(),
                           own_hz.is_number() ? own_hz.get<double>() : usual_hz, size.is_software));
     size.latency_budget_ms = size.rate_hz < 15 ? static_cast<int>(3000 / size.rate_hz) : 200;
     stage.add_rig("pair", toml::table{{"calibration", pair.calibration.string()},
                                       {"source", source_of(pair, size.rate_hz)},
                                       {"match", toml::table{{"preset", size.preset},
                                                             {"disparities", size.disparities}}}});
-    log_info("searched for {} disparities; played at {:.4g} Hz{}", size.disparities, size.rate_hz,
-             own_hz.is_number() ? fmt::format(" of its own {:.4g}", own_hz.get<double>())
+    log_info("matching {} disparities, playing at {:.4g} Hz{}", size.disparities, size.rate_hz,
+             own_hz.is_number() ? fmt::format(" (the material has {:.4g} Hz)", own_hz.get<double>())
                                 : std::string());
     return move_before(rectified, matched.at("median_disparity_px").get<double>());
 }

@@ -1,6 +1,7 @@
-#include "host_app/desk/desk_screen.h"
+#include "host_app/desk/panels/desk_parts.h"
 
 namespace vantage {
+
 DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const UiFonts& fonts) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Pen pen(fonts);
