@@ -42,7 +42,7 @@ class Demo : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
+TEST(DemoSize, IsTheLargestThatLeavesTheHostHalfOfTheGpu) {
     std::vector<int> tried;
     const auto size_where_a_megapixel_takes = [&](double ms) {
         tried.clear();
@@ -61,7 +61,7 @@ TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
     EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
 }
 
-TEST(DemoSize, OfAProcessorThatDrawsEverythingHasFewerPulsesWhereItIsSlow) {
+TEST(DemoSize, IsSlowerOnASlowSoftwareRenderer) {
     EXPECT_EQ(software_rate_hz(4, 5), software_demo_size().rate_hz);
     EXPECT_EQ(software_rate_hz(4, 15), 3.5) << "3.7 of them take 220 ms";
     EXPECT_EQ(software_rate_hz(4, 20), 2.5);
@@ -85,7 +85,7 @@ TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
         << result.err;
 }
 
-TEST_F(Demo, RigsEndWithItHoweverItEnds) {
+TEST_F(Demo, RigsEndWithTheDemo) {
     ChildProgram demo(VANTAGE_PROGRAM,
                       {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
                        "--folder", file("out")},
@@ -103,7 +103,7 @@ TEST_F(Demo, RigsEndWithItHoweverItEnds) {
     EXPECT_TRUE(is_gone);
 }
 
-TEST_F(Demo, SaysWhatIsWrongWithAPair) {
+TEST_F(Demo, ReportsFaultsOfAPair) {
     const ProgramResult missing =
         run_to_end(VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("none.png"),
                                      "--headless", "--folder", file("out")});

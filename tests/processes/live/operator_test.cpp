@@ -306,7 +306,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
         EXPECT_EQ(port["unknown"], 0) << port;
         EXPECT_GT(port["obeyed"], 0) << port;
     }
-    EXPECT_GT(summary["hand_to_picture_ms"]["count"], 0);
+    EXPECT_GT(summary["input_to_picture_ms"]["count"], 0);
     const nlohmann::json& film = summary["outputs"][0];
     EXPECT_EQ(film["pictures"].get<int>() + film["dropped"].get<int>(),
               summary["pictures"].get<int>())

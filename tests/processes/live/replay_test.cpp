@@ -25,7 +25,7 @@ namespace {
 
 constexpr double rate_hz = 5;
 
-/// A rig on the virtual stage, a host that is steered over OSC.
+/// A rig on the virtual stage, and a host that is steered over OSC.
 class ReplayShow : public testing::Test {
   protected:
     ReplayShow() {

@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// From 2 m at the left to 8 m at the right.
+/// Depths from 2 m at the left to 8 m at the right.
 DepthImage ramp() {
     DepthImage depth(4, 101);
     for (int y = 0; y < depth.rows; ++y)
@@ -26,7 +26,7 @@ TEST(DepthColoursTest, UseTheWholeRangeOfTheScene) {
         EXPECT_LT(brightness(picture(0, x)), brightness(picture(0, x - 10))) << x;
 }
 
-TEST(DepthColoursTest, WhatIsUnknownIsBlackAndWidensNothing) {
+TEST(DepthColoursTest, UnknownDepthsAreBlackAndOutsideTheRange) {
     DepthImage depth = ramp();
     depth.row(0).setTo(0);
     DepthRange range;
@@ -35,7 +35,7 @@ TEST(DepthColoursTest, WhatIsUnknownIsBlackAndWidensNothing) {
     EXPECT_EQ(depth_colours(depth, range)(0, 50), cv::Vec4b(0, 0, 0, 255));
 }
 
-TEST(DepthColoursTest, AFewWildPixelsTakeNoColoursAway) {
+TEST(DepthColoursTest, AFewWildPixelsDoNotWidenTheRange) {
     DepthImage depth = ramp();
     depth(0, 0) = 0.01f;
     depth(1, 1) = 900;
@@ -58,7 +58,7 @@ TEST(DepthColoursTest, TheRangeFollowsSlowly) {
     EXPECT_EQ(range.nearest_m, before.nearest_m) << "a frame without depth changes nothing";
 }
 
-TEST(DepthColoursTest, DepthComesOfTheDisparitysOwnWidth) {
+TEST(DepthColoursTest, DepthUsesTheWidthOfTheDisparityImage) {
     RectifiedStereo geometry;
     geometry.f_px = 100;
     geometry.baseline_m = 0.2;

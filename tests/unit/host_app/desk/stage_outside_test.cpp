@@ -7,7 +7,7 @@ namespace {
 
 const DeskRect part{100, 50, 400, 300};
 
-/// A rig on every side, 4 m from the middle.
+/// Four rigs, 4 m from the middle.
 DeskPlan ring() {
     DeskPlan plan;
     for (const Eigen::Vector3d& at : {Eigen::Vector3d(4, 1, 0), {-4, 1, 0}, {0, 1, 4}, {0, 1, -4}})
@@ -15,7 +15,7 @@ DeskPlan ring() {
     return plan;
 }
 
-TEST(OutsideView, SeesAllRigsFromEverySide) {
+TEST(OutsideView, ShowsAllRigsFromEverySide) {
     OutsideEye eye;
     for (int turn = 0; turn < 12; ++turn) {
         const DeskPlan plan = ring();
@@ -29,7 +29,7 @@ TEST(OutsideView, SeesAllRigsFromEverySide) {
     }
 }
 
-TEST(OutsideView, TheMiddleIsInTheMiddleAndUpIsUp) {
+TEST(OutsideView, CentresTheStageAndKeepsUpUp) {
     const DeskPlan plan = ring();
     const OutsideMap map(part, plan, {});
     const auto middle = map.at(plan.extent.centre_m);
@@ -42,7 +42,7 @@ TEST(OutsideView, TheMiddleIsInTheMiddleAndUpIsUp) {
     EXPECT_LT(from_front.at({0, 1, 1})->depth_m, from_front.at({0, 1, -1})->depth_m);
 }
 
-TEST(OutsideView, NearerIsLargerAndHasItsBounds) {
+TEST(OutsideView, NearerIsLargerWithinLimits) {
     const DeskPlan plan = ring();
     OutsideEye eye;
     const double before = OutsideMap(part, plan, eye).at(plan.extent.centre_m)->depth_m;
@@ -57,7 +57,7 @@ TEST(OutsideView, NearerIsLargerAndHasItsBounds) {
     EXPECT_GT(eye.elevation_rad, 0) << "never under the floor";
 }
 
-TEST(OutsideView, LinesEndBeforeTheEye) {
+TEST(OutsideView, ClipsLinesBeforeTheEye) {
     const DeskPlan plan = ring();
     const OutsideEye eye{0, 0.3, 0};
     const OutsideMap map(part, plan, eye);

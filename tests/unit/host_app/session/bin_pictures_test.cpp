@@ -35,7 +35,7 @@ class ShotPicturesTest : public testing::Test {
     MonotonicTime start_{1h};
 };
 
-TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
+TEST_F(ShotPicturesTest, ShowTheProgrammesPictureAtTheShot) {
     shots_[3] = Shot{};
     pictures_.follow(shots_, made(aside(), 50), start_);
     EXPECT_EQ(pictures_.of(4), nullptr) << "the camera was not there yet";
@@ -48,7 +48,7 @@ TEST_F(ShotPicturesTest, ShowWhatTheProgrammeShowedThere) {
     EXPECT_EQ(red_of(*pictures_.of(4)), 90) << "elsewhere it stays";
 }
 
-TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
+TEST_F(ShotPicturesTest, AreRenewedWhileTheCameraStaysAtTheShot) {
     shots_[0] = Shot{};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 100ms);
@@ -57,12 +57,12 @@ TEST_F(ShotPicturesTest, AreTakenAnewNowAndThenWhileTheCameraIsThere) {
     EXPECT_EQ(red_of(*pictures_.of(1)), 92);
 }
 
-TEST_F(ShotPicturesTest, GoWithTheirShot) {
+TEST_F(ShotPicturesTest, EndWithTheirShot) {
     shots_[0] = Shot{};
     pictures_.follow(shots_, made(OrbitView{}, 90), start_);
     shots_[0] = shot_aside();
     pictures_.follow(shots_, made(OrbitView{}, 91), start_ + 3s);
-    EXPECT_EQ(pictures_.of(1), nullptr) << "another view is kept there now";
+    EXPECT_EQ(pictures_.of(1), nullptr) << "another view is stored there now";
 }
 
 }  // namespace
