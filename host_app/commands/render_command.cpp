@@ -152,8 +152,10 @@ void render(const RenderOptions& options) {
     if (const auto& eyes = rendering.stereoscopy()) result["stereoscopic"] = to_json(*eyes);
     ColourImage shown = picture;
     if (options.source_map) {
-        shown = rendering.source_map(result["source_map"]).download();
-        result["novelty"] = result["source_map"];  // old name
+        nlohmann::ordered_json shares;
+        shown = rendering.source_map(shares).download();
+        result["source_map"] = shares;
+        result["novelty"] = shares;  // old name
     }
 
     write_colour_image(options.output, shown);

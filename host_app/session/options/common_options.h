@@ -23,6 +23,18 @@ inline constexpr const char* wheel_files_help =
     "a file such as those in hw_config/jog (installed: /usr/share/doc/vantage/examples/jog), or a "
     "folder of them (TOML)";
 
+/// Groups of `vantage live --help` and `vantage play --help`.
+namespace option_group {
+inline constexpr const char* input = "Input";
+inline constexpr const char* camera = "Camera";
+inline constexpr const char* picture = "Picture";
+inline constexpr const char* output = "Output";
+inline constexpr const char* control = "Control";
+inline constexpr const char* recording = "Recording";
+inline constexpr const char* stereoscopic = "3-D";
+inline constexpr const char* expert = "Expert";
+}  // namespace option_group
+
 /// Accepts the old name of a renamed option for one release. The old name sets the option, logs one
 /// warning and is hidden from the help.
 void accept_old_name(CLI::App& command, CLI::Option* option, const std::string& old_name);

@@ -16,18 +16,6 @@
 
 namespace vantage {
 
-/// Groups of `vantage live --help` and `vantage play --help`.
-namespace option_group {
-inline constexpr const char* input = "Input";
-inline constexpr const char* camera = "Camera";
-inline constexpr const char* picture = "Picture";
-inline constexpr const char* output = "Output";
-inline constexpr const char* control = "Control";
-inline constexpr const char* recording = "Recording";
-inline constexpr const char* stereoscopic = "3-D";
-inline constexpr const char* expert = "Expert";
-}  // namespace option_group
-
 /// The options that `vantage live` and `vantage play` share. An empty string means that the option
 /// was not given.
 struct ShowOptions {

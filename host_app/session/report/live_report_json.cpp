@@ -132,9 +132,14 @@ void add_old_keys(nlohmann::ordered_json& json) {
         {"source_map", "novelty"},  // old name
         {"saved_background", "saved_set"}};
     for (const auto& [key, old_key] : keys)
-        if (json.contains(key)) json[old_key] = json[key];
-    json["sets"]["superseded"] = json["frame_sets"]["replaced"];  // old name
-    json["instants"]["a_second"] = json["instants"]["per_second"];
+        if (const auto found = json.find(key); found != json.end()) {
+            nlohmann::ordered_json value = *found;
+            json[old_key] = std::move(value);
+        }
+    const nlohmann::ordered_json replaced = json["frame_sets"]["replaced"];
+    json["sets"]["superseded"] = replaced;  // old name
+    const nlohmann::ordered_json per_second = json["instants"]["per_second"];
+    json["instants"]["a_second"] = per_second;
 }
 
 }  // namespace
@@ -219,9 +224,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                {"shared_points", rig.gain_compensation->samples}};
         }
         if (rig.background) {
-            nlohmann::ordered_json& background = entry["background"];
-            background = {{"known", rig.background->known}, {"loaded", rig.background->is_loaded}};
+            nlohmann::ordered_json background{{"known", rig.background->known},
+                                              {"loaded", rig.background->is_loaded}};
             if (!rig.background->misfit.empty()) background["misfit"] = rig.background->misfit;
+            entry["background"] = background;
             entry["set"] = background;  // old name
         }
         entry["latency_ms"] = to_json(rig.status.latency_ms);
