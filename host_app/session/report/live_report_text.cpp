@@ -62,9 +62,9 @@ std::string rig_remarks(const LiveReport& report) {
 std::string corridor_text(const LiveReport& report) {
     const CorridorStats& stats = report.corridor;
     if (!stats.now) return "";
-    std::string text =
-        fmt::format("the rigs cover {:.0f} % of the last picture, at least {:.0f} % of any",
-                    100 * stats.now->share, 100 * stats.least_share);
+    std::string text = fmt::format(
+        "the rigs cover {:.0f} % of the last picture and at least {:.0f} % of every one",
+        100 * stats.now->share, 100 * stats.least_share);
     if (stats.edge_s > 0 || stats.beyond_s > 0)
         text += fmt::format(
             "; the camera was {:.1f} s at the edge of the corridor and {:.1f} s outside it",

@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-/// Whether a rig with a key answers there.
+/// Returns whether a rig with a key answers there.
 bool serves(const std::string& stage) {
     return run_to_end(VANTAGE_PROGRAM, {"rigs", "status", "--stage", stage, "--wait", "1"})
                .status == 0;
@@ -25,7 +25,7 @@ bool serves(const std::string& stage) {
 class Demo : public testing::Test {
   protected:
     Demo() {
-        // A wall of noise that stands 8 px deep.
+        // A textured wall with a disparity of 8 px.
         std::mt19937 random(1);
         ColourImage right(96, 128);
         for (auto& texel : right)
@@ -69,7 +69,7 @@ TEST(DemoSize, IsSlowerOnASlowSoftwareRenderer) {
 }
 
 TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
-    // Of a demo before.
+    // A file of an earlier demo.
     std::filesystem::create_directory(file("out"));
     write_colour_image(file("out/contact_sheet.png"), ColourImage(1, 1));
     const ProgramResult result = run_to_end(

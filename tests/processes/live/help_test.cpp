@@ -29,6 +29,13 @@ TEST(Help, NamesTheExamplesOfSourcesAndPackages) {
     }
 }
 
+TEST(Help, LeavesOldNamesOutOfTheCompletion) {
+    const ProgramResult completion = run_to_end(VANTAGE_PROGRAM, {"--bash-completion"});
+    ASSERT_EQ(completion.status, 0) << completion.err;
+    EXPECT_NE(completion.out.find("--source-map"), std::string::npos);
+    EXPECT_EQ(completion.out.find("--novelty"), std::string::npos);  // old name
+}
+
 TEST(Help, GroupsTheOptionsOfAShow) {
     for (const char* command : {"live", "play"}) {
         const ProgramResult help = run_to_end(VANTAGE_PROGRAM, {command, "--help"});

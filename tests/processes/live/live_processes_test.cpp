@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* first_progress = " pictures, ";
 
-/// Two tiny rigs on the virtual stage and a host, each a process of its own.
+/// Two tiny rigs on the virtual stage and a host; each is a process.
 class LiveProcesses : public testing::Test {
   protected:
     LiveProcesses() {
@@ -59,7 +59,7 @@ class LiveProcesses : public testing::Test {
         return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
     }
 
-    /// Until the program has written these words, a minute at most.
+    /// Waits until the program has logged these words, at most a minute.
     static void wait_for(const ChildProgram& program, const char* words) {
         for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
             usleep(10'000);
@@ -166,7 +166,7 @@ TEST_F(LiveProcesses, SendTheProgrammeToSeveralOutputsThoughOneFails) {
     EXPECT_EQ(summary["outputs"][1]["encoder"], "");
     EXPECT_EQ(summary["outputs"][3]["state"], "failed");
     EXPECT_NE(err.find("v4l2:/dev/no-such-video failed"), std::string::npos) << err;
-    // The standard output has pictures and nothing else.
+    // Standard output has nothing but frames.
     const std::string out = host->out();
     const std::size_t head = out.find('\n') + 1;
     EXPECT_NE(out.substr(0, head).find("W128 H72 F30000:1001 "), std::string::npos);
@@ -206,7 +206,7 @@ TEST_F(LiveProcesses, ApplyTheStagesColourCorrectionToEveryRig) {
     };
     const cv::Scalar plain = flown("plain.png");
     ASSERT_GT(plain[1], 10);
-    // Of the green, which a plain picture has as much of as of the red, nothing is left.
+    // No green is left, which an uncorrected picture has as much of as red.
     ColourCorrection only_red_and_blue;
     only_red_and_blue.matrix(1, 1) = 0;
     save_colour(file("left.colour.toml"), only_red_and_blue, {});
@@ -271,13 +271,13 @@ TEST_F(LiveProcesses, FollowTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    // Where the first rig stands: once the stage is known, and not before.
+    // The camera is at the first rig once the stage is known.
     wait_for(host, "azimuth -12.0");
     screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // The picture alone, so that it is as wide as the window.
+    // Show the picture alone, so that it is as wide as the window.
     screen.operator_input({"key", "Tab", "sleep", "1"});
-    // A tenth of the picture's width to the right: the stage turns with the hand by 18 degrees,
-    // from where the first of the two rigs stands.
+    // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
+    // from the first rig's position.
     screen.operator_input(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
     wait_for(host, "azimuth -30.0");
@@ -308,7 +308,7 @@ TEST_F(LiveProcesses, SurviveAGpuResetWithoutLosingATick) {
     EXPECT_LE(summary["missed_ticks"].get<double>(), 1 + 0.02 * summary["pictures"].get<double>())
         << "ticks go on while contexts are made: " << summary["tick_late_ms"];
     EXPECT_GE(summary["new_pictures"], 5);
-    // What is drawn on a lost context stays black.
+    // A lost context draws black.
     EXPECT_GT(cv::mean(read_colour_image(file("last.png")))[1], 20);
 }
 
