@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"

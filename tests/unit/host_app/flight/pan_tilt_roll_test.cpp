@@ -1,4 +1,4 @@
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 
 #include <gtest/gtest.h>
 

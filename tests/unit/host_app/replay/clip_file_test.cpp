@@ -1,4 +1,4 @@
-#include "host_app/replay/clip_file.h"
+#include "host_app/replay/clip_store.h"
 
 #include <fstream>
 
