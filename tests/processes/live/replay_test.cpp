@@ -172,7 +172,8 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     EXPECT_TRUE(shows("hold", "1"));
     EXPECT_TRUE(shows("take", "1")) << "all the while";
     ask("delete_clip");
-    EXPECT_TRUE(shows("question", "again to delete clip 1, which the play list has 2 times"));
+    EXPECT_TRUE(shows(
+        "question", "give the command again to delete clip 1, which is in the play list 2 times"));
     EXPECT_EQ(show_->lamp("clips"), "2");
     ask("live");
     EXPECT_TRUE(shows("replay", "live"));
