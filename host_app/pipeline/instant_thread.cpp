@@ -142,7 +142,7 @@ std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
 InstantThread::Stats InstantThread::stats() const {
     const std::lock_guard lock(mutex_);
     Stats stats = stats_;
-    stats.superseded = sets_.superseded();
+    stats.superseded = sets_.replaced();
     stats.superseded.sets += failed_.sets;
     for (const auto& [rig, frames] : failed_.frames) stats.superseded.frames[rig] += frames;
     stats.prepare_ms = prepare_ms_.summary();

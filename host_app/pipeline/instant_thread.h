@@ -111,7 +111,7 @@ class InstantThread {
         std::uint64_t prepared = 0;        ///< live sets, or a take's
         std::uint64_t between = 0;         ///< of moments between pulses
         RigCounts frames;                  ///< of them
-        NewestFrameSet::Superseded superseded;  ///< also what could not be prepared for a fault
+        NewestFrameSet::Replaced superseded;  ///< also what could not be prepared for a fault
         std::map<std::string, GainCompensation::Rig> gain_compensation;
         Percentiles prepare_ms;
         RigSteps rig_steps;
@@ -202,7 +202,7 @@ class InstantThread {
     std::shared_ptr<const ReadyInstant> newest_;
     std::exception_ptr failure_;
     Stats stats_;
-    NewestFrameSet::Superseded failed_;
+    NewestFrameSet::Replaced failed_;
     PercentileRecorder prepare_ms_, capture_ms_, rectify_ms_, match_ms_, pack_ms_;
     std::thread thread_;
 };

@@ -31,9 +31,9 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.mark_out = state.time.out.has_value();
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
-    lamps.set = -1;
+    lamps.background = -1;
     for (const RigBackgroundState& set : show.instant_stats().sets)
-        lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
+        lamps.background = lamps.background < 0 ? set.known : std::min(lamps.background, set.known);
     lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;

@@ -117,20 +117,22 @@ void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
 void ShowSession::find_pivots(const SessionRequests& requests, MonotonicTime now) {
     FlightControls& controls = show.controls();
     const std::vector<FlightControls::Following> following = controls.lines().following;
-    if (!requests.pick && following.empty()) return;
+    const command::PickPivot* pick = nullptr;
+    for (const SessionCommand& each : requests.commands)
+        if (const auto* found = std::get_if<command::PickPivot>(&each)) pick = found;
+    if (!pick && following.empty()) return;
     const ProgrammeState programme = show.state();
     if (!programme.picture) return;
     // The operator picks in the picture of the camera that is flown.
     const MadePicture& seen =
         programme.preview.picture ? *programme.preview.picture : *programme.picture;
-    if (requests.pick) {
+    if (pick) {
         const PictureFormat& format = show.settings().format;
-        FlightInput input;
-        input.pivot_m =
+        const std::optional<Eigen::Vector3d> point_m =
             surface_at(*seen.job.instant->set, seen.job.camera,
-                       static_cast<double>(format.height_px) / format.width_px, *requests.pick);
-        if (input.pivot_m)
-            controls.operator_input().put(input, now);
+                       static_cast<double>(format.height_px) / format.width_px, pick->place);
+        if (point_m)
+            controls.operator_input().put({.commands = {command::LookAt{*point_m}}}, now);
         else
             log_info("no rig has a depth there; the pivot stays");
     }
@@ -147,14 +149,17 @@ void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& backgr
     const SessionRequests requests = show.controls().take_requests();
     keep_flights(requests);
     find_pivots(requests, now);
-    if (!requests.cue_time.empty()) cue_time(requests.cue_time);
     follow_replay(now);
     if (std::optional<Move> move = flights.follow(now))
         show.controls().keep_flight(*std::move(move));
-    if (takes && requests.toggle_take) takes->toggle();
-    for (const int number : requests.outputs) outputs.press(number, now);
-    if (requests.learn_background) show.learn_background_anew();
-    if (requests.save_background) backgrounds.save();
+    for (const SessionCommand& each : requests.commands) {
+        if (const auto* cue = std::get_if<command::CueTime>(&each)) cue_time(cue->time);
+        if (const auto* output = std::get_if<command::ToggleOutput>(&each))
+            outputs.press(output->number, now);
+        if (takes && std::holds_alternative<command::ToggleTake>(each)) takes->toggle();
+        if (std::holds_alternative<command::LearnBackground>(each)) show.learn_background_anew();
+        if (std::holds_alternative<command::SaveBackground>(each)) backgrounds.save();
+    }
     show_metrics(room, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt,
                     backgrounds.state().path, now);

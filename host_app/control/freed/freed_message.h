@@ -7,7 +7,7 @@
 #include <span>
 
 #include "host_app/flight/camera_state.h"
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 
 namespace vantage {
 

@@ -44,7 +44,7 @@ int glfw_key(std::string_view name) {
 /// Returns the command's argument if the key gives the command (1 for a command without one), or 0.
 int number_of_key(const ControlCommand& command, int key, bool with_control) {
     const int first = glfw_key(command.key.name);
-    const int keys = command.argument == CommandArgument::number ? command.most : 1;
+    const int keys = command.argument == CommandArgument::number ? command.max_number : 1;
     if (first == GLFW_KEY_UNKNOWN || key < first || key >= first + keys) return 0;
     // Ctrl matters only if two commands share the key.
     const bool shares_key = std::any_of(
@@ -219,7 +219,7 @@ std::string OperatorWindow::question_of(const ControlCommand& command, int numbe
     const std::string_view name = command.name;
     if (name == "take" && take_runs_) return "Press T again to end the take";
     if (name == "remove_keyframe") return "Press X again to remove the keyframe";
-    if (name == "learn_set") return "Press Ctrl + J again to learn the background anew";
+    if (name == "learn_background") return "Press Ctrl + J again to learn the background anew";
     if (name == "store" && number <= shot_places &&
         kept_shots_[static_cast<std::size_t>(number - 1)])
         return fmt::format("Press Ctrl + {} again to replace shot {}", number, number);
@@ -293,14 +293,14 @@ void OperatorWindow::press_at_cursor() {
         return;
     }
     for (const DeskSpots::Numbered& shot : drawn_.spots.shots)
-        if (is_on(shot.rect)) input_.recall_shot = shot.number;
+        if (is_on(shot.rect)) input_.commands.push_back(command::RecallShot{shot.number});
     for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
-        if (is_on(output.rect)) input_.toggle_output = output.number;
+        if (is_on(output.rect)) input_.commands.push_back(command::ToggleOutput{output.number});
     for (const DeskSpots::Numbered& clip : drawn_.spots.clips)
-        if (is_on(clip.rect)) input_.replay.push_back({ReplayAction::hold_clip, clip.number});
+        if (is_on(clip.rect)) input_.commands.push_back(ReplayCall{ReplayAction::hold_clip, clip.number});
     for (const DeskSpots::Numbered& entry : drawn_.spots.entries)
-        if (is_on(entry.rect)) input_.replay.push_back({ReplayAction::select_entry, entry.number});
-    if (is_on(drawn_.spots.live)) input_.to_live = true;
+        if (is_on(entry.rect)) input_.commands.push_back(ReplayCall{ReplayAction::select_entry, entry.number});
+    if (is_on(drawn_.spots.live)) input_.commands.push_back(command::ToLive{});
     if (is_on(drawn_.in_hand())) press_on_picture();
     drags_outside_ = is_on(drawn_.spots.outside);
     if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
@@ -322,8 +322,8 @@ void OperatorWindow::press_on_picture() {
     pressed_s_ = is_second ? -1 : now_s;
     if (!is_second) return;
     const DeskRect& picture = drawn_.in_hand();
-    input_.pick = Eigen::Vector2d((cursor_x_ - picture.left) / picture.width,
-                                  (cursor_y_ - picture.top) / picture.height);
+    input_.commands.push_back(command::PickPivot{{(cursor_x_ - picture.left) / picture.width,
+                                                  (cursor_y_ - picture.top) / picture.height}});
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
@@ -370,7 +370,7 @@ void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
     else if (is_on(self.drawn_.spots.outside))
         self.switches_.eye.go_nearer(per_notch * up), self.is_changed_ = true;
     else if (self.drawn_.spots.time && is_on(self.drawn_.spots.time->rect))
-        self.input_.past_steps += up;
+        self.input_.commands.push_back(command::StepFrames{up});
 }
 
 void OperatorWindow::take_held_keys(double dt_s) {

@@ -13,7 +13,7 @@
 #include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/ports/control_ports.h"
-#include "host_app/flight/corridor_stats.h"
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/moves/move_coverage.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/output/output_supervisor.h"

@@ -83,9 +83,9 @@ TEST_F(SavedBackgrounds, AreWrittenByACommandDuringTheShow) {
     SteeredShow steered(
         played({"--loop", "--seconds", "300", "--save-background", at("by_hand.vset")}), folder_);
     ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
-    ASSERT_TRUE(steered.send("/vantage/save_set"));
+    ASSERT_TRUE(steered.send("/vantage/save_background"));
     EXPECT_TRUE(steered.is_told("by_hand.vset")) << steered.told() << steered.show().err();
-    ASSERT_TRUE(steered.send("/vantage/learn_set"));
+    ASSERT_TRUE(steered.send("/vantage/learn_background"));
     steered.show().send_signal(SIGINT);
     const ProgramResult end = steered.show().wait();
     EXPECT_EQ(nlohmann::json::parse(end.out)["saved_background"], at("by_hand.vset"));

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "host_app/replay/clip_file.h"
+#include "host_app/replay/clip_store.h"
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -172,7 +172,8 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     EXPECT_TRUE(shows("hold", "1"));
     EXPECT_TRUE(shows("take", "1")) << "all the while";
     ask("delete_clip");
-    EXPECT_TRUE(shows("question", "again to delete clip 1, which the play list has 2 times"));
+    EXPECT_TRUE(shows(
+        "question", "give the command again to delete clip 1, which is in the play list 2 times"));
     EXPECT_EQ(show_->lamp("clips"), "2");
     ask("live");
     EXPECT_TRUE(shows("replay", "live"));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-TEST(OrbitView, StandsOnTheAxesThatItsAnglesName) {
+TEST(OrbitView, AnglesGiveTheSideOfTheCamera) {
     OrbitView view;
     view.pivot_m = {1, 2, 3};
     view.distance_m = 2;

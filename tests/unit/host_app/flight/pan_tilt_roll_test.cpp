@@ -1,5 +1,3 @@
-#include "host_app/flight/pan_tilt_roll.h"
-
 #include <gtest/gtest.h>
 
 #include "host_app/flight/orbit_view.h"
@@ -8,7 +6,7 @@
 namespace vantage {
 namespace {
 
-TEST(PanTiltRoll, IsFoundAgainAlsoStraightUpAndDown) {
+TEST(PanTiltRoll, SurvivesARoundTripEvenStraightUpAndDown) {
     for (const double tilt : {-90.0, -89.0, -20.0, 0.0, 45.0, 90.0})
         for (const double pan : {-170.0, 0.0, 35.0})
             for (const double roll : {-60.0, 0.0, 10.0}) {
@@ -35,7 +33,7 @@ TEST(OrbitViewOfACamera, IsThatCamera) {
         }
 }
 
-TEST(OrbitViewOfACamera, ForHandsHasItsPivotAboveTheFloorAndTheSamePicture) {
+TEST(OrbitViewOfACamera, TakenOverKeepsThePictureWithAPivotAboveTheFloor) {
     CameraState camera;
     camera.world_from_camera.linear() = turned({25 * deg, -30 * deg, 0});
     camera.world_from_camera.translation() = Eigen::Vector3d(1, 1.6, -2);

@@ -1,5 +1,3 @@
-#include "host_app/replay/clip_file.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -43,12 +41,12 @@ class ClipFile : public testing::Test {
     std::filesystem::path file_ = folder_.path() / "stage.clips.toml";
 };
 
-TEST_F(ClipFile, IsReadAsItWasWritten) {
+TEST_F(ClipFile, SurvivesARoundTrip) {
     write(to_toml(example()));
     EXPECT_EQ(load_clips(file_, 29.97), example());
 }
 
-TEST_F(ClipFile, RefusesWhatDoesNotFitByLine) {
+TEST_F(ClipFile, RejectsInvalidValuesWithTheLine) {
     EXPECT_EQ(refusal_of(""), "");
     expect_refused("[[clip]]\nnumber = 1\nin_pulse = 5\nout_pulse = 5\n",
                    ":6: 'out_pulse' in [[clip]] is not after in_pulse");
@@ -64,7 +62,7 @@ TEST_F(ClipFile, RefusesWhatDoesNotFitByLine) {
     expect_refused("mix = true\n", "mix");
 }
 
-TEST_F(ClipFile, RefusesAnotherVersionAndAnotherRate) {
+TEST_F(ClipFile, RejectsAnotherVersionAndAnotherRate) {
     write("version = 2\npulse_rate_hz = 25\n");
     EXPECT_NE(thrown_sentence([&] { (void)load_clips(file_, 25); }).find("version"),
               std::string::npos);
@@ -73,7 +71,7 @@ TEST_F(ClipFile, RefusesAnotherVersionAndAnotherRate) {
     EXPECT_NE(sentence.find("--clips"), std::string::npos) << sentence;
 }
 
-TEST_F(ClipFile, IsKeptWhenTheBookWasChangedAndOnlyThen) {
+TEST_F(ClipFile, IsWrittenOnlyAfterAChange) {
     EXPECT_EQ(clip_file_of("a/take.mkv"), "a/take.clips.toml");
     ClipStore store(file_, 29.97);
     store.follow(std::make_shared<const ClipBook>(store.book()), MonotonicClock::now() + 1h);
@@ -84,14 +82,14 @@ TEST_F(ClipFile, IsKeptWhenTheBookWasChangedAndOnlyThen) {
     EXPECT_FALSE(std::filesystem::exists(file_)) << "not yet";
     store.follow(changed, MonotonicClock::now() + 1h);
     EXPECT_EQ(load_clips(file_, 29.97), example());
-    std::ofstream(file_) << "# of somebody else\n";
+    std::ofstream(file_) << "# by another program\n";
     ClipBook other = example();
     other.list.clear();
     store.follow(std::make_shared<const ClipBook>(other), MonotonicClock::now());
     store.finish();
     EXPECT_EQ(load_clips(file_, 29.97), other);
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "stage.clips-2.toml"))
-        << "what another program wrote stays";
+        << "the file of another program stays";
 }
 
 }  // namespace

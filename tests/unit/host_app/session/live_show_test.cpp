@@ -187,7 +187,8 @@ TEST_F(LiveShowTest, CountsAnInstantOnceThoughItIsReplayed) {
     }
     for (const double steps : {-2, +1, -2}) {
         const std::uint64_t before = show().state().picture->job.instant->set->trigger_index;
-        show().controls().operator_input().put({.past_steps = steps}, MonotonicClock::now());
+        show().controls().operator_input().put({.commands = {command::StepFrames{steps}}},
+                                               MonotonicClock::now());
         ASSERT_TRUE(shows(before + static_cast<std::uint64_t>(static_cast<std::int64_t>(steps))));
     }
     show().finish();
