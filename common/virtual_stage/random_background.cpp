@@ -49,7 +49,7 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     mesh.begin_chunk({.casts_shadow = false});
     mesh.background_material(any_material(dice, 0.45f));
     mesh.ring({0, 0, 0}, 0.0f, radius * 1.6f, 48, 14);
-    mesh.background_placement(Affine3f(Eigen::Translation3f(0, height, 0)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(0, height, 0)) *
                        AngleAxisf(0.5f * tau, Vector3f::UnitX()));
     mesh.background_material(any_material(dice, 0.35f));
     mesh.ring({0, 0, 0}, 0.0f, radius * 1.6f, 48, 6);
@@ -58,7 +58,7 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     const float half = radius * std::tan(0.5f * tau / static_cast<float>(sides));
     for (int i = 0; i < sides; ++i) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(
+        mesh.set_placement(
             Affine3f(AngleAxisf(turn + tau * static_cast<float>(i) / static_cast<float>(sides),
                                 Vector3f::UnitY())) *
             Eigen::Translation3f(0, 0, -radius));
@@ -109,7 +109,7 @@ void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& fre
         mesh.begin_chunk();
         const Vector3f size_m(dice.between(0.6f, 2.0f), dice.between(0.5f, 1.6f), 0.05f);
         const Vector3f at = free.place(dice, 0.5f * size_m.norm(), 5.5f);
-        mesh.background_placement(
+        mesh.set_placement(
             Affine3f(Eigen::Translation3f(at.x(), dice.between(0.4f, 2.2f), at.z())) *
             AngleAxisf(dice.between(-1.2f, 1.2f), any_direction(dice)));
         mesh.background_material(any_material(dice, 0.8f));
@@ -126,7 +126,7 @@ void add_thing(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     const float radius_m = thing == beam   ? std::abs(lean) + 0.2f
                            : thing == ring ? 1.25f * size
                                            : size;
-    mesh.background_placement(Affine3f(Eigen::Translation3f(free.place(dice, radius_m, 3.4f))) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(free.place(dice, radius_m, 3.4f))) *
                        AngleAxisf(turn, Vector3f::UnitY()));
     switch (thing) {
         case box:

@@ -91,7 +91,7 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
                                         {StageTexture::plaster, {0.58f, 0.40f, 0.66f}, 0.45f}}};
     const Look& look = looks[static_cast<std::size_t>(index) % looks.size()];
     mesh.begin_chunk(far_scenery);
-    mesh.background_placement(facing_middle(azimuth, wall_radius_m));
+    mesh.set_placement(facing_middle(azimuth, wall_radius_m));
     StageMaterial wall = of(look.texture, look.tint, look.per_m);
     wall.glow = 0.10f;
     mesh.background_material(wall);
@@ -152,7 +152,7 @@ void add_columns(StageMeshBuilder& mesh) {
         constexpr int columns = panels / 4;
         for (int i = 0; i < columns; ++i) {
             const float azimuth = tau * static_cast<float>(quarter * columns + i) / panels;
-            mesh.background_placement(facing_middle(azimuth, radius));
+            mesh.set_placement(facing_middle(azimuth, radius));
             mesh.background_material(of(StageTexture::plaster, {0.90f, 0.88f, 0.84f}, 0.8f));
             mesh.rod({0, 0, 0}, {0, wall_height_m + 0.3f, 0}, 0.17f, 0.15f, 16, false);
             mesh.rod({0, 0, 0}, {0, 0.30f, 0}, 0.25f, 0.21f, 16);
@@ -170,7 +170,7 @@ void add_ceiling(StageMeshBuilder& mesh) {
     ceiling.glow = 0.12f;
     mesh.background_material(ceiling);
     // Upside down: it faces the floor.
-    mesh.background_placement(Affine3f(Eigen::Translation3f(0, ceiling_m, 0)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(0, ceiling_m, 0)) *
                        AngleAxisf(0.5f * tau, Vector3f::UnitX()));
     mesh.ring({0, 0, 0}, 0.0f, wall_radius_m + 0.4f, 48, 6);
     mesh.end_chunk();
@@ -235,7 +235,7 @@ void add_microphone_stand(StageMeshBuilder& mesh, float x, float z) {
 
 void add_desk(StageMeshBuilder& mesh) {
     mesh.begin_chunk();
-    mesh.background_placement(facing_middle(0.62f * tau, 3.9f));
+    mesh.set_placement(facing_middle(0.62f * tau, 3.9f));
     mesh.background_material(of(StageTexture::wood, {0.96f, 0.90f, 0.86f}, 0.8f));
     mesh.box({0, 0.40f, 0}, {2.1f, 0.72f, 0.60f});
     mesh.background_material(of(StageTexture::plain, {0.93f, 0.93f, 0.95f}));
@@ -256,14 +256,14 @@ void add_desk(StageMeshBuilder& mesh) {
 void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
     mesh.begin_chunk();
     const Affine3f placement = facing_middle(azimuth, radius);
-    mesh.background_placement(placement);
+    mesh.set_placement(placement);
     mesh.background_material(of(StageTexture::flowers, {0.95f, 0.80f, 0.70f}, 1.5f));
     mesh.rod({0, 0, 0}, {0, 0.38f, 0}, 0.15f, 0.21f, 18);
     mesh.background_material(of(StageTexture::speckle, {0.42f, 0.72f, 0.34f}, 1.5f));
     for (int leaf = 0; leaf < 22; ++leaf) {
         const float turn = 2.39996f * static_cast<float>(leaf);
         const float rise = 0.25f + 0.05f * static_cast<float>(leaf % 9);
-        mesh.background_placement(placement * Eigen::Translation3f(0, 0.34f, 0) *
+        mesh.set_placement(placement * Eigen::Translation3f(0, 0.34f, 0) *
                            AngleAxisf(turn, Vector3f::UnitY()) *
                            AngleAxisf(1.15f - rise * 1.6f, Vector3f::UnitX()));
         mesh.ellipsoid({0, 0.42f, 0}, {0.055f, 0.44f, 0.010f}, 6, 6);
@@ -274,15 +274,15 @@ void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
 void add_balls_and_blocks(StageMeshBuilder& mesh) {
     mesh.begin_chunk();
     // Plain grey: nothing for a matcher to hold on to.
-    mesh.background_placement(Affine3f(Eigen::Translation3f(1.75f, 0, 1.05f)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(1.75f, 0, 1.05f)) *
                        AngleAxisf(0.5f, Vector3f::UnitY()));
     mesh.background_material(of(StageTexture::plain, {0.60f, 0.60f, 0.61f}));
     mesh.box({0, 0.24f, 0}, {0.48f, 0.48f, 0.48f});
-    mesh.background_placement(Affine3f(Eigen::Translation3f(-1.85f, 0, 0.75f)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(-1.85f, 0, 0.75f)) *
                        AngleAxisf(-0.4f, Vector3f::UnitY()));
     mesh.background_material(of(StageTexture::checker, {1, 1, 1}, 1.4f));
     mesh.box({0, 0.36f, 0}, {0.42f, 0.72f, 0.42f});
-    mesh.background_placement(Affine3f(Eigen::Translation3f(1.95f, 0, -0.95f)));
+    mesh.set_placement(Affine3f(Eigen::Translation3f(1.95f, 0, -0.95f)));
     mesh.background_material(of(StageTexture::plaster, {0.92f, 0.90f, 0.86f}, 1.0f));
     mesh.rod({0, 0, 0}, {0, 0.75f, 0}, 0.24f, 0.20f, 20);
     mesh.rod({0, 0.75f, 0}, {0, 0.80f, 0}, 0.27f, 0.27f, 20);
@@ -305,7 +305,7 @@ void add_balls_and_blocks(StageMeshBuilder& mesh) {
 void add_speakers(StageMeshBuilder& mesh) {
     for (const float azimuth : {0.07f * tau, 0.30f * tau, 0.47f * tau, 0.71f * tau, 0.93f * tau}) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(facing_middle(azimuth, 6.3f));
+        mesh.set_placement(facing_middle(azimuth, 6.3f));
         mesh.background_material(of(StageTexture::speckle, {0.36f, 0.37f, 0.42f}, 1.0f));
         mesh.box({0, 0.75f, 0}, {0.62f, 1.5f, 0.55f});
         mesh.box({0.03f, 1.85f, 0}, {0.50f, 0.68f, 0.45f});
@@ -324,7 +324,7 @@ void add_risers(StageMeshBuilder& mesh) {
     // Steps along a part of the wall: slanted and stepped depths.
     for (const float azimuth : {0.16f * tau, 0.56f * tau, 0.84f * tau}) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(facing_middle(azimuth, 6.4f));
+        mesh.set_placement(facing_middle(azimuth, 6.4f));
         for (int step = 0; step < 3; ++step) {
             mesh.background_material(of(step % 2 ? StageTexture::carpet : StageTexture::stripes,
                                  {0.9f, 0.9f, 0.95f}, 0.6f));

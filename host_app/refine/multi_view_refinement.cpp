@@ -189,7 +189,7 @@ void MultiViewRefinement::sweep(const Look& look, double relative_step) {
     Program& refine = refine_.use();
     set_view(refine, half_.texture(), view);
     refine.set("relative_step", static_cast<float>(relative_step));
-    for (std::size_t i = 0; i < costs_->cost.size(); ++i) refine.input("cost", i, costs_->cost[i]);
+    for (std::size_t i = 0; i < costs_->cost.size(); ++i) refine.input("costs", i, costs_->cost[i]);
     draw(refine_, refined, look);
     half_.finish();
 }
