@@ -70,7 +70,7 @@ class StageMeshBuilder {
     void begin_chunk(const ChunkKind& kind = {});
     void end_chunk();
 
-    void background_material(const StageMaterial& material) { material_ = material; }
+    void set_material(const StageMaterial& material) { material_ = material; }
     void set_placement(const Eigen::Affine3f& world_from_local) { placement_ = world_from_local; }
     void set_bone(int bone) { bone_ = bone; }
 
