@@ -32,9 +32,9 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.missed));
     text.counter("replaced_pictures",
                  "Pictures replaced by a newer one before a tick showed them.");
-    text.sample(number(programme.superseded));                                  // old name
+    text.sample(number(programme.replaced));                                  // old name
     text.counter("superseded_pictures", "Deprecated: see replaced_pictures.");  // old name
-    text.sample(number(programme.superseded));                                  // old name
+    text.sample(number(programme.replaced));                                  // old name
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
     text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");

@@ -50,7 +50,7 @@ class FrameSetSource {
     /// Asks a rig to start or to stop sending.
     void ask(const std::string& rig, bool streaming) const { live_.ask(rig, streaming); }
     ReceiverStatus status() const { return live_.status(); }
-    NewestFrameSet::Superseded superseded() const { return live_.superseded(); }
+    NewestFrameSet::Replaced replaced() const { return live_.replaced(); }
     /// Ends the reading of the feed, as NewestFrameSet::close().
     ReceiverStatus close() { return live_.close(); }
 

@@ -31,12 +31,12 @@ void InstantStatsRecorder::note_prepared(Prepared prepared) {
     prepare_ms_.add(prepared.prepare_ms);
 }
 
-InstantStats InstantStatsRecorder::snapshot(NewestFrameSet::Superseded replaced) const {
+InstantStats InstantStatsRecorder::snapshot(NewestFrameSet::Replaced replaced) const {
     const std::lock_guard lock(mutex_);
     InstantStats stats = stats_;
-    stats.superseded = std::move(replaced);
-    stats.superseded.sets += dropped_.sets;
-    for (const auto& [rig, frames] : dropped_.frames) stats.superseded.frames[rig] += frames;
+    stats.replaced = std::move(replaced);
+    stats.replaced.sets += dropped_.sets;
+    for (const auto& [rig, frames] : dropped_.frames) stats.replaced.frames[rig] += frames;
     stats.prepare_ms = prepare_ms_.summary();
     stats.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
                        pack_ms_.summary()};

@@ -24,7 +24,7 @@ struct InstantStats {
     std::uint64_t between = 0;   ///< instants interpolated between two pulses
     RigCounts frames;            ///< of the prepared frame sets
     /// Frame sets that a newer one replaced, and those that a fault left unprepared.
-    NewestFrameSet::Superseded superseded;
+    NewestFrameSet::Replaced replaced;
     std::map<std::string, GainCompensation::Rig> gain_compensation;
     Percentiles prepare_ms;
     RigSteps rig_steps;
@@ -64,7 +64,7 @@ class InstantStatsRecorder {
     void note_prepared(Prepared prepared);
 
     /// `replaced`: the frame sets that were never taken, which are counted elsewhere.
-    InstantStats snapshot(NewestFrameSet::Superseded replaced) const;
+    InstantStats snapshot(NewestFrameSet::Replaced replaced) const;
 
   private:
     void drop_locked();
@@ -72,7 +72,7 @@ class InstantStatsRecorder {
     std::optional<FrameSet> unprepared_;  ///< the frame set that is being prepared
     mutable std::mutex mutex_;
     InstantStats stats_;
-    NewestFrameSet::Superseded dropped_;
+    NewestFrameSet::Replaced dropped_;
     PercentileRecorder prepare_ms_, capture_ms_, rectify_ms_, match_ms_, pack_ms_;
 };
 

@@ -99,9 +99,9 @@ class InstantThread {
     RenderPriority& render_priority() { return render_priority_; }
 
     using Stats = InstantStats;
-    Stats stats() const { return stats_.snapshot(source_.superseded()); }
+    Stats stats() const { return stats_.snapshot(source_.replaced()); }
     /// Stops reading the feed and waits until the frame set in preparation is done, so that the
-    /// stats are complete. Frame sets that were never taken count as superseded.
+    /// stats are complete. Frame sets that were never taken count as replaced.
     ReceiverStatus close();
 
   private:

@@ -257,14 +257,14 @@ LiveReport LiveShow::report() const {
     report.frame_sets_closed = status.sets;
     report.frame_sets_complete = status.complete_frame_sets;
     report.frame_sets_dropped = status.frame_sets_dropped;
-    report.frame_sets_replaced = instants.superseded.sets;  // old name
+    report.frame_sets_replaced = instants.replaced.sets;
     const auto count_of = [](const RigCounts& counts, const std::string& rig) {
         const auto found = counts.find(rig);
         return found == counts.end() ? 0 : found->second;
     };
     for (const RigStatus& rig : status.rigs) {
         RigAccount account{rig, count_of(instants.frames, rig.rig),
-                           count_of(instants.superseded.frames, rig.rig)};
+                           count_of(instants.replaced.frames, rig.rig)};
         if (const auto gain_compensation = instants.gain_compensation.find(rig.rig);
             gain_compensation != instants.gain_compensation.end())
             account.gain_compensation = gain_compensation->second;

@@ -156,7 +156,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                 {"reprojected_ticks", programme.reprojected},
                                 {"repeated_ticks", programme.repeated},
                                 {"missed_ticks", programme.missed},
-                                {"replaced_pictures", programme.superseded},  // old name
+                                {"replaced_pictures", programme.replaced},  // old name
                                 {"synthesiser", report.synthesiser},
                                 {"renderer", report.renderer},
                                 {"signal", key_of(report.signal)}};

@@ -205,7 +205,7 @@ std::string to_text(const LiveReport& report) {
         "newer (synthesiser {}, on {})\n",
         report.rate_hz, new_frames_per_second(programme), programme.pictures,
         report.format.width_px, report.format.height_px, programme.duration_s, programme.ticks,
-        programme.reprojected, programme.repeated, programme.missed, programme.superseded,
+        programme.reprojected, programme.repeated, programme.missed, programme.replaced,
         report.synthesiser,  // old name
         report.renderer);
     text += line_of("after the tick", programme.late_ms);

@@ -102,7 +102,7 @@ TEST(LiveReport, KeepsRenamedKeysForOneRelease) {
     LiveReport report;
     report.programme.pictures = 30;
     report.programme.duration_s = 2;
-    report.programme.superseded = 4;  // old name
+    report.programme.replaced = 4;  // old name
     report.frame_sets_replaced = 3;
     report.saved_background = "studio.vset";
     report.source_map.emplace();
