@@ -32,8 +32,8 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
     lamps.background = -1;
-    for (const RigBackgroundState& set : show.instant_stats().sets)
-        lamps.background = lamps.background < 0 ? set.known : std::min(lamps.background, set.known);
+    for (const RigBackgroundState& rig : show.instant_stats().backgrounds)
+        lamps.background = lamps.background < 0 ? rig.known : std::min(lamps.background, rig.known);
     lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
