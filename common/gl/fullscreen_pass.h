@@ -7,21 +7,22 @@
 namespace vantage {
 
 /// Runs a fragment shader once for every pixel of a framebuffer, with
-/// shaders/shared/fullscreen.vert; in bands where the thread has a SlicedDrawing. Row 0 of the
-/// target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the pixel's (x, y).
+/// shaders/shared/fullscreen.vert. If the thread has a SlicedDrawing, the target is drawn in bands.
+/// Row 0 of the target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the
+/// pixel's (x, y).
 class FullscreenPass {
   public:
     FullscreenPass(const ShaderLibrary& library, std::string fragment, ShaderDefines defines = {});
 
-    /// The program, in use and ready for uniforms.
+    /// The program, in use and ready for inputs and uniforms.
     Program& use();
-    /// Draws with the program in use; depth test, blending and culling off.
+    /// Draws with the program in use, without depth test, blending and culling.
     void draw(const Framebuffer& target);
-    /// The same with a shader that writes gl_FragDepth into the target's depth texture.
+    /// Draws with a shader that writes gl_FragDepth into the target's depth texture.
     void draw_depth(const Framebuffer& target);
-    /// Draws only those pixels where `depth` compares so (GL_LESS, GL_GREATER, ...) with the
-    /// target's depth texture, and, with `writes`, puts it there unless the shader discards the
-    /// pixel: a shader that only some pixels need runs for no others.
+    /// Draws only the pixels where `depth` passes `comparison` (GL_LESS, GL_GREATER, ...) with the
+    /// target's depth texture; the shader does not run for the others. With `writes`, stores
+    /// `depth` there unless the shader discards the pixel.
     void draw_where(const Framebuffer& target, GLenum comparison, float depth, bool writes);
 
   private:

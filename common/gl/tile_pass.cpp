@@ -12,12 +12,10 @@ Program& TilePass::use() {
     return program_;
 }
 
-void TilePass::draw(const Framebuffer& target, const Texture& tiles, GLuint unit,
-                    cv::Size picture) {
+void TilePass::draw(const Framebuffer& target, const Texture& tiles, cv::Size picture) {
     constexpr int corners_per_tile = 6;
-    program_.set("tiles", static_cast<int>(unit));
     program_.set("tile_share", share_of(picture));
-    tiles.bind(unit);
+    program_.input("tiles", tiles);
     target.bind();
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);

@@ -6,17 +6,17 @@
 
 namespace vantage {
 
-/// Runs a fragment shader for the pixels of some tiles of a framebuffer, with
-/// shaders/shared/tiles.vert: what has nothing to do far from where something happens costs nothing
-/// there. Which tiles is known to the GPU alone.
+/// Runs a fragment shader for the pixels of selected tiles of a framebuffer, with
+/// shaders/shared/tiles.vert. The selection is a texture that only the GPU reads; tiles outside it
+/// cost nothing.
 class TilePass {
   public:
     static constexpr int side_px = 16;
-    /// Of the tiles of a picture: the last ones may reach beyond it.
+    /// The number of tiles that cover a picture; the last ones may reach beyond it.
     static cv::Size tiles_of(cv::Size picture) {
         return {(picture.width + side_px - 1) / side_px, (picture.height + side_px - 1) / side_px};
     }
-    /// What a tile spans of the picture's width and height.
+    /// The share of the picture's width and height that a tile spans.
     static Eigen::Vector2f share_of(cv::Size picture) {
         return {static_cast<float>(side_px) / static_cast<float>(picture.width),
                 static_cast<float>(side_px) / static_cast<float>(picture.height)};
@@ -26,10 +26,10 @@ class TilePass {
 
     /// The program, in use and ready for uniforms.
     Program& use();
-    /// Makes the target 0 and draws the tiles of a picture of `picture` pixels, which covers the
-    /// target, where `tiles` (a pixel a tile) is above 0, with the program in use. Binds `tiles` to
-    /// `unit`.
-    void draw(const Framebuffer& target, const Texture& tiles, GLuint unit, cv::Size picture);
+    /// Clears the target to 0, then draws with the program in use the tiles where `tiles` (one
+    /// pixel per tile) is above 0. The tiles divide a picture of `picture` pixels that covers the
+    /// target.
+    void draw(const Framebuffer& target, const Texture& tiles, cv::Size picture);
 
   private:
     Program program_;

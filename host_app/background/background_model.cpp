@@ -64,82 +64,64 @@ void BackgroundModel::learn(RigHistory& rig) {
         program.set("has_before", has_before ? 1.0f : 0.0f);
     };
 
-    rig.depth().bind(0);
-    rig.fresh_colour().bind(1);
-    background_colour.bind(2);
     TwoStagePass& seeing = rig.depth().size() == picture ? see_alike_ : see_;
     seeing.draw(set.seen_target(), [&](Program& see) {
-        see.set("depth_map", 0);
-        see.set("picture", 1);
-        see.set("background_colour", 2);
-        bind_now(see, rig, state_before, 3);
+        see.input("depth_map", rig.depth());
+        see.input("picture", rig.fresh_colour());
+        see.input("background_colour", background_colour);
+        set_background_now(see, rig, state_before);
         set_votes(see);
     });
 
     Program& tiles = tiles_.use();
-    tiles.set("seen", 0);
+    tiles.input("seen", set.seen());
     tiles.set("tile_share", TilePass::share_of(picture));
     tiles.set("margin_share", Eigen::Vector2f(matte_reach_px * size.cwiseInverse()));
-    set.seen().bind(0);
     tiles_.draw(rig.matte_tiles().target());
 
     Program& matte = matte_.use();
-    matte.set("picture", 0);
-    matte.set("seen", 1);
-    rig.fresh_colour().bind(0);
-    set.seen().bind(1);
-    matte_.draw(hard_.target(), rig.matte_tiles().texture(), 2, picture);
+    matte.input("picture", rig.fresh_colour());
+    matte.input("seen", set.seen());
+    matte_.draw(hard_.target(), rig.matte_tiles().texture(), picture);
 
     Program& edges = edges_.use();
-    edges.set("hard", 0);
-    edges.set("picture", 1);
-    edges.set("background_colour", 2);
-    hard_.texture().bind(0);
-    rig.fresh_colour().bind(1);
-    background_colour.bind(2);
-    edges_.draw(rig.matte().target(), rig.matte_tiles().texture(), 3, picture);
+    edges.input("hard", hard_.texture());
+    edges.input("picture", rig.fresh_colour());
+    edges.input("background_colour", background_colour);
+    edges_.draw(rig.matte().target(), rig.matte_tiles().texture(), picture);
 
     Program& learn = learn_.use();
-    learn.set("depth_map", 0);
-    learn.set("background_before", 1);
-    learn.set("seen", 2);
-    learn.set("matte", 3);
+    learn.input("depth_map", rig.depth());
+    learn.input("background_before", state_before);
+    learn.input("seen", set.seen());
+    learn.input("matte", rig.matte().texture());
     set_votes(learn);
     learn.set("most_instants", most_votes(rig));
     learn.set("most_misses", instants_of(patience_s, rig.dt_s(), 3, 30));
     learn.set("absorbed_after", static_cast<float>(absorbed_after_s / std::max(rig.dt_s(), 1e-3)));
-    rig.depth().bind(0);
-    state_before.bind(1);
-    set.seen().bind(2);
-    rig.matte().texture().bind(3);
     learn_.draw(set.next_target());
 
     Program& show = colour_.use();
-    show.set("picture", 0);
-    show.set("before", 1);
-    show.set("seen", 2);
-    show.set("matte", 3);
+    show.input("picture", rig.fresh_colour());
+    show.input("before", background_colour);
+    show.input("seen", set.seen());
+    show.input("matte", rig.matte().texture());
     show.set("has_before", has_before ? 1.0f : 0.0f);
     show.set("most_instants", most_colour_instants(rig.dt_s()));
-    rig.fresh_colour().bind(0);
-    background_colour.bind(1);
-    set.seen().bind(2);
-    rig.matte().texture().bind(3);
     colour_.draw(colour);
     rig.finish_set();
     rig.finish_colour();
 }
 
-void BackgroundModel::bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit) {
+void BackgroundModel::set_background_now(Program& program, const RigHistory& rig,
+                                         const Texture& state) {
     const std::optional<RigHistory::Model>& model = rig.model();
-    program.set("model", unit);
-    program.set("background_state", unit + 1);
+    program.input("model", model ? model->surface->depth() : state);
+    program.input("background_state", state);
     // What has not changed for as long as is counted has not changed since an older model either.
     program.set("since", model ? std::min(static_cast<float>(rig.learnt_instants() - model->made),
                                           most_votes(rig) - 1)
                                : 0.0f);
-    (model ? model->surface->depth() : state).bind(unit);
-    state.bind(unit + 1);
 }
 
 float BackgroundModel::most_votes(const RigHistory& rig) {
@@ -225,15 +207,12 @@ BackgroundModel::Look BackgroundModel::look_at(const RigHistory& rig) {
                            std::max(1, cvRound(picture.height / reduction)));
     sampled_.resize(sampled);
     Program& known = known_.use();
-    known.set("background_state", 0);
-    known.set("background_colour", 1);
+    known.input("background_state", rig.background_state().state());
+    known.input("background_colour", rig.colour_mean());
     known.set("known_after", known_after(rig));
-    known.set("matte", 2);
+    known.input("matte", rig.matte());
     known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
                                               1.0f / static_cast<float>(sampled.height)));
-    rig.background_state().state().bind(0);
-    rig.colour_mean().bind(1);
-    rig.matte().bind(2);
     known_.draw(sampled_.target());
     std::array<cv::Mat1b, 2> seen;
     cv::split(sampled_.texture().download(), seen.data());

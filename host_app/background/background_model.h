@@ -44,9 +44,9 @@ class BackgroundModel {
     /// Reads it back. Precondition as learnt().
     Look look_at(const RigHistory& rig);
 
-    /// Gives a program of background_now.glsl what it reads of a rig, on `unit` and the next; `state` is
-    /// that of its set.
-    static void bind_now(Program& program, const RigHistory& rig, const Texture& state, int unit);
+    /// Sets the inputs and uniforms of background_now.glsl from a rig; `state` is the state of its
+    /// background.
+    static void set_background_now(Program& program, const RigHistory& rig, const Texture& state);
 
     /// Instants that a pixel's depth counts at most.
     static float most_votes(const RigHistory& rig);

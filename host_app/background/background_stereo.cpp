@@ -181,8 +181,8 @@ class CostVolume {
 constexpr std::array<Cost, 3 * 255 + 1> cost_of_difference = [] {
     std::array<Cost, 3 * 255 + 1> costs{};
     for (std::size_t sum = 0; sum < costs.size(); ++sum)
-        costs[sum] = static_cast<Cost>(std::min(static_cast<float>(sum) / 3, max_cost) *
-                                       (whole / max_cost));
+        costs[sum] =
+            static_cast<Cost>(std::min(static_cast<float>(sum) / 3, max_cost) * (whole / max_cost));
     return costs;
 }();
 
@@ -589,7 +589,7 @@ std::optional<DepthImage> matched(std::span<const BackgroundView> sets, std::siz
 }  // namespace
 
 std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> sets,
-                                                  const std::stop_token& stop) {
+                                                         const std::stop_token& stop) {
     std::vector<cv::Mat4b> fine;
     std::vector<ColourImage> rights;
     for (const BackgroundView& set : sets) {

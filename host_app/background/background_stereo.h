@@ -44,6 +44,6 @@ struct BackgroundView {
 /// @return each rig's depth, metres, 0 where its set is not known, or where no other rig stands
 /// farther from it than its own two cameras from each other; nothing if `stop` was asked for.
 std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> sets,
-                                                  const std::stop_token& stop = {});
+                                                         const std::stop_token& stop = {});
 
 }  // namespace vantage

@@ -35,9 +35,9 @@ class ForegroundDepth {
     /// Those whose silhouettes are looked at.
     static std::vector<const RigHistory*> others_of(const RigHistory& rig,
                                                     std::span<RigHistory* const> all);
-    /// Their mattes and sets, from a texture unit on. Returns the first free one.
-    static GLuint bind(Program& program, const RigHistory& rig,
-                       std::span<const RigHistory* const> others, int unit);
+    /// Gives the program the mattes and backgrounds of the other rigs.
+    static void set_others(Program& program, const RigHistory& rig,
+                           std::span<const RigHistory* const> others);
     void carve(const RigHistory& rig, std::span<const RigHistory* const> others);
     /// For the holes in what is left that are too wide for their edges.
     const Texture& look_far(const RigHistory& rig, std::span<const RigHistory* const> others);

@@ -169,17 +169,12 @@ const Texture& StagedPreparer::refined_background(RigHistory& rig) {
         if (one == &rig) view = all.back();
         refinement_.then([this, one] {
             Program& show = show_matched_.use();
-            show.set("learnt", 0);
-            show.set("picture", 1);
-            show.set("learnt_then", 2);
-            show.set("picture_then", 3);
-            show.set("matched", 4);
+            show.input("learnt", one->steady_depth());
+            show.input("picture", one->colour());
+            show.input("learnt_then", one->match()->learnt_m);
+            show.input("picture_then", one->match()->colour);
+            show.input("matched", one->match()->depth_m);
             show.set("spread", depth_spread(one->camera()));
-            one->steady_depth().bind(0);
-            one->colour().bind(1);
-            one->match()->learnt_m.bind(2);
-            one->match()->colour.bind(3);
-            one->match()->depth_m.bind(4);
             show_matched_.draw(one->matched_depth().target());
         });
     }
@@ -236,7 +231,7 @@ void StagedPreparer::match_anew(double due_s) {
 }
 
 std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory& rig,
-                                                              const PrepareLevel& level) {
+                                                                     const PrepareLevel& level) {
     rig.generate_mipmaps();
     const Texture* depth_m = &rig.steady_depth();
     const Texture* measured_m = depth_m;
@@ -281,13 +276,10 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
         performers_.find(rig, learnt_, surface->depth_target());
     }
     Program& program = colour_performers_.use();
-    program.set("picture", 0);
-    program.set("background_colour", 1);
-    program.set("matte", 2);
-    rig.fresh_colour().bind(0);
-    rig.colour().bind(1);
-    rig.matte().texture().bind(2);
-    colour_performers_.draw(surface->colour_target(), rig.matte_tiles().texture(), 3,
+    program.input("picture", rig.fresh_colour());
+    program.input("background_colour", rig.colour());
+    program.input("matte", rig.matte().texture());
+    colour_performers_.draw(surface->colour_target(), rig.matte_tiles().texture(),
                             rig.fresh_colour().size());
     triangles_.build_where(surface->grid(QuadGrid::coarse), rig.matte_tiles().texture(),
                            rig.fresh_colour().size(), level.bend);
@@ -302,18 +294,13 @@ bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level)
 void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                                 const PrepareLevel& level) {
     Program& show = show_.use();
-    BackgroundModel::bind_now(show, rig, rig.background_state().state(), 0);
-    show.set("depth_map", 2);
-    show.set("seen", 3);
-    show.set("performers", 4);
-    show.set("colour", 5);
-    show.set("colour_mean", 6);
+    BackgroundModel::set_background_now(show, rig, rig.background_state().state());
+    show.input("depth_map", rig.depth());
+    show.input("seen", rig.background_state().seen());
+    show.input("performers", performers_m);
+    show.input("colour", rig.colour());
+    show.input("colour_mean", rig.colour_mean());
     show.set("known_after", BackgroundModel::known_after(rig));
-    rig.depth().bind(2);
-    rig.background_state().seen().bind(3);
-    performers_m.bind(4);
-    rig.colour().bind(5);
-    rig.colour_mean().bind(6);
     show_.draw(surface.depth_target());
     edge_confidence_.judge(surface);
     triangles_.build(surface.grid(QuadGrid::coarse), level.bend);
@@ -338,21 +325,14 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
         make_shape(*surface, rig, performers_m, level);
     }
     Program& now = now_.use();
-    now.set("picture", 0);
-    now.set("background_colour", 1);
-    now.set("performers", 2);
-    now.set("seen", 3);
-    now.set("matte", 4);
-    now.set("background_depth", 5);
-    now.set("confidence", 6);
+    now.input("picture", rig.fresh_colour());
+    now.input("background_colour", rig.colour());
+    now.input("performers", performers_m);
+    now.input("seen", rig.background_state().seen());
+    now.input("matte", rig.matte().texture());
+    now.input("background_depth", surface->depth());
+    now.input("confidence", surface->confidence().texture());
     now.set("remembered", RigSurface::remembered_confidence);
-    rig.fresh_colour().bind(0);
-    rig.colour().bind(1);
-    performers_m.bind(2);
-    rig.background_state().seen().bind(3);
-    rig.matte().texture().bind(4);
-    surface->depth().bind(5);
-    surface->confidence().texture().bind(6);
     now_.draw(surface->colour_target());
     surface->finish_colour();
     return surface;
@@ -387,7 +367,8 @@ void StagedPreparer::improve(const VirtualView& target) {
     if (const auto depths_m = matching_.take(true)) take_match(*depths_m);
 }
 
-bool StagedPreparer::improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner) {
+bool StagedPreparer::improve_a_step(const VirtualView& target,
+                                    BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
     if (!refinement_pass_) begin_refining(target);
@@ -423,12 +404,11 @@ void StagedPreparer::begin_refining(const VirtualView& target) {
 }
 
 bool StagedPreparer::is_under_way(const Refining& refining) const {
-    return std::all_of(
-        refining.rigs.begin(), refining.rigs.end(), [&](const Refining::Rig& rig) {
-            return rigs_.has_learnt(rig.rig) && rig.rig->colour().size() == rig.colour &&
-                   rig.rig->depth().size() == rig.depth &&
-                   rig.rig->match().has_value() == rig.is_matched;
-        });
+    return std::all_of(refining.rigs.begin(), refining.rigs.end(), [&](const Refining::Rig& rig) {
+        return rigs_.has_learnt(rig.rig) && rig.rig->colour().size() == rig.colour &&
+               rig.rig->depth().size() == rig.depth &&
+               rig.rig->match().has_value() == rig.is_matched;
+    });
 }
 
 }  // namespace vantage

@@ -14,7 +14,7 @@ void ProgrammeRecorder::set_level_shares(std::vector<double> render, std::vector
 
 void ProgrammeRecorder::count_replaced_frame() {
     const std::lock_guard lock(mutex_);
-    ++stats_.superseded;
+    ++stats_.replaced;
 }
 
 std::optional<double> ProgrammeRecorder::record_fresh(const MadePicture& made, MonotonicTime now) {

@@ -23,7 +23,7 @@ struct ProgrammeStats {
     std::uint64_t repeated = 0;     ///< such ticks that got the last frame as it was
     std::uint64_t missed = 0;       ///< repeated ticks that the programme reached too late; sinks got
                                     ///< their frames late
-    std::uint64_t superseded = 0;   ///< frames that a newer one replaced before a tick showed them
+    std::uint64_t replaced = 0;   ///< frames that a newer one replaced before a tick showed them
     Percentiles late_ms;            ///< from a tick to the hand-over of its frame
     double duration_s = 0;          ///< since the first frame
     Percentiles interval_ms;        ///< between two newly rendered frames

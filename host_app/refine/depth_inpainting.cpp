@@ -27,34 +27,28 @@ DepthInpainting::Pyramid& DepthInpainting::pyramid(cv::Size size) {
     return pyramid;
 }
 
-void DepthInpainting::close(const Texture& depth_m, const Texture& measured_m, const Texture& picture,
-                        const Framebuffer& closed) {
+void DepthInpainting::close(const Texture& depth_m, const Texture& measured_m,
+                            const Texture& picture, const Framebuffer& closed) {
     const Pyramid& pyramid = this->pyramid(depth_m.size());
     const std::vector<Level>& levels = pyramid.levels;
     Program& inpaint = inpaint_.use();
-    inpaint.set("depth_map", 0);
-    inpaint.set("measured", 1);
-    inpaint.set("picture", 2);
+    inpaint.input("depth_map", depth_m);
+    inpaint.input("measured", measured_m);
+    inpaint.input("picture", picture);
     inpaint.set("edge_ratio", depth_edge_ratio);
-    depth_m.bind(0);
-    measured_m.bind(1);
-    picture.bind(2);
     inpaint_.draw(pyramid.inpainted.target());
     const Texture& inpainted = pyramid.inpainted.texture();
     const Texture* fine = &inpainted;
     for (const Level& level : levels) {
-        pull_.use().set("depth_map", 0);
-        fine->bind(0);
+        pull_.use().input("depth_map", *fine);
         pull_.draw(level.pulled.target());
         fine = &level.pulled.texture();
     }
     const Texture* coarse = fine;
     for (std::size_t i = levels.size(); i-- > 0;) {
         Program& program = push_.use();
-        program.set("depth_map", 0);
-        program.set("coarse", 1);
-        (i == 0 ? inpainted : levels[i - 1].pulled.texture()).bind(0);
-        coarse->bind(1);
+        program.input("depth_map", i == 0 ? inpainted : levels[i - 1].pulled.texture());
+        program.input("coarse", *coarse);
         push_.draw(i == 0 ? closed : levels[i - 1].pushed.target());
         if (i > 0) coarse = &levels[i - 1].pushed.texture();
     }

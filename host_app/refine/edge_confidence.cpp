@@ -7,11 +7,10 @@ namespace vantage {
 void EdgeConfidence::judge(RigSurface& surface) {
     surface.confidence().resize(surface.colour().size());
     Program& program = pass_.use();
-    program.set("depth_map", 0);
+    program.input("depth_map", surface.depth());
     program.set("picture_size",
                 Eigen::Vector2i(surface.colour().width_px(), surface.colour().height_px()));
     program.set("edge_ratio", depth_edge_ratio);
-    surface.depth().bind(0);
     pass_.draw(surface.confidence().target());
 }
 

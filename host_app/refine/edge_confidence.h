@@ -11,7 +11,8 @@ namespace vantage {
 /// edges prevails over one that does not.
 class EdgeConfidence {
   public:
-    explicit EdgeConfidence(const ShaderLibrary& library) : pass_(library, "edge_confidence.frag") {}
+    explicit EdgeConfidence(const ShaderLibrary& library)
+        : pass_(library, "edge_confidence.frag") {}
 
     /// Fills the surface's trust(), from its depth.
     void judge(RigSurface& surface);

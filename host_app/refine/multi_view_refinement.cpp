@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "host_app/views/depth_edges.h"
 #include "host_app/views/depth_spread.h"
@@ -76,9 +75,9 @@ bool shows_floor(std::span<const ComparedView> views) {
 
 MultiViewRefinement::Sweep::Sweep(cv::Size size)
     : cost{Texture(TextureFormat::rgba8, size.width, size.height),
-             Texture(TextureFormat::rgba8, size.width, size.height),
-             Texture(TextureFormat::rgba8, size.width, size.height),
-             Texture(TextureFormat::rgba8, size.width, size.height)},
+           Texture(TextureFormat::rgba8, size.width, size.height),
+           Texture(TextureFormat::rgba8, size.width, size.height),
+           Texture(TextureFormat::rgba8, size.width, size.height)},
       target({&cost[0], &cost[1], &cost[2], &cost[3]}) {}
 
 MultiViewRefinement::MultiViewRefinement(const ShaderLibrary& library)
@@ -98,7 +97,8 @@ MultiViewRefinement::MultiViewRefinement(const ShaderLibrary& library)
     whole_.upload(cv::Mat1b(1, 1, uchar{255}));
 }
 
-std::deque<MultiViewRefinement::Step> MultiViewRefinement::in_steps(const std::function<void()>& work) {
+std::deque<MultiViewRefinement::Step> MultiViewRefinement::in_steps(
+    const std::function<void()>& work) {
     std::deque<Step> steps;
     steps_ = &steps;
     work();
@@ -113,41 +113,33 @@ void MultiViewRefinement::then(Step step) {
         step();
 }
 
-void MultiViewRefinement::draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look) {
-    pass.draw(target, *look->tiles, static_cast<GLuint>(unit), look->picture);
+void MultiViewRefinement::draw(TilePass& pass, const Framebuffer& target, const Look& look) {
+    pass.draw(target, *look->tiles, look->picture);
 }
 
-void MultiViewRefinement::bind_view(Program& program, const Texture& depth_m,
-                             const ComparedView& view) const {
-    program.set("depth_map", 0);
-    program.set("picture", 1);
+void MultiViewRefinement::set_view(Program& program, const Texture& depth_m,
+                                   const ComparedView& view) {
+    program.input("depth_map", depth_m);
+    program.input("picture", *view.colour);
     program.set("edge_ratio", depth_edge_ratio);
-    depth_m.bind(0);
-    view.colour->bind(1);
 }
 
-int MultiViewRefinement::bind_others(Program& program, const Texture& depth_m, const Look& look) const {
+void MultiViewRefinement::set_others(Program& program, const Texture& depth_m, const Look& look) {
     const ComparedView& view = look->view;
-    bind_view(program, depth_m, view);
+    set_view(program, depth_m, view);
     const VirtualView camera = depth_camera(view, depth_m.size());
     program.set("spread", depth_spread(view.camera()));
-    int unit = 2;
     for (std::size_t i = 0; i < look->others.size(); ++i) {
         const ComparedView& other = look->others[i];
-        const auto set = [&](const char* name, const auto& value) {
-            program.set(fmt::format("{}[{}]", name, i), value);
-        };
-        set("other_depth", unit);
-        other.depth_m->bind(unit++);
-        set("other_colour", unit);
-        other.colour->bind(unit++);
-        set("other_from_pixel",
-            Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
-        set("other_size", Eigen::Vector2f(static_cast<float>(other.colour->width_px()),
-                                          static_cast<float>(other.colour->height_px())));
-        set("other_spread", depth_spread(other.camera()));
+        program.input("other_depth", i, *other.depth_m);
+        program.input("other_colour", i, *other.colour);
+        program.set("other_from_pixel", i,
+                    Eigen::Matrix4f(pixel_from_target_pixel(other.camera(), camera).cast<float>()));
+        program.set("other_size", i,
+                    Eigen::Vector2f(static_cast<float>(other.colour->width_px()),
+                                    static_cast<float>(other.colour->height_px())));
+        program.set("other_spread", i, depth_spread(other.camera()));
     }
-    return unit;
 }
 
 double MultiViewRefinement::parallax_px(const Look& look) {
@@ -176,9 +168,9 @@ bool MultiViewRefinement::tell_news(const ComparedView& view, double parallax_px
 }
 
 void MultiViewRefinement::smooth(TilePass& pass, const Texture& depth_m, const Look& look,
-                          const Framebuffer& target) const {
-    bind_view(pass.use(), depth_m, look->view);
-    draw(pass, target, 2, look);
+                                 const Framebuffer& target) {
+    set_view(pass.use(), depth_m, look->view);
+    draw(pass, target, look);
 }
 
 void MultiViewRefinement::sweep(const Look& look, double relative_step) {
@@ -188,20 +180,17 @@ void MultiViewRefinement::sweep(const Look& look, double relative_step) {
     const Framebuffer& refined = half_.next_target(size);
     TilePass& comparing = sweep_[look->others.size() - 1];
     Program& compare = comparing.use();
-    const int unit = bind_others(compare, half_.texture(), look);
+    set_others(compare, half_.texture(), look);
     compare.set("relative_step", static_cast<float>(relative_step));
     compare.set("lod", std::log2(static_cast<float>(view.colour->width_px()) /
                                  static_cast<float>(size.width)));
-    draw(comparing, costs_->target, unit, look);
+    draw(comparing, costs_->target, look);
 
     Program& refine = refine_.use();
-    bind_view(refine, half_.texture(), view);
+    set_view(refine, half_.texture(), view);
     refine.set("relative_step", static_cast<float>(relative_step));
-    for (int i = 0; i < 4; ++i) {
-        refine.set(fmt::format("costs[{}]", i), 2 + i);
-        costs_->cost[static_cast<std::size_t>(i)].bind(2 + i);
-    }
-    draw(refine_, refined, 6, look);
+    for (std::size_t i = 0; i < costs_->cost.size(); ++i) refine.input("costs", i, costs_->cost[i]);
+    draw(refine_, refined, look);
     half_.finish();
 }
 
@@ -228,15 +217,16 @@ void MultiViewRefinement::compare(const Look& look, double parallax_px) {
     agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
     TilePass& comparing = agreement_pass_[look->others.size() - 1];
     Program& agreement = comparing.use();
-    const int unit = bind_others(agreement, depth_m, look);
+    set_others(agreement, depth_m, look);
     agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
-    draw(comparing, agreement_.target(), unit, look);
+    draw(comparing, agreement_.target(), look);
     agreement_.generate_mipmaps();
 }
 
 MultiViewRefinement::Look MultiViewRefinement::look_at(const ComparedView& view,
-                                         std::span<const ComparedView> all, std::size_t most,
-                                         const Texture* tiles) const {
+                                                       std::span<const ComparedView> all,
+                                                       std::size_t most,
+                                                       const Texture* tiles) const {
     std::vector<const ComparedView*> looked_at;
     for (const ComparedView& one : all)
         if (one.seen_by != view.seen_by) looked_at.push_back(&one);
@@ -265,21 +255,20 @@ const Texture& MultiViewRefinement::move_and_carve(const Look& look) {
     then([=, this] {
         TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
         Program& carve = carving.use();
-        int unit = bind_others(carve, *look->view.depth_m, look);
+        set_others(carve, *look->view.depth_m, look);
         carve.set("softness", agreeing_softness);
         carve.set("doubts", doubts);
-        // What a program may read must not be what it draws, even where it does not read it.
-        const auto read_if_doubted = [&](const char* name, const auto& drawn) {
-            carve.set(name, doubts ? unit : 0);
-            if (doubts) drawn.texture().bind(unit++);
+        // A sampler that is not read needs an input too, which must not be the target.
+        const auto input_if_doubted = [&](const char* name, const auto& drawn) {
+            carve.input(name, doubts ? drawn.texture() : *look->view.depth_m);
         };
-        read_if_doubted("agreement", agreement_);
+        input_if_doubted("agreement", agreement_);
         if (moves) {
-            read_if_doubted("half_before", half_before_);
-            read_if_doubted("half_after", half_);
+            input_if_doubted("half_before", half_before_);
+            input_if_doubted("half_after", half_);
             carve.set("least_change", static_cast<float>(least_change_px / parallax));
         }
-        draw(carving, moves ? judged_.target() : result_.target(), unit, look);
+        draw(carving, moves ? judged_.target() : result_.target(), look);
     });
     return carved;
 }
@@ -290,27 +279,27 @@ const Texture& MultiViewRefinement::better(const Look& look) {
     then([=, this] {
         TilePass& adopting = adopt_[look->others.size() - 1];
         Program& adopt = adopting.use();
-        const int unit = bind_others(adopt, *look->view.depth_m, look);
+        set_others(adopt, *look->view.depth_m, look);
         adopt.set("softness", agreeing_softness);
-        adopt.set("judged", unit);
-        judged_.texture().bind(unit);
-        draw(adopting, result_.target(), unit + 1, look);
+        adopt.input("judged", judged_.texture());
+        draw(adopting, result_.target(), look);
     });
     return result_.texture();
 }
 
-const Texture& MultiViewRefinement::better(const ComparedView& view, std::span<const ComparedView> all) {
+const Texture& MultiViewRefinement::better(const ComparedView& view,
+                                           std::span<const ComparedView> all) {
     return better(look_at(view, all, max_others));
 }
 
 const Texture& MultiViewRefinement::refine_foreground(const ComparedView& view,
-                                               std::span<const ComparedView> all,
-                                               const Texture& tiles) {
+                                                      std::span<const ComparedView> all,
+                                                      const Texture& tiles) {
     return move_and_carve(look_at(view, all, max_others, &tiles));
 }
 
 const Texture& MultiViewRefinement::refine_background(const ComparedView& view,
-                                        std::span<const ComparedView> all) {
+                                                      std::span<const ComparedView> all) {
     const Look look = look_at(view, all, max_others);
     const Texture& refined = better(look);
     if (look->others.empty() || !shows_floor(all)) return refined;
@@ -318,16 +307,15 @@ const Texture& MultiViewRefinement::refine_background(const ComparedView& view,
     then([=, this, &refined] {
         TilePass& standing = floor_[look->others.size() - 1];
         Program& program = standing.use();
-        const int unit = bind_others(program, *look->view.depth_m, look);
+        set_others(program, *look->view.depth_m, look);
         // Of the points where z times the ray from the camera is at y = 0.
         const Pose& pose = look->view.camera().world_from_camera;
         const Eigen::RowVector3d inverse_z =
             pose.linear().row(1) * look->view.K_depth().inverse() / -pose.translation().y();
         program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
         program.set("softness", agreeing_softness);
-        program.set("before", unit);
-        refined.bind(unit);
-        draw(standing, with_floor_.target(), unit + 1, look);
+        program.input("before", refined);
+        draw(standing, with_floor_.target(), look);
     });
     return with_floor_.texture();
 }

@@ -102,11 +102,11 @@ class MultiViewRefinement {
     /// (see rig_carve.frag); without that where nothing was moved; the view's own where no other
     /// looks.
     const Texture& move_and_carve(const Look& look);
-    /// Draws the tiles that are looked at. `unit`: a free one.
-    static void draw(TilePass& pass, const Framebuffer& target, int unit, const Look& look);
-    void bind_view(Program& program, const Texture& depth_m, const ComparedView& view) const;
-    /// Also the other views, up to the texture unit that is returned.
-    int bind_others(Program& program, const Texture& depth_m, const Look& look) const;
+    /// Draws the tiles that are looked at.
+    static void draw(TilePass& pass, const Framebuffer& target, const Look& look);
+    static void set_view(Program& program, const Texture& depth_m, const ComparedView& view);
+    /// Sets the inputs and uniforms of rig_others.glsl.
+    static void set_others(Program& program, const Texture& depth_m, const Look& look);
     /// How far the view's middle moves in the others' pictures, at most, if its inverse depth
     /// changes by all of itself; px of its depth map.
     static double parallax_px(const Look& look);
@@ -116,8 +116,8 @@ class MultiViewRefinement {
     /// Fills half_before_ and half_.
     void refine(const Look& look, double parallax_px);
     void sweep(const Look& look, double relative_step);
-    void smooth(TilePass& pass, const Texture& depth_m, const Look& look,
-                const Framebuffer& target) const;
+    static void smooth(TilePass& pass, const Texture& depth_m, const Look& look,
+                       const Framebuffer& target);
 
     std::deque<Step>* steps_ = nullptr;  ///< null: nothing is put off
     TilePass halve_, smooth_, refine_;

@@ -32,10 +32,8 @@ void DepthUploader::upload(const DepthView& view, DrawnTexture& into) {
     steps_->upload(view.disparity);
     const Texture& table = table_of(view.disparity_scale);
     Program& program = pass_.use();
-    program.set("steps", 0);
-    program.set("table", 1);
-    steps_->bind(0);
-    table.bind(1);
+    program.input("steps", *steps_);
+    program.input("table", table);
     pass_.draw(into.target());
 }
 

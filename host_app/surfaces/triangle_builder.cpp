@@ -37,9 +37,8 @@ void TriangleBuilder::build(const DepthGrid& grid, float bend) {
 void TriangleBuilder::build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
                                   float bend) {
     build_parts_.use();
-    build_parts_.set("tiles", 1);
+    build_parts_.input("tiles", tiles);
     build_parts_.set("tile_share", TilePass::share_of(picture));
-    tiles.bind(1);
     build(grid, bend, build_parts_);
 }
 
@@ -56,11 +55,10 @@ void TriangleBuilder::build(const DepthGrid& grid, float bend, Program& program)
 
 void TriangleBuilder::set_edge_filter(Program& program, const DepthGrid& grid) {
     program.use();
-    program.set("depth_map", 0);
+    program.input("depth_map", grid.depth_m);
     // The same for all grids: a coarse quad that a fine one would not span is left out.
     program.set("tolerance",
                 static_cast<float>(std::max(steepest_slope / grid.K(0, 0), smallest_step)));
-    grid.depth_m.bind(0);
 }
 
 void TriangleBuilder::build_rims(RigSurface& surface) {

@@ -1,6 +1,10 @@
 #include "common/gl/objects/program.h"
 
+#include <algorithm>
 #include <vector>
+
+#include <GLES2/gl2ext.h>
+#include <fmt/format.h>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -30,6 +34,29 @@ Shader compile(GLenum stage, const std::string& file, const std::string& source)
     glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
     if (!ok) fail("shader {} does not compile: {}", file, shader_log(shader.name()).c_str());
     return shader;
+}
+
+bool is_sampler(GLenum type) {
+    switch (type) {
+        case GL_SAMPLER_2D:
+        case GL_SAMPLER_3D:
+        case GL_SAMPLER_CUBE:
+        case GL_SAMPLER_2D_SHADOW:
+        case GL_SAMPLER_CUBE_SHADOW:
+        case GL_SAMPLER_2D_ARRAY:
+        case GL_SAMPLER_2D_ARRAY_SHADOW:
+        case GL_SAMPLER_2D_MULTISAMPLE:
+        case GL_INT_SAMPLER_2D:
+        case GL_INT_SAMPLER_3D:
+        case GL_INT_SAMPLER_2D_ARRAY:
+        case GL_UNSIGNED_INT_SAMPLER_2D:
+        case GL_UNSIGNED_INT_SAMPLER_3D:
+        case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+        case GL_SAMPLER_EXTERNAL_OES:
+            return true;
+        default:
+            return false;
+    }
 }
 
 }  // namespace
@@ -76,12 +103,42 @@ void Program::build() {
         glGetProgramiv(handle.name(), GL_COMPUTE_WORK_GROUP_SIZE, workgroup_);
         const int invocations = workgroup_[0] * workgroup_[1] * workgroup_[2];
         if (invocations > PiLimits::max_workgroup_invocations)
-            fail("shader {} has workgroups of {} invocations; a Raspberry Pi takes {}", first_,
+            fail("shader {} has workgroups of {} invocations; a Raspberry Pi supports {}", first_,
                  invocations, PiLimits::max_workgroup_invocations);
     }
     handle_ = std::move(handle);
     locations_.clear();
+    assign_units();
     generation_ = library_->generation();
+}
+
+void Program::assign_units() {
+    units_.clear();
+    GLint uniforms = 0, longest_name = 0;
+    glGetProgramiv(handle_.name(), GL_ACTIVE_UNIFORMS, &uniforms);
+    glGetProgramiv(handle_.name(), GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest_name);
+    std::vector<char> text(static_cast<std::size_t>(std::max(longest_name, 1)));
+    int next = 0;
+    const auto assign = [&](std::string name) {
+        glProgramUniform1i(handle_.name(), glGetUniformLocation(handle_.name(), name.c_str()),
+                           next);
+        units_.emplace(std::move(name), next++);
+    };
+    for (GLint i = 0; i < uniforms; ++i) {
+        GLint elements = 0;
+        GLenum type = 0;
+        glGetActiveUniform(handle_.name(), static_cast<GLuint>(i), longest_name, nullptr, &elements,
+                           &type, text.data());
+        if (!is_sampler(type)) continue;
+        const std::string name(text.data());
+        const auto bracket = name.find('[');
+        if (bracket == std::string::npos) {
+            assign(name);
+            continue;
+        }
+        for (GLint k = 0; k < elements; ++k)
+            assign(element(name.substr(0, bracket), static_cast<std::size_t>(k)));
+    }
 }
 
 void Program::use() {
@@ -89,9 +146,9 @@ void Program::use() {
         generation_ = library_->generation();
         try {
             build();
-            log_info("took up the edited shader {} {}", first_, second_);
+            log_info("loaded the edited shader {} {}", first_, second_);
         } catch (const Error& error) {
-            log_error("{}; the last good one stays", error.what());
+            log_error("{}; the last good version stays in use", error.what());
         }
     }
     glUseProgram(handle_.name());
@@ -101,6 +158,15 @@ GLint Program::location(std::string_view name) {
     const auto [at, is_new] = locations_.try_emplace(std::string(name), -1);
     if (is_new) at->second = glGetUniformLocation(handle_.name(), at->first.c_str());
     return at->second;
+}
+
+int Program::unit(std::string_view name) const {
+    const auto at = units_.find(name);
+    return at != units_.end() ? at->second : -1;
+}
+
+std::string Program::element(std::string_view name, std::size_t index) {
+    return fmt::format("{}[{}]", name, index);
 }
 
 void Program::set(std::string_view name, int value) { glUniform1i(location(name), value); }

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-TEST(Preview, IsFlownWhileTheProgrammeStandsUntilACutOrAFlightBringsItToAir) {
+TEST(Preview, IsFlownWhileTheProgrammeHoldsUntilACutOrAFlight) {
     const TemporaryFolder folder;
     const int port = two_free_ports().first;
     CameraOnAir on_air(port);

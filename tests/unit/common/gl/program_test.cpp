@@ -81,8 +81,7 @@ TEST_F(ProgramTest, TakesUpAnEditAndKeepsTheLastGoodOneWhenAnEditIsBroken) {
     EXPECT_EQ(painted_by(pass), green);
     const std::string log = testing::internal::GetCapturedStderr();
     EXPECT_NE(log.find("a.frag does not compile"), std::string::npos);
-    EXPECT_EQ(log.find("the last good one stays"), log.rfind("the last good one stays"))
-        << "said once";
+    EXPECT_EQ(log.find("stays in use"), log.rfind("stays in use")) << "logged once";
 
     folder_.write("a.frag", paints("vec4(0, 0, 1, 1)"));
     EXPECT_TRUE(library.poll());
@@ -123,6 +122,38 @@ TEST_F(ProgramTest, SetsEveryKindOfUniform) {
     EXPECT_EQ(painted_by(pass), cv::Vec4b(255, 255, 255, 255));
 }
 
+TEST_F(ProgramTest, BindsInputsByName) {
+    folder_.write(
+        "a.frag",
+        "uniform highp usampler2D whole; uniform sampler2D list[3]; uniform sampler2D one;\n"
+        "uniform float gains[2];\n" +
+            paints("vec4(float(texelFetch(whole, ivec2(0), 0).r == 7u),\n"
+                   "texelFetch(list[0], ivec2(0), 0).r + gains[1],\n"
+                   "texelFetch(list[2], ivec2(0), 0).r,\n"
+                   "texelFetch(one, ivec2(0), 0).r)"));
+    const ShaderLibrary library(folder_.path());
+    FullscreenPass pass(library, "a.frag");
+    const auto grey = [](int value) {
+        Texture texture(TextureFormat::r8, 1, 1);
+        texture.upload(cv::Mat1b(1, 1, static_cast<uchar>(value)));
+        return texture;
+    };
+    Texture whole(TextureFormat::r16ui, 1, 1);
+    whole.upload(cv::Mat1w(1, 1, std::uint16_t{7}));
+    const Texture first = grey(10), last = grey(20), one = grey(30), other = grey(40);
+    Program& program = pass.use();
+    program.input("one", one);
+    program.input("list", 2, last);
+    program.input("list", 0, first);
+    program.input("whole", whole);
+    program.input("removed_by_the_compiler", other);
+    program.set("gains", 1, 1 / 255.0f);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    EXPECT_EQ(painted_by(pass), cv::Vec4b(255, 11, 20, 30));
+    pass.use().input("one", other);
+    EXPECT_EQ(painted_by(pass), cv::Vec4b(255, 11, 20, 40)) << "the other inputs stay";
+}
+
 /// Counts, for every cell of a grid, how often it is visited; and visits beyond the grid.
 std::string counting_shader(const std::string& size) {
     return "layout(local_size_x = " + size +
@@ -157,7 +188,7 @@ TEST_F(ProgramTest, RefusesWorkgroupsThatAPiCannotRun) {
     const ShaderLibrary library(folder_.path());
     EXPECT_NO_THROW(Program::compute(library, "fits.comp"));
     EXPECT_EQ(thrown_sentence([&] { Program::compute(library, "large.comp"); }),
-              "shader large.comp has workgroups of 272 invocations; a Raspberry Pi takes 256");
+              "shader large.comp has workgroups of 272 invocations; a Raspberry Pi supports 256");
 }
 
 TEST_F(ProgramTest, DrawsRowZeroOnTop) {

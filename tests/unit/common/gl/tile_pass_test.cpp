@@ -37,7 +37,7 @@ TEST_F(TilePassTest, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
     const Framebuffer target({&drawn});
     for (int again = 0; again < 2; ++again) {
         pass_.use();
-        pass_.draw(target, tiles, 0, picture);
+        pass_.draw(target, tiles, picture);
         const cv::Mat1b seen = drawn.download();
         for (int y = 0; y < half.height; ++y)
             for (int x = 0; x < half.width; ++x)

@@ -27,14 +27,14 @@ class OperatorInput : public testing::Test {
         unsetenv("WAYLAND_DISPLAY");
         window_.emplace("Vantage", width_px, height_px);
         look(0);
-        // Without a window manager nobody else gives it the keyboard.
+        // There is no window manager that would give it the keyboard.
         screen_->operator_input(
             {"search", "--sync", "--name", "Vantage", "windowfocus", "mousemove", "320", "240"});
-        // The picture alone, so that it is as wide as the window.
+        // Show the picture alone, so that it is as wide as the window.
         after({"key", "Tab"});
     }
 
-    /// What the window takes in over a few pictures: events come when the server sends them.
+    /// Collects the input over a few pictures, since the server delivers events with a delay.
     FlightInput look(double dt_s, int pictures = 6) {
         FlightInput all;
         for (int i = 0; i < pictures; ++i) {
@@ -70,14 +70,14 @@ TEST_F(OperatorInput, LeftDragOrbits) {
     EXPECT_FALSE(after({"mousemove", "320", "240"}).steers()) << "the button is up";
 }
 
-TEST_F(OperatorInput, ADragBetweenTwoPicturesIsWholeAndNothingElseIs) {
+TEST_F(OperatorInput, ADragBetweenTwoPicturesCountsOnlyWhileTheButtonIsDown) {
     const FlightInput input = after({"mousemove", "360", "300", "mousedown", "1", "mousemove",
                                      "424", "300", "mouseup", "1", "mousemove", "320", "240"});
     EXPECT_NEAR(input.orbit_azimuth_rad, -0.1 * pi, 1e-6);
     EXPECT_EQ(input.orbit_elevation_rad, 0);
 }
 
-TEST_F(OperatorInput, OfTwoPicturesHandsFlyThePreviews) {
+TEST_F(OperatorInput, WithAPreviewInputFliesThePreview) {
     state_.preview.emplace();
     look(0);
     ASSERT_TRUE(window_->drawn().preview);
@@ -107,7 +107,7 @@ TEST_F(OperatorInput, RightAndMiddleDragShift) {
     }
 }
 
-TEST_F(OperatorInput, WheelGoesNearerAndWithControlZooms) {
+TEST_F(OperatorInput, WheelMovesNearerAndWithControlZooms) {
     EXPECT_NEAR(after({"click", "4"}).dolly, 0.12, 1e-6);
     EXPECT_NEAR(after({"click", "5", "click", "5"}).dolly, -0.24, 1e-6);
     after({"keydown", "Control_L"});
@@ -137,7 +137,7 @@ TEST_F(OperatorInput, HeldKeysActAsLongAsTheyAreHeld) {
     }
 }
 
-TEST_F(OperatorInput, KeysAskForWhatTheHelpSays) {
+TEST_F(OperatorInput, KeysGiveTheirCommands) {
     EXPECT_TRUE(after({"key", "space"}).find<command::ToggleHold>());
     EXPECT_TRUE(after({"key", "r"}).find<command::ResetView>());
     EXPECT_TRUE(after({"key", "p"}).find<command::ToggleMove>());
@@ -159,7 +159,7 @@ TEST_F(OperatorInput, KeysAskForWhatTheHelpSays) {
     EXPECT_EQ(number_of<command::RecallShot>(stored), 0);
 }
 
-TEST_F(OperatorInput, KeysOfClipsAskReplay) {
+TEST_F(OperatorInput, KeysOfClipsGiveReplayCommands) {
     const std::pair<const char*, ReplayAction> keys[] = {
         {"BackSpace", ReplayAction::last_cue},        {"y", ReplayAction::make_clip},
         {"ctrl+y", ReplayAction::trim_clip},          {"Next", ReplayAction::clip_step},
@@ -175,7 +175,7 @@ TEST_F(OperatorInput, KeysOfClipsAskReplay) {
     }
 }
 
-TEST_F(OperatorInput, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
+TEST_F(OperatorInput, KeysHaveNoOtherEffectWhileACommandIsTyped) {
     FlightInput input = after({"key", "Return", "type", "clip_sp"});
     input.add(after({"key", "Tab"}));
     input.add(after({"type", " 50"}));
@@ -194,7 +194,7 @@ TEST_F(OperatorInput, ACommandIsTypedAndKeysDoNothingElseMeanwhile) {
     EXPECT_EQ(after({"key", "Return"}).find<command::CueTime>()->time, "20:15:07");
 }
 
-TEST_F(OperatorInput, ADragThatBeginsOnAPanelLeavesTheCameraAlone) {
+TEST_F(OperatorInput, ADragThatStartsOnAPanelDoesNotMoveTheCamera) {
     show_the_desk();
     after({"mousemove", "40", "10"});
     after({"mousedown", "1"});
@@ -223,7 +223,7 @@ TEST_F(OperatorInput, F1ShowsTheHelpAndTabHidesThePanels) {
     EXPECT_LT(bright(), plain / 2);
 }
 
-TEST_F(OperatorInput, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
+TEST_F(OperatorInput, AClickOnTheTimeLineSeeksAndADragContinues) {
     show_the_desk();
     DeskTime time;
     time.oldest = 1000;
@@ -247,7 +247,7 @@ TEST_F(OperatorInput, AClickOnTheTimeLineGoesThereAndADragGoesOn) {
     EXPECT_TRUE(after({"click", "1"}).find<command::ToLive>());
 }
 
-TEST_F(OperatorInput, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
+TEST_F(OperatorInput, TurningThe3dViewDoesNotMoveTheCamera) {
     show_the_desk();
     state_.plan.emplace();
     after({"key", "ctrl+Tab"});
@@ -272,7 +272,7 @@ TEST_F(OperatorInput, TheStageIsTurnedFromOutsideAndTheCameraLeftAlone) {
     EXPECT_TRUE(window_->arrangement().switches.panels) << "Tab alone is another key";
 }
 
-TEST_F(OperatorInput, ShiftAndTabPutTheRigsAway) {
+TEST_F(OperatorInput, ShiftAndTabHideTheRigs) {
     show_the_desk();
     EXPECT_TRUE(window_->arrangement().switches.rigs);
     after({"key", "shift+Tab"});
@@ -280,7 +280,7 @@ TEST_F(OperatorInput, ShiftAndTabPutTheRigsAway) {
     EXPECT_TRUE(window_->arrangement().switches.panels);
 }
 
-TEST_F(OperatorInput, RigsHaveAWindowOfTheirOwnWhenAsked) {
+TEST_F(OperatorInput, RigsMoveToTheirOwnWindow) {
     show_the_desk();
     Texture colour(TextureFormat::rgba8, 160, 120, Filter::linear);
     colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
@@ -307,7 +307,7 @@ TEST_F(OperatorInput, RigsHaveAWindowOfTheirOwnWhenAsked) {
     EXPECT_GT(pixels_of_rigs(window_->screenshot()), 4 * 1000);
 }
 
-TEST_F(OperatorInput, TheDeskIsArrangedAsItWasLeft) {
+TEST_F(OperatorInput, AnArrangementIsRestored) {
     DeskArrangement desk = window_->arrangement();
     desk.switches = {.panels = true, .rigs = false, .outside = true, .eye = {1, 0.3, 0.1}};
     desk.window = WindowPlace{30, 20, 500, 400};
@@ -318,7 +318,7 @@ TEST_F(OperatorInput, TheDeskIsArrangedAsItWasLeft) {
     }
     EXPECT_EQ(window_->arrangement(), desk);
     EXPECT_EQ(window_->screenshot().size(), cv::Size(500, 400));
-    // Where no monitor is any more it stays where it is.
+    // A place outside all monitors is ignored.
     desk.window->x = 5000;
     window_->arrange(desk);
     look(0);
@@ -336,7 +336,7 @@ TEST_F(OperatorInput, AClickOnAShotRecallsIt) {
     EXPECT_EQ(number_of<command::RecallShot>(after({"click", "1"})), 4);
 }
 
-TEST_F(OperatorInput, ATakeThatRunsIsEndedByTheSecondPressOnly) {
+TEST_F(OperatorInput, ARunningTakeEndsAtTheSecondPressOnly) {
     state_.take.emplace().is_running = true;
     look(0);
     EXPECT_FALSE(after({"key", "t"}).find<command::ToggleTake>());
@@ -353,7 +353,7 @@ TEST_F(OperatorInput, TheSetIsForgottenByTheSecondPressOnly) {
     EXPECT_TRUE(after({"key", "ctrl+j"}).find<command::LearnBackground>());
 }
 
-TEST_F(OperatorInput, AKeptShotIsReplacedByTheSecondPressOnly) {
+TEST_F(OperatorInput, AStoredShotIsReplacedByTheSecondPressOnly) {
     state_.shots.resize(shot_places);
     state_.shots[2].is_kept = true;
     look(0);
@@ -363,7 +363,7 @@ TEST_F(OperatorInput, AKeptShotIsReplacedByTheSecondPressOnly) {
         << "nothing is kept there";
 }
 
-TEST_F(OperatorInput, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
+TEST_F(OperatorInput, KeysGoToAnOpenWheelMapOnly) {
     using What = WheelCall::What;
     EXPECT_TRUE(after({"key", "ctrl+m"}).find<command::ToggleJogMap>());
     DeskWheel wheel;
@@ -385,7 +385,7 @@ TEST_F(OperatorInput, AWheelsMapHasAllKeysAndNoneGoesOnAir) {
     EXPECT_TRUE(after({"key", "p"}).find<command::ToggleMove>()) << "keys are the desk's again";
 }
 
-TEST_F(OperatorInput, EscapeEndsWhenItIsPressedAgain) {
+TEST_F(OperatorInput, EscapeQuitsAtTheSecondPress) {
     after({"key", "Escape"});
     EXPECT_FALSE(window_->closed()) << "the first time it asks";
     after({"key", "Escape"});
