@@ -101,7 +101,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .compensate_gains = settings.compensate_gains,
                  .colours = settings.colours,
                  .take = settings.take,
-                 .set = settings.background},
+                 .background = settings.background},
                 std::move(feed), contexts_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
@@ -268,8 +268,8 @@ LiveReport LiveShow::report() const {
         if (const auto gain_compensation = instants.gain_compensation.find(rig.rig);
             gain_compensation != instants.gain_compensation.end())
             account.gain_compensation = gain_compensation->second;
-        for (const RigBackgroundState& set : instants.sets)
-            if (set.rig == rig.rig) account.background = set;
+        for (const RigBackgroundState& background : instants.backgrounds)
+            if (background.rig == rig.rig) account.background = background;
         report.rigs.push_back(std::move(account));
     }
     report.network_ms = worst(status, &RigStatus::network_ms);
