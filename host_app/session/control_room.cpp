@@ -32,8 +32,9 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
     lamps.background = -1;
-    for (const RigBackgroundState& rig : show.instant_stats().backgrounds)
-        lamps.background = lamps.background < 0 ? rig.known : std::min(lamps.background, rig.known);
+    for (const RigBackgroundState& background : show.instant_stats().backgrounds)
+        lamps.background =
+            lamps.background < 0 ? background.known : std::min(lamps.background, background.known);
     lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;

@@ -125,7 +125,8 @@ CommandCall parse_typed_command(std::string_view text) {
     else if (const auto [end, error] = std::from_chars(argument.data(), last, number);
              error == std::errc() && end == last)
         call = call_of(*command, number);
-    if (!call) fail("'{}' has an argument that does not fit: {}{}", text, name, argument_words(*command));
+    if (!call)
+        fail("'{}' has an argument that does not fit: {}{}", text, name, argument_words(*command));
     return *call;
 }
 

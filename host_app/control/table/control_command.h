@@ -86,8 +86,8 @@ constexpr double most_steps = 360;
 std::optional<CommandCall> call_of(const ControlCommand& command, std::optional<double> argument);
 std::optional<CommandCall> call_of(const ControlCommand& command, const std::string& words);
 
-/// Parses the action of a button in a jog, MIDI or RossTalk map: "live", "shot 3". Empty if there is
-/// no such command.
+/// Parses the action of a button in a jog, MIDI or RossTalk map: "live", "shot 3". Empty if there
+/// is no such command.
 std::optional<CommandCall> parse_button_command(std::string_view text);
 /// All texts that parse_button_command() accepts.
 std::vector<std::string> button_commands();

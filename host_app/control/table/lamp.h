@@ -24,9 +24,9 @@ struct ShowLamps {
     std::string saved_background;
     bool programme_tally = false, preview_tally = false;
     bool input_flies_preview = false;
-    double fly_to_preview = -1;    ///< progress 0..1; -1: no such flight
-    double fly_to_preview_s = 0;   ///< its duration
-    bool tracked = false;  ///< a tracked camera flies
+    double fly_to_preview = -1;   ///< progress 0..1; -1: no such flight
+    double fly_to_preview_s = 0;  ///< its duration
+    bool tracked = false;         ///< a tracked camera flies
     bool source_map = false;
     double move = -1;      ///< progress 0..1; -1: not on the move
     double keyframes = 0;  ///< of the move
@@ -36,8 +36,8 @@ struct ShowLamps {
     std::string wheel_mode, synthesiser, timecode;
     double render_level = 0, prepare_level = 0;
     double repeated_ticks = 0;
-    std::string replay_mode;  ///< live, past, clip or list
-    std::string pulse;        ///< index of the picture's pulse
+    std::string replay_mode;                          ///< live, past, clip or list
+    std::string pulse;                                ///< index of the picture's pulse
     double clip = 0, played_clip = 0, clips = 0;      ///< numbers; 0: none
     double entry = 0, played_entry = 0, entries = 0;  ///< places from 1; 0: none
     double clip_left_s = -1, list_left_s = -1;        ///< -1: nothing plays
@@ -50,7 +50,8 @@ struct ShowLamps {
 
 using LampValue = std::variant<bool, double, std::string>;
 
-/// A row of the table of lamps: a value that control surfaces show, as a switch, a number or a word.
+/// A row of the table of lamps: a value that control surfaces show, as a switch, a number or a
+/// word.
 struct Lamp {
     const char* name;
     const char* says;  ///< its meaning; empty: a row of a series that the row before describes

@@ -92,7 +92,8 @@ constexpr ControlCommand replay_table[] = {
      .page = ControlPage::replay,
      .argument = CommandArgument::words,
      .argument_name = "TIME",
-     .does = "go to a time code (20:15:07:12), or to seconds from the start (12.5) or before the end (-3.5)",
+     .does = "go to a time code (20:15:07:12), or to seconds from the start (12.5) or before the "
+             "end (-3.5)",
      .lamp = "timecode",
      .make_of_words = [](const std::string& words) -> Command { return command::CueTime{words}; }},
     {.name = "programme_speed",
@@ -179,7 +180,9 @@ constexpr ControlCommand replay_table[] = {
      .argument_name = "NAME",
      .does = "name the selected clip, with at most 40 bytes",
      .lamp = "clip",
-     .make_of_words = [](const std::string& words) -> Command { return ReplayCall{Action::name_clip, 0, words}; }},
+     .make_of_words = [](const std::string& words) -> Command {
+         return ReplayCall{Action::name_clip, 0, words};
+     }},
     {.name = "delete_clip",
      .page = ControlPage::replay,
      .does = "delete the selected clip; give the command twice",

@@ -94,7 +94,9 @@ constexpr ControlCommand show_table[] = {
     {.name = "pivot",
      .does = "move the pivot to the surface in the middle of the picture",
      .key = {"V"},
-     .make = [](double) -> Command { return command::PickPivot{{0.5, 0.5}}; }},
+     .make = [](double) -> Command {
+         return command::PickPivot{{0.5, 0.5}};
+     }},
     {.name = "follow",
      .does = "let the pivot follow the performer next to it, or stop following",
      .lamp = "follow",
@@ -106,7 +108,8 @@ constexpr ControlCommand show_table[] = {
      .key = {"M"},
      .make = give<command::NextWheelMode>},
     {.name = "jog_map",
-     .does = "show the map of the wheel's controls, to change it; meanwhile the wheel moves nothing",
+     .does =
+         "show the map of the wheel's controls, to change it; meanwhile the wheel moves nothing",
      .key = {.name = "M", .with_control = true},
      .make = give<command::ToggleJogMap>},
     {.name = "tracking",
@@ -154,7 +157,8 @@ constexpr ControlCommand show_table[] = {
      .amount = {&FlightInput::wheel_steps, 1, 30}},
     {.name = "retime",
      .argument = CommandArgument::steps,
-     .does = "shift the keyframe nearest to the present position, and all after it, by 0.1 s a step",
+     .does =
+         "shift the keyframe nearest to the present position, and all after it, by 0.1 s a step",
      .amount = {&FlightInput::retime_s, 0.1, 2}},
     {.name = "orbit",
      .argument = CommandArgument::steps,
