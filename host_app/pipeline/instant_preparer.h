@@ -19,7 +19,7 @@ struct PrepareLevel {
     /// depth is moved to where the rigs' pictures agree.
     bool is_refined = true;
     bool has_fine_grid = true;  ///< surfaces may be drawn by every pixel, with their rims
-    float bend = TriangleBuilder::least_bend;  ///< that their coarse grids leave out
+    float bend = TriangleBuilder::default_bend;  ///< that their coarse grids leave out
 };
 
 /// From the best to the cheapest, by rank.

@@ -23,7 +23,7 @@ void BackgroundSaver::save() {
         return;
     }
     const std::filesystem::path path =
-        free_path(path_.empty() ? name_for_now("set", set_file_extension) : path_);
+        free_path(path_.empty() ? name_for_now("set", background_file_extension) : path_);
     work_ = std::async(std::launch::async, [this, set = show_.background(), path]() mutable {
         write(std::move(set), path);
     });

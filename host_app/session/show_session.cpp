@@ -58,7 +58,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         .contact_sheet = contact_sheet,
         .free_flight = free_flight,
         .compensate_gains = compensate_gains};
-    if (!set.empty()) settings.set = std::make_shared<const Background>(load_set(set));
+    if (!set.empty()) settings.set = std::make_shared<const Background>(load_background(set));
     if (!size.empty()) {
         const cv::Size wanted = parse_size(size);
         settings.format.width_px = wanted.width;

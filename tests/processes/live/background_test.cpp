@@ -53,7 +53,7 @@ TEST_F(Sets, AreSavedAtTheEndAndBegunWith) {
     EXPECT_NE(again.err.find("there is such a file"), std::string::npos) << again.err;
     const ProgramResult none = play({"--set", (source_folder() / "README.md").string()});
     EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.err.find("no learnt set"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("not a background file"), std::string::npos) << none.err;
 }
 
 TEST_F(Sets, AreSavedWhileAShowRunsByACommandThatADeskSees) {
