@@ -23,7 +23,7 @@ account() { # place, jq expression: in minus everything counted
 account "inside the rig" '.rig | .captured - .published - .late'
 account "on the link" '.link | .offered - .sent - .send_dropped - .thinned'
 account "from link to host" '.link.sent - .link.lost - .host.received'
-account "inside the host" '.host | .received - .undecodable - .queue_dropped - .late - .duplicate - .unsynchronized - .out_of_step - .in_sets'
-account "from set to picture" '.host | .in_sets - .fused - .superseded - .in_dropped_sets'
+account "inside the host" '.host | .received - .undecodable - .queue_dropped - .late - .duplicate - .unsynchronized - .out_of_step - .in_frame_sets'
+account "from set to picture" '.host | .in_frame_sets - .fused - .replaced - .dropped_at_start'
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

@@ -127,7 +127,7 @@ grep -E '^(ok|FAIL)' <<<"$results"
 passed=$((passed + $(grep -c '^ok' <<<"$results" || true))) failed=$((failed + $(grep -c '^FAIL' <<<"$results" || true)))
 
 for name in calm troubled; do
-  figure $name '"'$name': \(.pictures_a_second * 10 | round / 10) new pictures a second; between two p50 \(.interval_ms.p50 | round), p99 \(.interval_ms.p99 | round), at most \(.interval_ms.max | round) ms; \(.instants.a_second * 10 | round / 10) instants a second"'
+  figure $name '"'$name': \(.new_frames_per_second * 10 | round / 10) new frames per second; between two p50 \(.interval_ms.p50 | round), p99 \(.interval_ms.p99 | round), at most \(.interval_ms.max | round) ms; \(.instants.a_second * 10 | round / 10) instants a second"'
 done
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

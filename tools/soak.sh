@@ -95,7 +95,7 @@ status=0
 wait $host || status=$?
 host=
 # It ends with the name of a take that failed, as a full disk's has to.
-[ $status -eq 0 ] || { [ -n "${times[takes]-}" ] && tail -1 "$out/live.log" | grep -q 'went to its end without an output'; } || { tail -5 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
+[ $status -eq 0 ] || { [ -n "${times[takes]-}" ] && tail -1 "$out/live.log" | grep -q 'but an output failed'; } || { tail -5 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
 
 # A rig that was started anew on the way still fills its pools.
 awk -v third=$((seconds / 3)) 'NR == FNR { if ($1 < third) begun[$3] = 1; next } $3 in begun' "$out/samples" "$out/samples" \

@@ -110,6 +110,6 @@ holds "no output failed" '[.outputs[] | select(.failure != "" and .failure != nu
 holds "every tick went to the film or was counted" '.pictures as $ticks | .outputs[0] | .pictures + .dropped == $ticks'
 holds "what was asked was known" '[.control[] | .malformed + .unknown] | add == 0'
 holds "every port was heard, but the tracker's" '[.control[] | select(.obeyed == 0)] | length <= 1'
-jq -r '"ticks \(.pictures), reprojected \(.reprojected_ticks), repeated \(.repeated_ticks), missed \(.missed_ticks); hand to picture p50 \(.hand_to_picture_ms.p50 | round) ms, p99 \(.hand_to_picture_ms.p99 | round) ms"' "$out/show.json"
+jq -r '"ticks \(.pictures), reprojected \(.reprojected_ticks), repeated \(.repeated_ticks), missed \(.missed_ticks); input to picture p50 \(.input_to_picture_ms.p50 | round) ms, p99 \(.input_to_picture_ms.p99 | round) ms"' "$out/show.json"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

@@ -79,8 +79,11 @@ void ShaderLibrary::expand(std::string_view file, std::string& out, int depth) c
 }
 
 std::string ShaderLibrary::read(std::string_view file) const {
-    if (const auto path = override_files_.find(file); path != override_files_.end()) {
-        std::ifstream in(path->second, std::ios::binary);
+    if (!override_folder_.empty()) {
+        const auto in_room = override_files_.find(file);
+        std::ifstream in(
+            in_room == override_files_.end() ? override_folder_ / file : in_room->second,
+            std::ios::binary);
         if (in) return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
     for (const EmbeddedShader& shader : embedded_shaders())

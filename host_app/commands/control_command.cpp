@@ -13,10 +13,10 @@ CommandEntry control_command_entry() {
     return {[](CLI::App& program) {
         auto json = std::make_shared<bool>(false);
         CLI::App* command = program.add_subcommand(
-            "control", "List the commands that a show takes, whatever the hand, and its lamps");
-        command->add_flag("--json", *json, "Write them as one JSON object");
+            "control", "List the commands and lamps of a show, for keys and remote control alike");
+        command->add_flag("--json", *json, "Print them as one JSON object");
         command->footer(
-            "Keys, jog maps, OSC, RossTalk and MIDI are views of this one list; see vantage live "
+            "Keys, jog maps, OSC, RossTalk and MIDI all use this list; see vantage live "
             "--control.");
         command->callback([json] {
             if (*json)

@@ -12,10 +12,9 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
-#include "host_app/commands/demo/demo_moves.h"
 #include "host_app/commands/demo/demo_stage.h"
+#include "host_app/commands/demo/filmed_pair.h"
 #include "host_app/commands/live_session.h"
-#include "host_app/commands/rigs/pair_preview.h"
 
 namespace vantage {
 namespace {
@@ -31,13 +30,14 @@ struct DemoOptions {
     bool films_the_stage() const { return files.empty() && rig.empty(); }
 };
 
-constexpr std::size_t most_said_bytes = 1 << 20;
+/// Limit of the output of a program that the demo runs.
+constexpr std::size_t max_output_bytes = 1 << 20;
 
 std::filesystem::path program_beside(const std::string& name) {
     std::filesystem::path program = program_folder() / name;
     if (!std::filesystem::exists(program))
-        fail("the demo needs {} beside vantage in {}: install the package {}", name,
-             program_folder().string(), name);
+        fail("the demo needs {} in {}; install the package {}", name, program_folder().string(),
+             name);
     return program;
 }
 
@@ -49,21 +49,21 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
             {.program = program_beside(name), .arguments = arguments, .out = out, .err = err})
             .wait();
     if (status != 0) {
-        std::string said = read_text_file(err, most_said_bytes);
-        said.erase(said.find_last_not_of('\n') + 1);
-        said.erase(0, said.find_last_of('\n') + 1);
-        // What another program ends with is a sentence for itself.
+        std::string message = read_text_file(err, max_output_bytes);
+        message.erase(message.find_last_not_of('\n') + 1);
+        message.erase(0, message.find_last_of('\n') + 1);
+        // Our programs end with a whole sentence.
         const std::string head = name + ": error: ";
-        if (said.starts_with(head)) fail("{}", said.substr(head.size()));
-        fail("{} {} failed: {}", name, arguments.front(), said);
+        if (message.starts_with(head)) fail("{}", message.substr(head.size()));
+        fail("{} {} failed: {}", name, arguments.front(), message);
     }
     nlohmann::json answer =
-        nlohmann::json::parse(read_text_file(out, most_said_bytes), nullptr, false);
+        nlohmann::json::parse(read_text_file(out, max_output_bytes), nullptr, false);
     if (answer.is_discarded()) fail("{} {} printed no JSON", name, arguments.front());
     return answer;
 }
 
-/// So many rigs before the stage, or around it, from the left to the right.
+/// Adds virtual rigs in an arc around the stage, from left to right.
 void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
     constexpr double apart_deg = 20;
     for (int number = 1; number <= count; ++number) {
@@ -82,10 +82,11 @@ void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
     }
 }
 
-/// What a rig of this size takes for a pair, tried on one.
+/// Measures the matching time of a rig of this size.
 double match_ms_of(DemoSize size, const std::filesystem::path& folder, const AskProgram& ask) {
-    log_info("trying how fast this computer matches pictures of {}x{}", size.rig[0], size.rig[1]);
-    // A second of them; a processor draws them too, but no loop first.
+    log_info("measuring how fast this computer matches pictures of {}x{}", size.rig[0],
+             size.rig[1]);
+    // About a second. A software renderer must not render the whole loop for this.
     const int frames = std::exchange(size.is_software, false) ? 8 : 15;
     size.rate_hz = 25;
     DemoStage alone(folder, {});
@@ -97,9 +98,8 @@ double match_ms_of(DemoSize size, const std::filesystem::path& folder, const Ask
 }
 
 std::vector<std::unique_ptr<ChildProcess>> start_rigs(const DemoStage& stage, bool is_software) {
-    // What stands for rig computers yields to the host, which has this one for itself elsewhere.
-    // They share the processor that draws: one drawing thread each does the same work with less
-    // waiting.
+    // The rigs yield to the host, which has its own computer in a real stage. With a software
+    // renderer one drawing thread per rig does the same work with less waiting.
     constexpr int niceness = 5;
     std::vector<std::string> environment;
     if (is_software) environment.emplace_back("LP_NUM_THREADS=1");
@@ -121,7 +121,7 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
                          const std::filesystem::path& move) {
     LiveOptions live;
     live.stage = stage.stage_file();
-    live.wait_s = 300;  // a processor that draws everything does that for the rigs' loop first
+    live.wait_s = 300;  // with a software renderer the rigs render their loop first
     live.show.rate = rate;
     live.show.path = move;
     live.show.flight = folder / ("flight-" + move.filename().string());
@@ -133,7 +133,7 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
         return live;
     }
     live.show.headless = true;
-    live.past_mb = 64;  // nobody goes back in time here
+    live.past_mb = 64;  // there is no replay without a window
     live.show.seconds = options.seconds;
     live.show.flight.clear();
     live.show.film = folder / "flight.mkv";
@@ -143,14 +143,14 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
     return live;
 }
 
-/// A demo keeps what the last one wrote in its folder no longer than until it writes the same.
-void tell_what_is_replaced(const LiveOptions& live) {
+/// Warns about the files of an earlier demo that this one replaces.
+void warn_of_replaced_files(const LiveOptions& live) {
     std::vector<std::string> old;
     for (const std::string& file : {live.show.film, live.show.contact_sheet, live.show.snapshot})
         if (!file.empty() && std::filesystem::exists(file))
             old.push_back(std::filesystem::path(file).filename().string());
     if (!old.empty())
-        log_warning("in {} this flight replaces {}; --folder names another place",
+        log_warning("in {} this flight replaces {}; use --folder to keep them",
                     std::filesystem::path(live.show.film).parent_path().string(),
                     fmt::join(old, ", "));
 }
@@ -184,7 +184,7 @@ void demo(DemoOptions options) {
     }
     std::string move_name = "demo.toml", move = demo_move(move_name);
     if (options.sweep) {
-        // Thirteen rigs share what four do.
+        // Thirteen rigs share the time of four.
         size.rate_hz = size.is_software ? 1 : 5;
         size.latency_budget_ms = 2000;
         add_virtual_rigs(13, size, stage);
@@ -209,14 +209,14 @@ void demo(DemoOptions options) {
     write_text_atomically(move_file, move);
 
     const auto rigs = start_rigs(stage, size.is_software);
-    log_info("{} started at {:.4g} pulses a second; logs are in {}",
+    log_info("started {} at {:.4g} pulses per second; logs are in {}",
              rigs.size() == 1 ? "a rig"
              : options.films_the_stage()
                  ? fmt::format("{} rigs of {}x{}", rigs.size(), size.rig[0], size.rig[1])
                  : fmt::format("{} rigs", rigs.size()),
              size.rate_hz, stage.folder().string());
     if (options.films_the_stage() && size.is_software)
-        log_info("the rigs draw the stage's loop of 24 s before they begin, a few seconds' work");
+        log_info("the rigs render the stage's loop of 24 s before they start, which takes seconds");
     if (options.rigs_only) {
         StopSignal stop;
         fmt::print("ready: {}\n", stage.stage_file().string());
@@ -225,14 +225,14 @@ void demo(DemoOptions options) {
         }
         return;
     }
-    // Before a real rig in a window the camera begins where the rig stands.
+    // With material of a real rig and a window, the camera starts at the rig.
     const bool flies = options.rig.empty() || options.headless;
     LiveOptions live = live_options(options, folder, stage, size.rate, move_file);
     if (!flies) live.show.path.clear();
-    tell_what_is_replaced(live);
+    warn_of_replaced_files(live);
     run_live_session(live);
     if (options.headless && !options.json)
-        fmt::print("\nThe flight:        {}\nIts contact sheet: {}\n", live.show.film,
+        fmt::print("\nFlight:        {}\nContact sheet: {}\n", live.show.film,
                    live.show.contact_sheet);
 }
 
@@ -242,57 +242,61 @@ CommandEntry demo_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<DemoOptions>();
         CLI::App* command = program.add_subcommand(
-            "demo",
-            "Rigs as processes of this computer, and the host that flies around what they film");
+            "demo", "Try Vantage on this computer: start virtual rigs and fly around their stage");
         CLI::Option* files = command
                                  ->add_option("--files", options->files,
-                                              "One rectified pair instead of the virtual stage")
+                                              "Play one rectified pair instead of the virtual "
+                                              "stage")
                                  ->expected(2)
                                  ->type_name("LEFT RIGHT");
         CLI::Option* rig =
             command
                 ->add_option("--rig", options->rig,
-                             "What a real rig filmed, by its calibration: pictures, a folder, "
-                             "'pattern*.png' or a video a side; RIGHT '-': both side by side")
+                             "Play recordings of a real rig with its calibration: for each side a "
+                             "picture, a folder, 'pattern*.png' or a video; RIGHT '-': both sides "
+                             "in one picture")
                 ->expected(3)
                 ->type_name("CALIB.yaml LEFT RIGHT")
                 ->excludes(files);
         command
             ->add_option("--disparities", options->disparities,
-                         "How far to search, px (default: a quarter of the width)")
+                         "Set the number of disparities (default: a quarter of the width)")
             ->check(CLI::Range(1, 256))
             ->needs(rig);
         command
             ->add_option("--rate", options->rate_hz,
-                         "Pictures a second (default: the video's, or what this computer holds)")
+                         "Set the frame rate (default: the video's, or less on a slow computer)")
             ->check(CLI::Range(0.01, 1000.0))
             ->needs(rig);
         command
             ->add_option("--folder", options->folder,
-                         "Where films, takes, logs and the demo's keys go; films and pictures of a "
-                         "demo before are replaced")
+                         "Put films, takes, logs and keys into this folder; films and pictures of "
+                         "an earlier demo are replaced")
             ->capture_default_str();
         command
-            ->add_flag("--sweep", options->sweep,
-                       "Thirteen rigs 20 degrees apart, and a flight along all of them; Space "
-                       "freezes the instant")
+            ->add_flag(
+                "--sweep", options->sweep,
+                "Start 13 rigs 20 degrees apart and fly along all of them; Space freezes the "
+                "instant")
             ->excludes(rig)
             ->excludes(files);
         command->add_flag("--headless", options->headless,
-                          "No window, as where there is no display: write the flight as a film and "
-                          "a contact sheet");
-        command->add_option("--seconds", options->seconds, "Length of the flight with --headless")
+                          "Write the flight as a film and a contact sheet, without a window; the "
+                          "default without a display");
+        command
+            ->add_option("--seconds", options->seconds,
+                         "With --headless: set the length of the flight")
             ->check(CLI::PositiveNumber)
             ->capture_default_str();
         command->add_flag("--json", options->json, "Print the summary as JSON");
-        command->add_flag(
-            "--rigs-only", options->rigs_only,
-            "Start the rigs, say where their stage's file is, and wait: other hosts may use them");
-        command->add_option("--keep", options->kept,
-                            "The rigs keep takes of their own in this folder");
+        command->add_flag("--rigs-only", options->rigs_only,
+                          "Start only the rigs, print the path of their stage file, and wait, so "
+                          "that other hosts "
+                          "can use them");
+        command->add_option("--keep", options->kept, "Let the rigs record takes to this folder");
         command->footer(
-            "Without a GPU the processor draws everything: then rigs and picture are smaller, and "
-            "slower.");
+            "Without a GPU the processor renders everything; the pictures are then smaller and the "
+            "rates lower.");
         command->callback([options] { demo(*options); });
     }};
 }

@@ -30,8 +30,9 @@ CLI::App* add_data_set(CLI::App& import, const std::string& name, const std::str
                        const std::shared_ptr<ImportOptions>& options) {
     CLI::App* command = import.add_subcommand(name, summary);
     command->add_option("DIR", options->folder, "Folder of the data set")->required();
-    command->add_option("-o,--output", options->view_set, "Folder for the view set")->required();
-    command->add_flag("--json", options->json, "Write the result as one JSON object");
+    command->add_option("-o,--output", options->view_set, "Write the view set to this folder")
+        ->required();
+    command->add_flag("--json", options->json, "Print the result as one JSON object");
     return command;
 }
 
@@ -40,20 +41,20 @@ CLI::App* add_data_set(CLI::App& import, const std::string& name, const std::str
 CommandEntry import_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<ImportOptions>();
-        CLI::App* import = program.add_subcommand(
-            "import", "Make a view set of a published data set, undoing its conventions");
+        CLI::App* import =
+            program.add_subcommand("import", "Convert a published data set to a view set");
         import->require_subcommand(1);
 
         CLI::App* microsoft = add_data_set(
             *import, "msr3dvideo", "Microsoft Research 3-D video: ballet, breakdancers", options);
         auto* instant = microsoft
                             ->add_option("--instant", options->instant,
-                                         "Number in the files' names; the first with a depth map "
-                                         "if left out")
+                                         "Import the instant of this number in the file names "
+                                         "(default: the first with a depth map)")
                             ->check(CLI::NonNegativeNumber);
         microsoft
             ->add_option("--depth-range", options->depth_range,
-                         "MinZ and MaxZ of the depth codes, for other sequences than these two")
+                         "Set MinZ and MaxZ of the depth codes, for other sequences than these two")
             ->expected(2);
         microsoft->callback([options, instant] {
             std::optional<int> wanted;

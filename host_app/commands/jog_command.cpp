@@ -20,7 +20,7 @@
 #include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/hid/simulated/simulated_xpress.h"
 #include "host_app/control/hid/simulated/uhid_wheel.h"
-#include "host_app/session/options/help_words.h"
+#include "host_app/session/options/common_options.h"
 
 namespace vantage {
 namespace {
@@ -36,7 +36,7 @@ const char* name_of(JogTransport transport) {
     return transport == JogTransport::hidraw ? "hidraw" : "evdev";
 }
 
-/// Opens it and lets it go again; why it cannot be used, or nothing.
+/// Opens and closes a device; returns why it cannot be used, or nothing.
 std::string fault_of(JogBus& bus, const JogPlace& place) {
     try {
         bus.open(place);
@@ -64,7 +64,7 @@ void print_places(const std::vector<JogPlace>& places, bool json) {
     if (json)
         std::cout << nlohmann::ordered_json{{"devices", list}}.dump() << '\n';
     else if (places.empty())
-        std::cout << "this computer has no device that could be a jog wheel (hidraw, evdev)\n";
+        std::cout << "this computer has no HID or input device (hidraw, evdev)\n";
 }
 
 void list(const JogOptions& options) {
@@ -94,10 +94,10 @@ void list(const JogOptions& options) {
                                  c["path"].get<std::string>(), c["name"].get<std::string>(),
                                  c["usable"] ? "ready" : c["fault"].get<std::string>());
     if (controllers.empty())
-        std::cout << "no jog controller is plugged in; `vantage jog list --all` shows every device "
-                     "there is, described_wheel.toml.example (hw_config/jog; installed: "
-                     "/usr/share/doc/vantage/examples/jog) how to describe one, and `vantage jog "
-                     "simulate` plugs one in that is none\n";
+        std::cout << "no jog controller is connected; `vantage jog list --all` shows every device, "
+                     "described_wheel.toml.example (hw_config/jog; installed: "
+                     "/usr/share/doc/vantage/examples/jog) shows how to describe one, and `vantage "
+                     "jog simulate` simulates one\n";
 }
 
 const char* name_of(JogKind kind) {
@@ -117,11 +117,11 @@ std::string for_people(const DeckEvent& event) {
     const std::string bytes = fmt::format("{:02x}", fmt::join(event.report, " "));
     switch (event.kind) {
         case DeckEvent::Kind::plugged:
-            return fmt::format("{}  plugged in at {}", device, event.path);
+            return fmt::format("{}  connected at {}", device, event.path);
         case DeckEvent::Kind::lost:
-            return fmt::format("{}  gone from {}", device, event.path);
+            return fmt::format("{}  disconnected from {}", device, event.path);
         case DeckEvent::Kind::unread:
-            return fmt::format("{}  report not understood: {}", device, bytes);
+            return fmt::format("{}  unreadable report: {}", device, bytes);
         case DeckEvent::Kind::report:
             return fmt::format("{}  report: {}", device, bytes);
         case DeckEvent::Kind::control:
@@ -129,7 +129,7 @@ std::string for_people(const DeckEvent& event) {
     }
     if (event.event.kind == JogKind::button)
         return fmt::format("{}  {} {}", device, event.event.control,
-                           event.event.value != 0 ? "pressed" : "let go");
+                           event.event.value != 0 ? "pressed" : "released");
     return fmt::format("{}  {} {:+.3g}", device, event.event.control, event.event.value);
 }
 
@@ -157,11 +157,11 @@ nlohmann::ordered_json for_machines(const DeckEvent& event) {
 }
 
 void monitor(const JogOptions& options) {
-    // Before the deck's threads, so that they leave the signals to it.
+    // It must exist before the devices' threads, so that it receives the signals.
     StopSignal stop;
     JogDevices deck(make_system_jog_bus(), load_all_wheel_profiles(options.wheels),
-                 {.raw_reports = options.raw});
-    log_info("waiting for jog wheels, plugged in now or later, to be moved; Ctrl-C ends");
+                    {.raw_reports = options.raw});
+    log_info("move a jog wheel, connected now or later; Ctrl-C ends");
     const MonotonicTime start = MonotonicClock::now();
     const auto is_over = [&](std::uint64_t events) {
         const std::chrono::duration<double> gone = MonotonicClock::now() - start;
@@ -175,13 +175,13 @@ void monitor(const JogOptions& options) {
         std::cout << (options.json ? for_machines(*event).dump() : for_people(*event)) << std::endl;
     }
     if (deck.dropped() > 0)
-        log_warning("{} events came faster than they could be written", deck.dropped());
+        log_warning("dropped {} events because the output was too slow", deck.dropped());
 }
 
-/// Lines of standard input, without holding up whoever asks.
+/// Reads lines of standard input without blocking.
 class InputLines {
   public:
-    /// Waits for a line; empty if none is whole once the time is up, or at the end.
+    /// Waits for a whole line; nothing after the timeout or at the end of the input.
     std::optional<std::string> next(std::chrono::milliseconds timeout) {
         const auto take = [&]() -> std::optional<std::string> {
             const std::size_t end = waiting_.find('\n');
@@ -209,19 +209,19 @@ class InputLines {
     bool ended_ = false;
 };
 
-/// Of a line `wait SECONDS`; empty for any other.
+/// Parses a line `wait SECONDS`; nothing for any other line.
 std::optional<std::chrono::milliseconds> pause_of(const std::string& line) {
     std::istringstream words(line);
     std::string word;
     double seconds = 0;
     if (!(words >> word) || word != "wait") return std::nullopt;
-    constexpr double most_s = 3600;
-    if (!(words >> seconds) || !(seconds >= 0 && seconds <= most_s))
-        fail("'{}' is not understood: after 'wait' come 0 to {} seconds", line, most_s);
+    constexpr double max_s = 3600;
+    if (!(words >> seconds) || !(seconds >= 0 && seconds <= max_s))
+        fail("'{}' is not valid: give 'wait' 0 to {} seconds", line, max_s);
     return std::chrono::milliseconds(std::llround(seconds * 1000));
 }
 
-/// What became of a line of words, for machines.
+/// Prints the reports that a line caused as JSON.
 void print_simulated(const std::string& line, const std::vector<SimulatedXpress::Report>& reports) {
     std::cout
         << nlohmann::ordered_json{{"event", "moved"}, {"words", line}, {"reports", reports}}.dump()
@@ -237,8 +237,8 @@ void simulate(const JogOptions& options) {
                             .get_feature = {},
                             .set_feature = {}});
     log_info(
-        "a simulated {} is plugged in; lines of words move it: {}, wait SECONDS; Ctrl-D "
-        "unplugs it",
+        "connected a simulated {}; move it with lines of these words: {}, wait SECONDS; Ctrl-D "
+        "disconnects it",
         SimulatedXpress::name, SimulatedXpress::words);
     if (options.json)
         std::cout
@@ -269,36 +269,37 @@ void simulate(const JogOptions& options) {
 CommandEntry jog_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<JogOptions>();
-        CLI::App* jog = program.add_subcommand("jog", "Jog wheels and their like");
+        CLI::App* jog =
+            program.add_subcommand("jog", "List, watch and simulate jog wheels and controllers");
         jog->require_subcommand(1);
         const auto add_common = [&](CLI::App* command) {
             command->add_option(
                 "--wheels", options->wheels,
-                fmt::format("Wheels beyond the built-in ones: {}", wheel_files_help));
-            command->add_flag("--json", options->json, "For machines");
+                fmt::format("Load descriptions of more wheels from {}", wheel_files_help));
+            command->add_flag("--json", options->json, "Print JSON");
         };
         CLI::App* list_command = jog->add_subcommand(
-            "list", "The controllers that are plugged in, and what keeps one from being used");
+            "list", "List the connected controllers, and why one cannot be used");
         add_common(list_command);
         list_command->add_flag("--all", options->all,
-                               "Every HID and input device instead, known or not");
+                               "List every HID and input device, known or not");
         list_command->callback([options] { list(*options); });
         CLI::App* monitor_command =
-            jog->add_subcommand("monitor", "What hands do, a line an event, until Ctrl-C");
+            jog->add_subcommand("monitor", "Print the operator's input, a line per event");
         add_common(monitor_command);
-        monitor_command->add_flag("--raw", options->raw, "Every report too, byte by byte");
-        monitor_command->add_option("--seconds", options->seconds, "End after this time")
+        monitor_command->add_flag("--raw", options->raw, "Print every report too, byte by byte");
+        monitor_command->add_option("--seconds", options->seconds, "End after this many seconds")
             ->check(CLI::PositiveNumber);
-        monitor_command->add_option("--events", options->events, "End after so many lines")
+        monitor_command->add_option("--events", options->events, "End after this many events")
             ->check(CLI::PositiveNumber);
         monitor_command->callback([options] { monitor(*options); });
         CLI::App* simulate_command = jog->add_subcommand(
             "simulate",
-            "Plug in a ShuttleXpress that is none, moved by words on standard input; takes root "
-            "and the kernel's /dev/uhid");
+            "Simulate a ShuttleXpress that words on standard input move; needs root and the "
+            "kernel's /dev/uhid");
         simulate_command->add_flag("--json", options->json,
-                                   "Write what was plugged in and each move with its reports as "
-                                   "lines of JSON");
+                                   "Print the device and each move with its reports as lines of "
+                                   "JSON");
         simulate_command->callback([options] { simulate(*options); });
     }};
 }

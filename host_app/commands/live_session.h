@@ -6,15 +6,17 @@
 
 namespace vantage {
 
+/// The options of `vantage live`.
 struct LiveOptions {
     ShowOptions show;
-    std::string stage;        ///< its file
-    std::string take, takes;  ///< recorded from the start; folder of those begun by hand
+    std::string stage;  ///< stage file
+    std::string take;   ///< take that is recorded from the start; empty: none
+    std::string takes;  ///< folder of the takes that the operator starts; empty: the working folder
     double wait_s = 10, past_mb = 1024, pre_roll_s = 0;
 };
 
-/// A live stage from its rigs' first frame to the summary. Throws Error for what a person, a file
-/// or a device caused. To be called before any other thread is started.
+/// Runs a live session from the rigs' first frame to the summary. Call it before any other thread
+/// is started. Throws Error for faults of options, files, devices and rigs.
 void run_live_session(const LiveOptions& options);
 
 }  // namespace vantage

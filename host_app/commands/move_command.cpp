@@ -13,7 +13,7 @@
 #include "common/base/files/output_path.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/flight/flight_book.h"
-#include "host_app/session/options/picture_options.h"
+#include "host_app/session/options/common_options.h"
 
 namespace vantage {
 namespace {
@@ -33,9 +33,9 @@ void convert(const MoveOptions& options) {
     const double rate_hz = parse_rate(options.rate);
     const cv::Size size_px = parse_size(options.size);
     require_writable_output(to, {from});
-    if (std::filesystem::exists(to)) fail("{} is there already: give another name", to.string());
+    if (std::filesystem::exists(to)) fail("{} exists; give another name", to.string());
     if (is_flight_file(from) && is_flight_file(to))
-        fail("{} and {} are flight files both: there is nothing to convert", from.string(),
+        fail("{} and {} are both flight files; there is nothing to convert", from.string(),
              to.string());
     nlohmann::ordered_json result{{"path", to.string()}};
     CameraPath path;
@@ -75,39 +75,40 @@ CommandEntry move_command_entry() {
         CLI::App* move = program.add_subcommand("move", "Moves of the virtual camera");
         move->require_subcommand(1);
         CLI::App* command = move->add_subcommand(
-            "convert", "A move as other programs have it, and what they have as a move");
+            "convert", "Convert a move to and from the formats of other programs");
         std::string forms = "NAME.toml, a flight file";
         for (const CameraPathForm& form : camera_path_forms()) forms += "; " + form.words;
         command->add_option("FROM", options->from, forms)->required();
-        command->add_option("-o,--output", options->to, "Likewise; it must not be there yet")
+        command->add_option("-o,--output", options->to, "Write this file, which must not exist")
             ->required();
-        command->add_option("--rate", options->rate, "Cameras a second, outside flight files")
+        command
+            ->add_option("--rate", options->rate,
+                         "Set the cameras per second of a format other than a flight file")
             ->capture_default_str();
         command
-            ->add_option(
-                "--size", options->size,
-                "Of the pictures, WIDTHxHEIGHT, where the form says it and a move does not")
+            ->add_option("--size", options->size,
+                         "Set the size of the picture, WIDTHxHEIGHT, for formats that need it")
             ->capture_default_str();
         command
             ->add_option("--tolerance-mm", options->tolerance_mm,
-                         "What a move may be off the cameras that it is made of")
+                         "Set the largest distance between a new move and the cameras")
             ->check(CLI::Range(0.01, 1000.0))
             ->capture_default_str();
         command
             ->add_option("--tolerance-deg", options->tolerance_deg,
-                         "Likewise, of the turn and of the lens")
+                         "Set the largest difference in rotation and field of view")
             ->check(CLI::Range(0.001, 10.0))
             ->capture_default_str();
         command
             ->add_option("--focus-m", options->focus_m,
-                         "Distance of the pivot, where the form says none")
+                         "Set the distance of the pivot, for formats without one")
             ->check(CLI::Range(0.05, 100.0))
             ->capture_default_str();
         command
             ->add_option("--fov", options->field_of_view_deg,
-                         "Horizontal field of view in degrees, in place of what the file says")
+                         "Set the horizontal field of view in degrees instead of the file's")
             ->check(CLI::Range(5.0, 114.0));
-        command->add_flag("--json", options->json, "Write the result as one JSON object");
+        command->add_flag("--json", options->json, "Print the result as one JSON object");
         command->callback([options] { convert(*options); });
     }};
 }

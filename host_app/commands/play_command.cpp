@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "common/base/time/time_zone.h"
-#include "host_app/session/options/take_time.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/session/show_session.h"
 #include "host_app/sound/take_sound.h"
 #include "host_app/takes/stage_habits.h"
@@ -43,31 +43,32 @@ Transport transport_of(const PlayOptions& options, const TakeReader& take,
 }
 
 void play(const PlayOptions& options) {
-    // Before any other thread, so that they leave the signals to it.
+    // It must exist before any other thread is started, so that it receives the signals.
     StopSignal stop;
     const auto take = std::make_shared<const TakeReader>(options.take);
-    const TakeShow told = take_show_from(take->facts().show);
-    if (is_time_zone(told.timecode_zone)) use_time_zone(told.timecode_zone);
+    const TakeShow recorded = take_show_from(take->facts().show);
+    if (is_time_zone(recorded.timecode_zone)) use_time_zone(recorded.timecode_zone);
     const auto sets = std::make_shared<const TakeFrameSets>(take);
     FlightStore flights = options.show.flight_store(options.take);
-    FlightPlan plan = options.show.plan(told.view, flights);
+    FlightPlan plan = options.show.plan(recorded.view, flights);
     plan.habits = habits_of(*take);
-    LiveSettings settings = options.show.settings(told.view, take->facts().pulse_rate_hz);
-    settings.colours = told.colours;
+    LiveSettings settings = options.show.settings(recorded.view, take->facts().pulse_rate_hz);
+    settings.colours = recorded.colours;
     settings.take = sets;
     ClipStore clips = options.show.clip_store(options.take, take->facts().pulse_rate_hz);
     settings.replay = Replay(transport_of(options, *take, *sets->span()), clips.book());
-    // What nobody steers ends with the take.
+    // Without operator input the session ends with the take,
     const bool has_operator_input = options.show.jog.value_or(!options.show.headless);
-    // A flight that says where in the take it is ends by itself.
+    // or with a move that is tied to the take's time.
     const bool leads = plan.move && plan.move->take_s_at(0);
-    if (leads && options.show.headless && !has_operator_input && !plan.move->loops() && !plan.frames &&
-        !plan.seconds)
+    if (leads && options.show.headless && !has_operator_input && !plan.move->loops() &&
+        !plan.frames && !plan.seconds)
         plan.seconds = plan.move->duration_s();
-    settings.ends_with_take = options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
+    settings.ends_with_take =
+        options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
-        fail("what loops or stands has no end: say --frames or --seconds with --headless");
-    // It begins with what is heard where the take is begun.
+        fail("--loop and --speed 0 have no end; add --frames or --seconds with --headless");
+    // The sound starts where the picture starts.
     const PulseGrid pulses(take->facts().pulse_rate_hz);
     const auto begin = static_cast<std::uint64_t>(*settings.replay.transport().pulse());
     settings.sound = options.show.sound(settings.rate_hz, {},
@@ -95,20 +96,29 @@ CommandEntry play_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<PlayOptions>();
         CLI::App* command = program.add_subcommand(
-            "play", "All of vantage live on a take: scrub, freeze, fly, put out");
-        command->add_option("TAKE", options->take, "The take (.mkv)")->required();
-        command->add_option("--from", options->from,
-                            "In mark: seconds after the beginning, or time code");
-        command->add_option("--to", options->to,
-                            "Out mark, the first that is not played, likewise");
-        command->add_option("--speed", options->speed, "-2 to 2; 1 is as it was, 0 stands")
+            "play", "Show a take like a live stage: scrub, freeze, fly, send the programme");
+        namespace group = option_group;
+        command->add_option("TAKE", options->take, "Take to play (.mkv)")->required();
+        command
+            ->add_option("--from", options->from,
+                         "Set the in mark, in seconds after the beginning or as time code")
+            ->group(group::input);
+        command
+            ->add_option("--to", options->to,
+                         "Set the out mark, the first moment that is not played, likewise")
+            ->group(group::input);
+        command
+            ->add_option("--speed", options->speed,
+                         "Set the speed, -2 to 2; 1 is the original speed, 0 holds the picture")
             ->check(CLI::Range(-2.0, 2.0))
-            ->capture_default_str();
-        command->add_flag("--loop", options->loops, "From the out mark on at the in mark");
+            ->capture_default_str()
+            ->group(group::input);
+        command->add_flag("--loop", options->loops, "Repeat from the in mark to the out mark")
+            ->group(group::input);
         options->show.add_to(*command, "the stage's");
         command->footer(
-            "Without --headless a window opens: space stops and plays on, [ and ] change the "
-            "speed, F1 helps.\nThe summary goes to stdout, the log to stderr.");
+            "Without --headless a window opens. Space holds and plays, [ and ] change the speed, "
+            "F1 shows the keys.\nThe summary goes to stdout, the log to stderr.");
         command->callback([options] { play(*options); });
     }};
 }

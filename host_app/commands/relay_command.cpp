@@ -18,7 +18,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::milliseconds look_period{200};
+/// Period at which the relay collects the rigs' status.
+constexpr std::chrono::milliseconds status_period{200};
 
 struct RelayOptions {
     std::string stage, rigs_file;
@@ -31,7 +32,7 @@ std::string host_name() {
     return ::gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
 }
 
-/// The rigs as the stage files of this relay's hosts have them.
+/// Formats the [[rigs]] entries for the stage files of this relay's hosts.
 std::string stage_entries(const std::vector<RigRelay::Rig>& rigs, const std::string& listen) {
     std::string text;
     for (const RigRelay::Rig& rig : rigs) {
@@ -57,33 +58,35 @@ nlohmann::ordered_json to_json(const RigRelay::Rig& rig) {
                                  {"offered", host.counters.offered},
                                  {"sent", host.counters.sent},
                                  {"send_dropped", host.counters.send_dropped},
-                                 {"thinned", host.counters.skipped}});
+                                 {"skipped", host.counters.skipped},
+                                 {"thinned", host.counters.skipped}});  // old name
     return json;
 }
 
 void print(const std::vector<RigRelay::Rig>& rigs) {
     for (const RigRelay::Rig& rig : rigs) {
-        std::cout << fmt::format("{}: {} frames, {:.1f} MB, {} dropped on the way here\n", rig.name,
-                                 rig.frames, static_cast<double>(rig.bytes) / 1e6, rig.dropped);
+        std::cout << fmt::format("{}: {} frames, {:.1f} MB, {} dropped before the relay\n",
+                                 rig.name, rig.frames, static_cast<double>(rig.bytes) / 1e6,
+                                 rig.dropped);
         for (const HostLinks::HostStatus& host : rig.hosts)
-            std::cout << fmt::format("    {}: {} of {} sent, {} dropped, {} not asked for\n",
-                                     host.host_key.empty() ? "a host without key" : host.host_key,
+            std::cout << fmt::format("    {}: {} of {} sent, {} dropped, {} not requested\n",
+                                     host.host_key.empty() ? "host without key" : host.host_key,
                                      host.counters.sent, host.counters.offered,
                                      host.counters.send_dropped, host.counters.skipped);
     }
 }
 
 void run(const RelayOptions& options) {
-    // Before the relay's threads, so that they leave the signals to it.
+    // It must exist before the relay's threads, so that it receives the signals.
     StopSignal stop;
     const RigRelay relay(load_stage_config(options.stage), options.relay);
     const std::vector<RigRelay::Rig> rigs = relay.status();
     const std::string entries = stage_entries(rigs, options.relay.listen);
     if (options.rigs_file.empty())
-        log_info("the rigs for the stage files of this relay's hosts:\n{}", entries);
+        log_info("entries for the stage files of this relay's hosts:\n{}", entries);
     else
         write_text_atomically(options.rigs_file, entries);
-    while (!stop.wait_for(look_period)) (void)relay.status();
+    while (!stop.wait_for(status_period)) (void)relay.status();
     const std::vector<RigRelay::Rig> ended = relay.status();
     if (!options.json) {
         print(ended);
@@ -101,28 +104,29 @@ CommandEntry relay_command_entry() {
         auto options = std::make_shared<RelayOptions>();
         CLI::App* relay = program.add_subcommand(
             "relay",
-            "Takes the rigs' frames once and serves them to several hosts, as they came, until it "
-            "is ended; hosts have it in their stage files in place of the rigs");
-        relay->add_option("--stage", options->stage, "stage.toml of the rigs themselves")
+            "Receive the rigs' frames once and serve them unchanged to several hosts; the hosts' "
+            "stage files name the relay instead of the rigs");
+        relay->add_option("--stage", options->stage, "Stage file with the rigs themselves (TOML)")
             ->required();
         relay
             ->add_option(
                 "--listen", options->relay.listen,
-                "Where hosts reach the first rig, such as tcp://*:5700; the next rigs have "
+                "Serve the first rig on this endpoint, such as tcp://*:5700, and the next rigs on "
                 "the ports that follow")
             ->required();
         relay->add_option("--authorized-hosts", options->relay.authorized_hosts,
-                          "Public keys of the hosts that are served, one a line; needed beyond "
-                          "loopback");
+                          "Serve only hosts whose public keys are in this file, one per line; "
+                          "required beyond loopback");
         relay
             ->add_option("--queue-frames", options->relay.queue_frames,
-                         "Frames of a rig that may wait for one host; beyond that its oldest are "
+                         "Queue at most this many frames of a rig for each host; older ones are "
                          "dropped and counted")
             ->check(CLI::Range(1, 1000))
             ->capture_default_str();
         relay->add_option("--rigs-file", options->rigs_file,
-                          "Write the [[rigs]] for the hosts' stage files there (default: log)");
-        relay->add_flag("--json", options->json, "At the end: what came and went, as JSON");
+                          "Write the [[rigs]] entries for the hosts' stage files to this file "
+                          "(default: to the log)");
+        relay->add_flag("--json", options->json, "Print the frames' account at the end as JSON");
         relay->callback([options] { run(*options); });
     }};
 }

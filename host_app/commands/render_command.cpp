@@ -13,7 +13,7 @@
 #include "common/gl/context/limits.h"
 #include "common/gl/objects/gpu_timer.h"
 #include "common/image/image_file.h"
-#include "host_app/session/options/stereoscopic_options.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
@@ -22,6 +22,7 @@
 namespace vantage {
 namespace {
 
+/// Renderings whose median GPU time is reported.
 constexpr int timed_renderings = 5;
 
 struct RenderOptions {
@@ -31,7 +32,7 @@ struct RenderOptions {
     StereoscopicOptions stereoscopic;
 };
 
-/// One camera, or the eyes of a 3D display; plain, or with the novelty overlay.
+/// Renders a view set for one camera or for the eyes of a 3-D display, plain or as a source map.
 class Rendering {
   public:
     Rendering(const RenderOptions& options, const std::vector<ViewSet>& earlier, const ViewSet& set,
@@ -64,7 +65,7 @@ class Rendering {
         return all([](const Texture& eye) -> const Texture& { return eye; });
     }
 
-    /// The overlay and, in `result`, what it says in numbers.
+    /// Renders the source map and stores its shares and colours in `result`.
     const Texture& source_map(nlohmann::ordered_json& result) {
         SourceShares sum;
         synthesiser_->note_origins(true);
@@ -108,7 +109,7 @@ void render(const RenderOptions& options) {
     VirtualView target;
     ColourImage truth;
     if (!options.hold_out.empty()) {
-        // Taken out of the set before anything sees the set.
+        // The view is removed before any other code sees the view set.
         const auto held_out =
             set.views.begin() + static_cast<std::ptrdiff_t>(set.index_of(options.hold_out));
         truth = held_out->colour;
@@ -124,8 +125,8 @@ void render(const RenderOptions& options) {
         std::none_of(set.views.begin(), set.views.end(),
                      [](const DepthView& view) { return !view.depth_m.empty(); }))
         fail(
-            "{}: no view that is left has 'disparity' or 'depth'; give at least one of them "
-            "geometry",
+            "{}: none of the remaining views has 'disparity' or 'depth'; add geometry to at least "
+            "one view",
             options.views);
 
     const EglContext context;
@@ -150,7 +151,12 @@ void render(const RenderOptions& options) {
     result["renderer"] = gl.renderer;
     if (const auto& eyes = rendering.stereoscopy()) result["stereoscopic"] = to_json(*eyes);
     ColourImage shown = picture;
-    if (options.source_map) shown = rendering.source_map(result["novelty"]).download();
+    if (options.source_map) {
+        nlohmann::ordered_json shares;
+        shown = rendering.source_map(shares).download();
+        result["source_map"] = shares;
+        result["novelty"] = shares;  // old name
+    }
 
     write_colour_image(options.output, shown);
     if (!options.difference.empty())
@@ -163,39 +169,44 @@ void render(const RenderOptions& options) {
 CommandEntry render_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<RenderOptions>();
-        CLI::App* command = program.add_subcommand("render", "One novel view from a view set");
+        CLI::App* command = program.add_subcommand("render", "Render a view set from a new camera");
         command->footer(
-            "A pose file is JSON (or TOML, by its extension) with the keys of views.json:\n"
+            "A pose file is JSON, or TOML by its extension, with the keys of views.json:\n"
             "  {\"width\": 640, \"height\": 360,\n"
             "   \"K\": [[fx, skew, cx], [0, fy, cy], [0, 0, 1]],\n"
             "   \"world_from_camera\": [[r, r, r, x], [r, r, r, y], [r, r, r, z]]}\n"
             "Pixel centres are at integer coordinates; x right, y down, z forward; metres.\n" +
             synthesisers_help());
-        command->add_option("--views", options->views, "Folder with a views.json")->required();
+        command->add_option("--views", options->views, "Read the view set in this folder")
+            ->required();
         command->add_option("--earlier", options->earlier,
-                            "Folders with the same rigs' views at instants before, oldest first: "
-                            "background that is hidden now is filled with what was seen");
-        auto* target = command->add_option_group("camera", "which view to render");
+                            "Read earlier view sets of the same rigs from these folders, oldest "
+                            "first, to fill hidden background");
+        auto* target = command->add_option_group("Camera", "The view to render");
         auto* hold_out = target->add_option(
             "--hold-out", options->hold_out,
-            "Withhold this view, render it from the others and compare: psnr_db, ssim");
-        target->add_option("--pose", options->pose, "Render the camera that this file describes");
+            "Remove this view, render it from the others and compare: psnr_db, ssim");
+        target->add_option("--pose", options->pose, "Render the camera of this pose file");
         target->require_option(1);
-        options->stereoscopic.add_to(*command, "the median depth of what is in view")
+        options->stereoscopic
+            .add_to(*command, "the median depth in view", option_group::stereoscopic)
             ->excludes(hold_out);
-        command->add_option("--synth", options->synthesiser, "Synthesiser; see below")
+        command->add_option("--synth", options->synthesiser, "Select the synthesiser; see below")
             ->type_name(synthesisers_type_name())
             ->capture_default_str();
-        command->add_option("-o,--output", options->output, "Picture to write (.png or .jpg)")
+        command->add_option("-o,--output", options->output, "Write the picture (.png or .jpg)")
             ->required();
         command
             ->add_option("--difference", options->difference,
-                         "With --hold-out: also write 4 * |rendered - true|")
+                         "With --hold-out: also write 4 * |rendered - true| to this file")
             ->needs(hold_out);
-        command->add_flag("--novelty", options->source_map,
-                          "Write which views the pixels come from, a colour a view, what none has "
-                          "seen hatched; the numbers are still those of the plain picture");
-        command->add_flag("--json", options->json, "Write the result as one JSON object");
+        CLI::Option* source_map =
+            command->add_flag("--source-map", options->source_map,
+                              "Write which view each pixel comes from, one colour per view, "
+                              "inpainted pixels hatched; the results stay those of the plain "
+                              "picture");
+        accept_old_name(*command, source_map, "--novelty");  // old name
+        command->add_flag("--json", options->json, "Print the result as one JSON object");
         command->callback([options] { render(*options); });
     }};
 }

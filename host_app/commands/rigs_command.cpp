@@ -19,14 +19,10 @@
 #include "common/config/stage_config.h"
 #include "common/take/take_pulses.h"
 #include "common/wire/status_report.h"
-#include "host_app/commands/rigs/rigs_bugreport.h"
-#include "host_app/commands/rigs/rigs_plan.h"
-#include "host_app/commands/rigs/rigs_status.h"
-#include "host_app/commands/rigs/rigs_update.h"
-#include "host_app/session/options/help_words.h"
-#include "host_app/session/options/take_time.h"
+#include "host_app/commands/rigs/rigs_commands.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/rig_silence.h"
+#include "host_app/session/report/rig_words.h"
 #include "host_app/session/sync_proof.h"
 #include "host_app/takes/clock_time.h"
 #include "host_app/takes/kept_fetch.h"
@@ -48,7 +44,7 @@ struct RigsOptions {
     bool json = false;
 };
 
-/// Of the stage as a whole. Onlookers get no pictures, so there is nothing to be stale.
+/// Returns the signal of the stage. This command requests no frames, so it is never stale.
 SignalState signal_of(const ReceiverStatus& status) {
     const bool any_rig =
         std::any_of(status.rigs.begin(), status.rigs.end(),
@@ -78,7 +74,8 @@ void run(const RigsOptions& options) {
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     StopSignal stop;
-    const ReceiverStatus status = look_at(stage, options.wait_s, LookUntil::all_send, stop);
+    const ReceiverStatus status =
+        gather_status(stage, options.wait_s, StatusCondition::all_send, stop);
     const SyncProof proof = sync_proof_of(options.stage);
     const auto now = std::chrono::system_clock::now();
     if (options.json) {
@@ -94,26 +91,26 @@ void run(const RigsOptions& options) {
     }
     std::vector<std::string> troubles;
     for (const RigStatus& rig : status.rigs) {
-        // A rig that waits for a host's start is in order.
+        // A rig that waits for a host to start is ready.
         const std::string trouble =
             waits_for_a_host(rig) ? trouble_of(rig) : trouble_of(rig) + silence_of(rig);
         if (trouble.empty()) continue;
-        // Of people's table the reasons are a part.
+        // The printed table already has the reasons.
         troubles.push_back(options.json ? fmt::format("{}: {}", rig.rig, trouble) : rig.rig);
     }
     if (!troubles.empty())
-        fail("{} of {} rigs cannot serve{}{}", troubles.size(), status.rigs.size(),
+        fail("{} of {} rigs cannot send frames{}{}", troubles.size(), status.rigs.size(),
              options.json ? "; " : ": ", fmt::join(troubles, options.json ? "; " : ", "));
 }
 
-/// What --from and --to say, and what of a take lacks.
+/// Sets the range of pulses to fetch: --from and --to, or the gaps of a take.
 void plan(const FetchOptions& options, const StageConfig& stage, KeptFetch& fetch) {
     if (options.take.empty()) {
         if (options.from.empty() || options.to.empty())
-            fail("--from and --to say what is fetched; or --gaps-of names the take that has gaps");
+            fail("nothing to fetch: give --from and --to, or a take with --gaps-of");
         const ClockSpan span = clock_span(options.from, options.to, std::time(nullptr));
         const PulseGrid pulses(stage.rate_hz);
-        // Both are read here, so that what is wrong with them is said before anything is asked.
+        // Both are parsed here, so that errors are reported before any rig is contacted.
         constexpr int no_offset_s = 0;
         (void)pulse_of(span.to, pulses, no_offset_s);
         (void)pulse_of(span.from, pulses, no_offset_s);
@@ -125,7 +122,7 @@ void plan(const FetchOptions& options, const StageConfig& stage, KeptFetch& fetc
     }
     fetch.take = std::make_shared<const TakeReader>(options.take);
     if (fetch.take->facts().pulse_rate_hz != stage.rate_hz)
-        fail("{} is of {:g} pulses a second and the stage of {:g}", options.take,
+        fail("{} has {:g} pulses per second, but the stage has {:g}", options.take,
              fetch.take->facts().pulse_rate_hz, stage.rate_hz);
     const PulseSpan span = pulse_span_of(*fetch.take);
     const PulseRange range{
@@ -147,7 +144,7 @@ nlohmann::ordered_json to_json(const FetchStats& stats) {
     return json;
 }
 
-void tell_progress(const std::vector<FetchStats>& all) {
+void log_fetch_progress(const std::vector<FetchStats>& all) {
     for (const FetchStats& stats : all)
         if (stats.wanted > 0 && !stats.is_done)
             log_info("{}: {} of {} pulses ({} %), {:.1f} MB", stats.rig, stats.seen, stats.wanted,
@@ -167,7 +164,7 @@ void fetch_kept(const FetchOptions& options) {
     make_folder(options.folder);
     StopSignal stop;
     const std::vector<FetchStats> all = fetch.run(
-        stage, [&] { return stop.requested(); }, tell_progress);
+        stage, [&] { return stop.requested(); }, log_fetch_progress);
     if (options.json) {
         nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
         for (const FetchStats& stats : all) rigs.push_back(to_json(stats));
@@ -179,7 +176,7 @@ void fetch_kept(const FetchOptions& options) {
             std::cout << fmt::format("{}: {} frames, {:.1f} MB", stats.rig, stats.frames,
                                      static_cast<double>(stats.bytes) / 1e6);
             if (stats.not_kept > 0)
-                std::cout << fmt::format("; {} pulses the rig has not kept either", stats.not_kept);
+                std::cout << fmt::format("; the rig has not recorded {} pulses", stats.not_kept);
             std::cout << '\n';
             for (const std::filesystem::path& file : stats.files)
                 std::cout << "    " << file.string() << '\n';
@@ -190,56 +187,58 @@ void fetch_kept(const FetchOptions& options) {
         if (!stats.trouble.empty()) troubles += (troubles.empty() ? "" : "; ") + stats.trouble;
     if (!troubles.empty()) fail("{}", troubles);
     if (std::any_of(all.begin(), all.end(), [](const auto& stats) { return !stats.is_done; }))
-        fail("ended before all was there; the same command goes on from here");
+        fail("ended before everything was fetched; run the same command to continue");
 }
 
 }  // namespace
 
 CommandEntry rigs_command_entry() {
     return {[](CLI::App& program) {
-        CLI::App* rigs = program.add_subcommand("rigs", "The rigs of a stage");
+        CLI::App* rigs = program.add_subcommand("rigs", "Check and maintain the rigs of a stage");
         rigs->require_subcommand(1);
         auto options = std::make_shared<RigsOptions>();
         CLI::App* status = rigs->add_subcommand("status",
-                                                "Every rig: clock, pulses, rates, temperature, "
-                                                "calibration, what became of its frames; ends "
-                                                "with 1 if a rig cannot serve, and "
-                                                "says why");
+                                                "Print the state of every rig: clock, pulses, "
+                                                "rates, temperature, calibration and frames; exit "
+                                                "with 1 if a rig cannot send frames");
         status->add_option("--stage", options->stage, stage_file_help)->required();
         status
             ->add_option("--wait", options->wait_s,
-                         "Seconds to wait for rigs that do not answer or send")
+                         "Wait at most this many seconds for rigs that do not answer or send")
             ->capture_default_str()
             ->check(CLI::Range(0.1, 3600.0));
-        status->add_flag("--json", options->json, "Print it as JSON");
+        status->add_flag("--json", options->json, "Print the result as JSON");
         status->callback([options] { run(*options); });
 
         auto fetched = std::make_shared<FetchOptions>();
         CLI::App* fetch = rigs->add_subcommand(
             "fetch",
-            "Brings what the rigs keep on their own disks ([keep]) to this host, beside what is "
-            "live; what was broken off goes on where it was, and vantage take join makes one take "
-            "of it");
+            "Copy the rigs' own recordings ([keep]) to this host, also during a live show; an "
+            "interrupted copy is resumed, and vantage take join makes one take of the files");
         fetch->add_option("--stage", fetched->stage, stage_file_help)->required();
         fetch->add_option("--from", fetched->from,
-                          "By the stage's clock on the wall: 20:15:00, 20:15:00:12 (time code), "
-                          "2026-11-22T20:15:00; with --gaps-of as in vantage take cut");
-        fetch->add_option("--to", fetched->to, "The first that is left out, likewise");
+                          "Start at this time of day at the stage: 20:15:00, 20:15:00:12 (time "
+                          "code) or 2026-11-22T20:15:00; with --gaps-of as in vantage take cut");
+        fetch->add_option("--to", fetched->to, "End at this time, which is not included, likewise");
         fetch->add_option("--gaps-of", fetched->take,
-                          "Only what this take of the stage lacks (default: of all its time)");
+                          "Fetch only the frames that this take lacks (default range: the whole "
+                          "take)");
         fetch->add_option("--rig", fetched->rigs,
-                          "Only this rig; may be given again (default: all)");
-        fetch->add_option("-o,--output", fetched->folder, "The folder it goes to")
+                          "Fetch from this rig only; repeat the option for more (default: all)");
+        fetch->add_option("-o,--output", fetched->folder, "Write the files to this folder")
             ->capture_default_str();
         fetch
             ->add_option("--mb-s", fetched->mb_s,
-                         "Megabytes a second from all rigs together, so that live goes on")
+                         "Limit the transfer from all rigs together to this many MB/s, so that a "
+                         "live show is not disturbed")
             ->check(CLI::Range(0.01, 10'000.0))
             ->capture_default_str();
-        fetch->add_option("--wait", fetched->wait_s, "Seconds to wait for a rig that is silent")
+        fetch
+            ->add_option("--wait", fetched->wait_s,
+                         "Wait at most this many seconds for a silent rig")
             ->check(CLI::Range(0.1, 86'400.0))
             ->capture_default_str();
-        fetch->add_flag("--json", fetched->json, "Print it as JSON");
+        fetch->add_flag("--json", fetched->json, "Print the result as JSON");
         fetch->callback([fetched] { fetch_kept(*fetched); });
         add_rigs_plan(*rigs);
         add_rigs_update(*rigs);

@@ -21,7 +21,7 @@
 #include "common/wire/limits.h"
 #include "common/wire/status_report.h"
 #include "common/wire/zmq_helpers.h"
-#include "host_app/commands/rigs/rigs_status.h"
+#include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/setup/pairing_call.h"
 #include "host_app/setup/rig_browser.h"
 #include "host_app/setup/stage_file.h"
@@ -37,7 +37,7 @@ struct SetupOptions {
     bool add = false, check = false, json = false;
 };
 
-/// Of this computer, in the letters that a pairing takes.
+/// Returns the name of this computer in the characters that a pairing allows.
 std::string own_name() {
     std::string name(max_name_chars + 1, '\0');
     if (::gethostname(name.data(), max_name_chars) != 0) name.clear();
@@ -46,14 +46,14 @@ std::string own_name() {
     return name.empty() ? "host" : name;
 }
 
-/// "north", "10.0.0.5:5591", "[fd00::1]".
+/// Parses "north", "10.0.0.5:5591" or "[fd00::1]".
 Endpoint pairing_endpoint(const std::string& rig) {
     const bool has_port = !rig.ends_with(']') && rig.find(':') != std::string::npos;
     return parse_endpoint("tcp://" + rig + (has_port ? "" : ":" + std::to_string(pairing_port)),
                           "--rig");
 }
 
-/// Everything that a session of setup talks to.
+/// The state of a setup session.
 struct Session {
     const SetupOptions& options;
     StopSignal& stop;
@@ -76,30 +76,30 @@ nlohmann::ordered_json to_json(const FoundRig& rig) {
             {"stream_port", rig.stream_port}};
 }
 
-/// Who can be paired with, of those that the network tells of.
+/// Searches the network and returns the rigs that are open for pairing.
 std::vector<Endpoint> search(Session& session) {
     std::vector<FoundRig> found;
     try {
         found = find_rigs(std::chrono::milliseconds(std::lround(1000 * session.options.search_s)),
                           [&] { return session.stop.requested(); });
     } catch (const Error& error) {
-        // Those that the stage knows can be checked all the same.
+        // The rigs in the stage file can still be checked.
         if (!session.stage.is_there()) throw;
         session.teller.tell({{"event", "search_failed"}, {"why", error.what()}},
                             fmt::format("{}.\n", error.what()));
         return {};
     }
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    std::string words = found.empty() ? "No rig announces itself on the network.\n" : "";
+    std::string words = found.empty() ? "Found no rig on the network.\n" : "";
     std::vector<Endpoint> open;
     for (const FoundRig& rig : found) {
         all.push_back(to_json(rig));
-        const char* state = "not open for pairing; at the rig: sudo vantage-rig pair";
+        const char* state = "not open for pairing; run at the rig: sudo vantage-rig pair";
         if (session.knows(rig.name)) {
-            state = rig.pairing_port == 0 ? "of this stage"
-                                          : "of this stage; --rig pairs with it once more";
+            state = rig.pairing_port == 0 ? "in this stage"
+                                          : "in this stage; use --rig to pair with it again";
         } else if (rig.pairing_port != 0 && !session.may_add) {
-            state = "open for pairing; --add adds it to the stage";
+            state = "open for pairing; use --add to add it to the stage";
         } else if (rig.pairing_port != 0) {
             state = "open for pairing";
             open.push_back(pairing_endpoint(fmt::format("{}:{}", rig.host, rig.pairing_port)));
@@ -110,35 +110,36 @@ std::vector<Endpoint> search(Session& session) {
     return open;
 }
 
-/// Why what a rig offers cannot be taken into the stage; empty if it can.
+/// Returns why a rig cannot be added to the stage; empty if it can.
 std::string fault_of(const Session& session, const PairOffer& offer) {
     const std::string file = session.stage.path().string();
     if (offer.stream_port == 0)
         return fmt::format(
-            "{} streams at another port after every start: give bind in [stream] of its rig.toml "
-            "one",
+            "{} streams on another port after every start; set a port in bind in [stream] of its "
+            "rig.toml",
             offer.rig);
     for (const StageConfig::Rig& rig : session.stage.config().rigs)
         if (rig.name == offer.rig && rig.public_key != offer.public_key)
             return fmt::format(
-                "{} has a rig '{}' with another key; if that rig was set up anew, take its table "
-                "out of the file and use --add",
+                "{} has a rig '{}' with another key; if the rig was reinstalled, remove its table "
+                "from the file and use --add",
                 file, offer.rig);
     if (!session.knows(offer.rig) && !session.may_add)
-        return fmt::format("{} is there and is left as it is; --add adds {} to it", file,
+        return fmt::format("{} exists and is not changed; use --add to add {} to it", file,
                            offer.rig);
     return "";
 }
 
-void tell_code(const Session& session, const PairOffer& rig, const Endpoint& endpoint,
+void show_code(const Session& session, const PairOffer& rig, const Endpoint& endpoint,
                const std::string& code) {
     session.teller.tell({{"event", "code"}, {"code", code}, {"rig", rig.rig}},
-                        fmt::format("\nThe rig '{}' at {} answers. The code here:\n\n    {}\n\n"
-                                    "Type the code if the rig shows the very same, or no: ",
+                        fmt::format("\nThe rig '{}' at {} answers. The code is:\n\n    {}\n\n"
+                                    "If the rig shows the same code, type it; otherwise type no: ",
                                     rig.rig, endpoint.host, code));
 }
 
-/// The rig that both persons have confirmed; nothing: this command was told to stop.
+/// Pairs with a rig and returns it once both sides have confirmed the code; nothing if the program
+/// is told to stop.
 std::optional<PairOffer> pair_with(Session& session, const Endpoint& endpoint,
                                    const CurveKeys& keys) {
     PairingCall call(endpoint.text(), keys, own_name(), {});
@@ -149,17 +150,17 @@ std::optional<PairOffer> pair_with(Session& session, const Endpoint& endpoint,
             items.push_back({nullptr, session.input.fd(), ZMQ_POLLIN, 0});
         wait_for(items, StopSignal::look_period);
         if (session.stop.requested()) {
-            call.refuse("the host's person has ended it");
+            call.refuse("setup was ended at the host");
             return std::nullopt;
         }
         call.turn(MonotonicClock::now());
         const std::optional<std::string> code = call.to_compare();
         if (code && !is_shown) {
             if (const std::string fault = fault_of(session, call.rig()); !fault.empty()) {
-                call.refuse("the host does not take this rig; it says why");
+                call.refuse("the host does not accept this rig; see its message");
                 fail("{}", fault);
             }
-            tell_code(session, call.rig(), endpoint, *code);
+            show_code(session, call.rig(), endpoint, *code);
             is_shown = true;
         }
         const std::optional<std::string> line = session.input.take();
@@ -167,16 +168,16 @@ std::optional<PairOffer> pair_with(Session& session, const Endpoint& endpoint,
         if (line && is_same_code(*line, *code)) {
             call.confirm();
             session.teller.tell({{"event", "confirmed"}, {"rig", call.rig().rig}},
-                                "Confirmed here; the rig's side is waited for.\n");
+                                "Confirmed; waiting for the rig's side.\n");
         } else if (line) {
-            call.refuse("the person at the host says that the codes are not the same");
+            call.refuse("the operator of the host found different codes");
             fail(
-                "the codes of this host and {} are not the same, so nothing is trusted: somebody "
-                "may stand between; begin anew, and look at the network if it comes again",
+                "the codes of this host and {} differ, so the rig is not trusted: a third computer "
+                "may intercept the connection; try again, and check the network if it repeats",
                 call.rig().rig);
         } else if (session.input.is_at_end()) {
-            call.refuse("nobody is at the host to compare the codes");
-            fail("nobody is at the standard input to compare the codes");
+            call.refuse("nobody at the host can compare the codes");
+            fail("standard input has ended, so nobody can compare the codes");
         }
     }
     return call.rig();
@@ -194,16 +195,16 @@ void pair(Session& session, const Endpoint& endpoint) {
                          {"public_key", rig->public_key},
                          {"stage", session.stage.path().string()},
                          {"added", is_new}},
-                        is_new ? fmt::format("Paired with '{}', which now is in {}.\n", rig->rig,
+                        is_new ? fmt::format("Paired with '{}' and added it to {}.\n", rig->rig,
                                              session.stage.path().string())
-                               : fmt::format("Paired with '{}', which {} has already.\n", rig->rig,
-                                             session.stage.path().string()));
+                               : fmt::format("Paired with '{}', which is already in {}.\n",
+                                             rig->rig, session.stage.path().string()));
 }
 
 void check(const Session& session) {
     const std::string file = session.stage.path().string();
-    const ReceiverStatus status = look_at(session.stage.config(), session.options.wait_s,
-                                          LookUntil::all_connected, session.stop);
+    const ReceiverStatus status = gather_status(session.stage.config(), session.options.wait_s,
+                                                StatusCondition::all_connected, session.stop);
     const std::vector<Finding> findings = findings_of(status, file);
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), lacks = rigs;
     std::string words = fmt::format("\nThe rigs of {}:\n", file);
@@ -228,7 +229,7 @@ void check(const Session& session) {
         blocking += finding.blocks ? 1 : 0;
     }
     if (blocking == 0)
-        words += fmt::format("\nThe stage can be shown: vantage live --stage {}\n", file);
+        words += fmt::format("\nThe stage is ready: vantage live --stage {}\n", file);
     session.teller.tell({{"event", "checked"},
                          {"stage", file},
                          {"ready", blocking == 0},
@@ -237,7 +238,7 @@ void check(const Session& session) {
                         words);
     if (blocking > 0)
         fail(
-            "{} of what was found keeps a rig from the stage; once it is mended: vantage setup "
+            "{} of the findings keep a rig from the stage; fix them, then run vantage setup "
             "--check",
             blocking);
 }
@@ -248,7 +249,8 @@ void set_up(const SetupOptions& options) {
                     StageFile(options.stage.empty() ? user_folder() / "stage.toml"
                                                     : std::filesystem::path(options.stage))};
     if (options.check && !session.stage.is_there())
-        fail("there is no {} to check; vantage setup makes it", session.stage.path().string());
+        fail("there is no {} to check; run vantage setup to create it",
+             session.stage.path().string());
     std::vector<Endpoint> to_pair;
     for (const std::string& rig : options.rigs) to_pair.push_back(pairing_endpoint(rig));
     if (options.rigs.empty() && !options.check) to_pair = search(session);
@@ -257,8 +259,8 @@ void set_up(const SetupOptions& options) {
     if (stop.requested()) return;
     if (!session.stage.is_there())
         fail(
-            "there is no rig to set up: open one with sudo vantage-rig pair there, or name it with "
-            "--rig HOST where the network has no multicast");
+            "found no rig to set up: run sudo vantage-rig pair at the rig, or name it with --rig "
+            "HOST if the network has no multicast");
     check(session);
 }
 
@@ -269,29 +271,28 @@ CommandEntry setup_command_entry() {
         auto options = std::make_shared<SetupOptions>();
         CLI::App* command = program.add_subcommand(
             "setup",
-            "From rigs in the network to a stage that can be shown: finds them, pairs with those "
-            "that are open for it (vantage-rig pair), writes stage.toml, checks every rig and says "
-            "what is missing and what mends it; ends with 1 if a rig cannot serve");
+            "Set up a stage: find the rigs on the network, pair with those that are open for it "
+            "(vantage-rig pair), write the stage file and check every rig; exit with 1 if a rig "
+            "cannot send frames");
         command->add_option("--stage", options->stage,
-                            "The stage's file (default: ~/.config/vantage/stage.toml)");
+                            "Write this stage file (default: ~/.config/vantage/stage.toml)");
         auto* rigs = command->add_option(
             "--rig", options->rigs,
-            "Pair with the rig at HOST or HOST:PORT, in place of a search; may be given again");
-        command->add_flag("--add", options->add,
-                          "Add new rigs to a stage.toml that is there, which is left alone else");
+            "Pair with the rig at HOST or HOST:PORT instead of searching; repeat the option for "
+            "more rigs");
+        command->add_flag("--add", options->add, "Add new rigs to a stage file that exists");
         command->add_flag("--check", options->check, "Only check the rigs of the stage")
             ->excludes(rigs);
-        command->add_option("--search", options->search_s, "Seconds to look for rigs")
+        command->add_option("--search", options->search_s, "Search for rigs for this many seconds")
             ->check(CLI::Range(0.5, 600.0))
             ->capture_default_str();
         command
             ->add_option("--wait", options->wait_s,
-                         "Seconds to wait for rigs, such as one whose daemon is started anew")
+                         "Wait at most this many seconds for the rigs to connect")
             ->check(CLI::Range(0.1, 3600.0))
             ->capture_default_str();
         command->add_flag("--json", options->json,
-                          "Tell what happens as lines of JSON: found, code, confirmed, paired, "
-                          "checked");
+                          "Print events as lines of JSON: found, code, confirmed, paired, checked");
         command->callback([options] { set_up(*options); });
     }};
 }

@@ -14,8 +14,8 @@
 #include "common/take/take_edit.h"
 #include "common/take/take_pulses.h"
 #include "host_app/exports/take_export.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/session/options/film_options.h"
-#include "host_app/session/options/take_time.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
@@ -29,7 +29,7 @@ struct TakeOptions {
     bool json = false;
 };
 
-/// Time codes are the house's, as when the take was made.
+/// Uses the time zone of the take for time codes.
 void use_zone_of(const TakeReader& take) {
     const std::string zone = take_show_from(take.facts().show).timecode_zone;
     if (!zone.empty() && is_time_zone(zone)) use_time_zone(zone);
@@ -97,7 +97,7 @@ void info(const TakeOptions& options) {
         return;
     }
     std::cout << fmt::format(
-        "{}: {:.1f} s from {}, {:g} pulses a second, {:.1f} MB, written by {}\n",
+        "{}: {:.1f} s from {}, {:g} pulses per second, {:.1f} MB, written by {}\n",
         take.path().string(), take.duration_s(), take.facts().timecode, take.facts().pulse_rate_hz,
         static_cast<double>(take.bytes()) / 1e6, take.facts().program);
     for (const auto& rig : json["rigs"])
@@ -112,18 +112,18 @@ void info(const TakeOptions& options) {
         std::cout << fmt::format("attached: {}, {} bytes\n", attachment.name,
                                  attachment.bytes.size());
     if (!take.is_ended())
-        std::cout << "its end was never written: all before it is read all the same\n";
+        std::cout << "the recording was interrupted; everything before that is readable\n";
     if (!take.damage().empty())
-        std::cout << fmt::format("{} places are damaged; vantage take check names them\n",
+        std::cout << fmt::format("{} places are damaged; vantage take check lists them\n",
                                  take.damage().size());
 }
 
-/// A line in the log every tenth of the way.
+/// Logs the progress at every 10 %.
 std::function<void(double)> progress_of(const std::string& what) {
-    return [what, told = 0](double share) mutable {
+    return [what, logged = 0](double share) mutable {
         const auto tenth = static_cast<int>(10 * share);
-        if (tenth <= told) return;
-        told = tenth;
+        if (tenth <= logged) return;
+        logged = tenth;
         log_info("{}: {} %", what, 10 * tenth);
     };
 }
@@ -163,27 +163,27 @@ void check(const TakeOptions& options) {
         std::cout << json.dump() << '\n';
     } else {
         for (const TakeGap& gap : verdict.gaps)
-            std::cout << fmt::format("{}: {} pulse{} missing from {} (pulse {}) on{}{}\n", gap.rig,
+            std::cout << fmt::format("{}: {} pulse{} missing from {} (pulse {}){}{}\n", gap.rig,
                                      gap.pulses(), gap.pulses() == 1 ? "" : "s", code(gap.from),
                                      gap.from, gap.why.empty() ? "" : ": ", gap.why);
         for (const SoundGap& gap : verdict.sound_gaps)
-            std::cout << fmt::format("sound: {:.3f} s missing from {} on\n", gap.seconds,
+            std::cout << fmt::format("sound: {:.3f} s missing from {}\n", gap.seconds,
                                      clock.at(gap.from, tai_offset_s));
         for (const TakeDamage& damage : verdict.damage)
             std::cout << fmt::format("byte {}: {}\n", damage.at, damage.words);
-        std::cout << fmt::format("{} frames are as they came\n", verdict.frames);
+        std::cout << fmt::format("{} frames are intact\n", verdict.frames);
         if (take.facts().has_sound)
-            std::cout << fmt::format("{:.1f} s of sound are as they were heard\n", verdict.sound_s);
+            std::cout << fmt::format("{:.1f} s of sound are intact\n", verdict.sound_s);
     }
     if (!verdict.is_whole())
-        fail("{} is not whole: {} frames are missing in {} gaps, {} places are damaged{}",
+        fail("{} is not complete: {} frames are missing in {} gaps, {} places are damaged{}",
              options.take, missing, verdict.gaps.size(), verdict.damage.size(),
              verdict.sound_gaps.empty()
                  ? ""
                  : fmt::format(", and its sound has {} gaps", verdict.sound_gaps.size()));
 }
 
-void tell(const TakeCopy& copy, const TakeOptions& options) {
+void print_copy(const TakeCopy& copy, const TakeOptions& options) {
     if (options.json)
         std::cout << nlohmann::ordered_json{{"path", options.output},
                                             {"frames", copy.frames},
@@ -196,11 +196,11 @@ void tell(const TakeCopy& copy, const TakeOptions& options) {
     else
         std::cout << fmt::format(
             "{}: {} frames{}{}\n", options.output, copy.frames,
-            copy.damaged > 0 ? fmt::format(", {} damaged ones left out", copy.damaged) : "",
-            copy.twice > 0 ? fmt::format(", {} were there twice", copy.twice) : "");
+            copy.damaged > 0 ? fmt::format(", {} damaged frames left out", copy.damaged) : "",
+            copy.twice > 0 ? fmt::format(", {} duplicates left out", copy.twice) : "");
 }
 
-/// What --from and --to say.
+/// Returns the part of the take between --from and --to.
 TakePart part_of(const TakeReader& take, const TakeOptions& options) {
     const PulseSpan span = pulse_span_of(take);
     TakePart part;
@@ -222,8 +222,8 @@ void cut(const TakeOptions& options) {
     const TakeReader take(options.take);
     use_zone_of(take);
     const TakePart part = part_of(take, options);
-    tell(copy_takes({&take}, part.from, part.to, options.output, progress_of(options.output)),
-         options);
+    print_copy(copy_takes({&take}, part.from, part.to, options.output, progress_of(options.output)),
+               options);
 }
 
 void export_take(const TakeOptions& options) {
@@ -231,8 +231,8 @@ void export_take(const TakeOptions& options) {
     const ExportFormat* format =
         options.form == "camera" || is_film ? nullptr : &find_export_format(options.form);
     if (!is_film && options.film.is_any())
-        fail("--path, --rate, --size, --synth and --stereoscopic are of --as film");
-    if (is_film && options.every != 1) fail("--every says nothing of a film; --rate does");
+        fail("--path, --rate, --size, --synth and --stereoscopic apply only to --as film");
+    if (is_film && options.every != 1) fail("--every does not apply to a film; use --rate");
     const TakeReader take(options.take);
     use_zone_of(take);
     const TakePart part = part_of(take, options);
@@ -253,10 +253,10 @@ void export_take(const TakeOptions& options) {
     else
         std::cout << fmt::format(
             "{}: {} {}{}{}\n", options.output, stats.written,
-            is_film  ? "pictures"
-            : format ? "moments"
+            is_film  ? "frames"
+            : format ? "instants"
                      : "ticks of the camera",
-            stats.there > 0 ? fmt::format(", {} were there", stats.there) : "",
+            stats.there > 0 ? fmt::format(", {} existed", stats.there) : "",
             stats.damaged > 0 ? fmt::format(", {} damaged frames left out", stats.damaged) : "");
 }
 
@@ -268,8 +268,8 @@ void join(const TakeOptions& options) {
         takes.push_back(readers.back().get());
     }
     use_zone_of(*takes.front());
-    tell(copy_takes(takes, 0, ~std::uint64_t{0}, options.output, progress_of(options.output)),
-         options);
+    print_copy(copy_takes(takes, 0, ~std::uint64_t{0}, options.output, progress_of(options.output)),
+               options);
 }
 
 }  // namespace
@@ -278,61 +278,61 @@ CommandEntry take_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<TakeOptions>();
         CLI::App* take =
-            program.add_subcommand("take", "Takes: what rigs sent, as vantage live --take records");
+            program.add_subcommand("take", "Inspect, cut, join and export takes of rigs' frames");
         take->require_subcommand(1);
         const auto add = [&](const char* name, const char* words,
                              void (*work)(const TakeOptions&)) {
             CLI::App* command = take->add_subcommand(name, words);
-            command->add_flag("--json", options->json, "For machines");
+            command->add_flag("--json", options->json, "Print the result as JSON");
             command->callback([options, work] { work(*options); });
             return command;
         };
         const auto add_take = [&](CLI::App* command) {
-            command->add_option("TAKE", options->take, "The take (.mkv)")->required();
+            command->add_option("TAKE", options->take, "Take (.mkv)")->required();
         };
-        add_take(add("info", "What is in a take", info));
+        add_take(add("info", "Print the contents of a take", info));
         add_take(add("check",
-                     "Look at every byte: names every gap and damage, and ends with 1 if there is "
+                     "Read every byte of a take and list gaps and damage; exit with 1 if there is "
                      "any",
                      check));
         CLI::App* cut_command =
-            add("cut", "A part of a take as a new one; nothing is coded anew", cut);
+            add("cut", "Copy a part of a take to a new one, without encoding again", cut);
         add_take(cut_command);
         const auto add_part = [&](CLI::App* command) {
             command->add_option("--from", options->from,
-                                "Seconds after the beginning, or time code (default: all)");
+                                "Start at this time: seconds after the beginning, or time code "
+                                "(default: the beginning)");
             command->add_option("--to", options->to,
-                                "The first that is left out, likewise (default: to the end)");
+                                "End at this time, which is not included, likewise (default: the "
+                                "end)");
         };
         add_part(cut_command);
-        cut_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
-        CLI::App* join_command =
-            add("join", "Several takes of a stage as one, by pulse: of other rigs, or other times",
-                join);
-        join_command->add_option("TAKES", options->takes, "The takes (.mkv)")
+        cut_command->add_option("-o,--output", options->output, "Write this take (.mkv)")
+            ->required();
+        CLI::App* join_command = add(
+            "join", "Join takes of one stage by pulse, of different rigs or different times", join);
+        join_command->add_option("TAKES", options->takes, "Takes (.mkv)")
             ->required()
             ->expected(1, 1000);
-        join_command->add_option("-o,--output", options->output, "The new take (.mkv)")->required();
+        join_command->add_option("-o,--output", options->output, "Write this take (.mkv)")
+            ->required();
         CLI::App* export_command =
-            add("export",
-                "What a take holds for other programs; what was broken off goes on where it was",
+            add("export", "Export a take for other programs; an interrupted export is resumed",
                 export_take);
         add_take(export_command);
         std::string forms =
-            "camera: the flight, as CSV and FreeD; film: a flight over the take (.mkv, .mp4), "
-            "every "
-            "picture at the best level, however long that takes";
+            "Export as camera: the flight as CSV and FreeD; film: a flight over the take (.mkv, "
+            ".mp4), every frame at the best quality, slower than real time";
         for (const ExportFormat& format : export_formats())
             forms += fmt::format("; {}: {}", format.name, format.words);
         export_command->add_option("--as", options->form, forms)->required();
         add_part(export_command);
         export_command
             ->add_option("--every", options->every,
-                         "Of so many pulses one; of the camera, of so many ticks")
+                         "Export only every Nth pulse, or tick of the camera")
             ->check(CLI::Range(1, 1'000'000))
             ->capture_default_str();
-        export_command
-            ->add_option("-o,--output", options->output, "The folder, or the film, it goes to")
+        export_command->add_option("-o,--output", options->output, "Write to this folder or film")
             ->required();
         options->film.add_to(*export_command);
     }};

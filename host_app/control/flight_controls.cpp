@@ -10,40 +10,37 @@
 namespace vantage {
 namespace {
 
-/// Nobody presses more between two looks of the session.
-constexpr std::size_t most_waiting_outputs = 64;
-constexpr double longest_flight_s = 600;
+/// Bound of the session's queue, in case that the session is held up.
+constexpr std::size_t max_session_commands = 64;
+constexpr double max_flight_s = 600;
 
 }  // namespace
 
 bool OperatorInputBox::put(const FlightInput& input, MonotonicTime now) {
     if (!input.is_any()) return true;
     const std::lock_guard lock(mutex_);
-    const bool has_to_wait = !waiting_.empty() && waiting_.back().input.commands_twice(input);
-    if (has_to_wait && waiting_.size() == most_waiting) {
-        waiting_.back().input.add(input.turns());
-        return false;
-    }
-    if (waiting_.empty() || has_to_wait) waiting_.push_back({{}, now});
-    waiting_.back().input.add(input);
-    return true;
+    if (!waiting_.since) waiting_.since = now;
+    const bool is_full =
+        waiting_.input.commands.size() + input.commands.size() > max_commands;
+    if (is_full)
+        waiting_.input.add_axes(input);
+    else
+        waiting_.input.add(input);
+    return !is_full;
 }
 
 OperatorInputBox::Taken OperatorInputBox::take() {
     const std::lock_guard lock(mutex_);
-    if (waiting_.empty()) return {};
-    Taken taken = waiting_.front();
-    waiting_.pop_front();
-    return taken;
+    return std::exchange(waiting_, {});
 }
 
-FlightControls::FlightControls(Settings settings, JogDevices* deck, RigView rig_view, Framing framing,
-                               CorridorNow corridor)
+FlightControls::FlightControls(Settings settings, JogDevices* devices, RigView rig_view,
+                               Framing framing, CorridorNow corridor)
     : settings_(std::move(settings)),
       cameras_(FlightController(settings_.plan.start.value_or(OrbitView{}), settings_.plan.move,
-                    settings_.has_past, settings_.plan.habits)),
+                                settings_.has_past, settings_.plan.habits)),
       fly_to_preview_s_(settings_.plan.habits.shot_s),
-      deck_(deck),
+      devices_(devices),
       rig_view_(std::move(rig_view)),
       framing_(std::move(framing)),
       corridor_now_(std::move(corridor)) {
@@ -67,57 +64,31 @@ CameraStep FlightControls::step(double time_s, std::optional<double> past_pulse)
     last_s_ = time_s;
     if (framing_) {
         if (const std::optional<StageFraming> framing = framing_()) {
-            cameras_.for_each_controller([&](FlightController& flight_controller) {
-                flight_controller.settle(framing->limits,
-                            settings_.plan.start ? std::nullopt : std::optional(framing->start));
-            });
+            const std::optional<OrbitView> start =
+                settings_.plan.start ? std::nullopt : std::optional(framing->start);
+            cameras_.for_each_controller(
+                [&](FlightController& each) { each.settle(framing->limits, start); });
             framing_ = {};
         }
     }
     take_from_session();
     const std::shared_ptr<const Corridor> corridor = corridor_now_ ? corridor_now_() : nullptr;
     if (!settings_.free_flight)
-        cameras_.for_each_controller([&](FlightController& flight_controller) { flight_controller.keep_within(corridor); });
-    auto [operator_input, since] = operator_input_.take();
-    if (deck_) operator_input.add(take_wheels(dt_s, since));
-    if (operator_input.toggle_jog_map) {
-        wheels_.toggle();
-        mapper_.let_go();
-    }
+        cameras_.for_each_controller([&](FlightController& each) { each.keep_within(corridor); });
+    auto [input, since] = operator_input_.take();
+    if (devices_) input.add(take_wheels(dt_s, since));
     CameraStep step;
-    step.hand = since;
-    step.next_synthesiser = operator_input.next_synthesiser;
-    step.toggle_source_map = operator_input.toggle_source_map;
-    step.time = {.pulses = operator_input.past_steps,
-                 .shuttle_pulses = 0,
-                 .speed_steps = operator_input.speed_steps,
-                 .toggle_hold = operator_input.toggle_freeze,
-                 .to_live = operator_input.to_live,
-                 .mark_in = operator_input.mark_in,
-                 .mark_out = operator_input.mark_out,
-                 .clear_marks = operator_input.clear_marks,
-                 .toggle_loop = operator_input.toggle_loop,
-                 .cue = operator_input.cue,
-                 .calls = operator_input.replay};
-    if (cameras_.in_hand().flight_controller.wheel_mode() == WheelMode::past) {
-        step.time.pulses += operator_input.wheel_steps;
-        step.time.shuttle_pulses = operator_input.shuttle_s * settings_.pulse_rate_hz;
-    }
-    const auto take_s_of = [&](double pulse) {
-        return (pulse - *settings_.take_begin) / settings_.pulse_rate_hz;
-    };
+    step.input = since;
+    take_time(input, step);
+    input.for_each<CameraCommand>([&](const auto& each) { obey(each); });
     const std::optional<double> take_s =
-        settings_.take_begin && past_pulse ? std::optional(take_s_of(*past_pulse)) : std::nullopt;
-    {
-        const std::lock_guard lock(mutex_);
-        step.time.to_pulse = std::exchange(seek_, std::nullopt);
-    }
-    take_preview(operator_input);
-    fly(operator_input, dt_s, take_s, step);
-    record(operator_input, step, time_s, take_s);
+        settings_.take_begin && past_pulse
+            ? std::optional((*past_pulse - *settings_.take_begin) / settings_.pulse_rate_hz)
+            : std::nullopt;
+    fly(input, dt_s, take_s, step);
+    record(step, time_s, take_s);
     note_coverage(corridor.get(), step.camera.value_or(step.view.camera()), dt_s);
     const std::lock_guard lock(mutex_);
-    requests_.toggle_take ^= operator_input.toggle_take;
     if (auto change = cameras_.take_change()) {
         shots_ = change->book.shots;
         const std::optional<Move>& move = change->book.move;
@@ -126,14 +97,36 @@ CameraStep FlightControls::step(double time_s, std::optional<double> past_pulse)
         requests_.change = std::move(change);
     }
     if (!is_recording_) pass_flight_on();
-    if (operator_input.pick) requests_.pick = operator_input.pick;
-    if (!operator_input.cue_time.empty()) requests_.cue_time = operator_input.cue_time;
-    requests_.save_background |= operator_input.save_background;
-    requests_.learn_background |= operator_input.learn_background;
-    if (operator_input.toggle_output != 0 && requests_.outputs.size() < most_waiting_outputs)
-        requests_.outputs.push_back(operator_input.toggle_output);
+    take_session_commands(input);
     note_lines(corridor.get());
     return step;
+}
+
+void FlightControls::take_time(const FlightInput& input, CameraStep& step) {
+    for (const Command& each : input.commands) {
+        if (const auto* transport = std::get_if<TransportCommand>(&each))
+            step.time.commands.emplace_back(*transport);
+        else if (const auto* replay = std::get_if<ReplayCall>(&each))
+            step.time.commands.emplace_back(*replay);
+    }
+    step.next_synthesiser = input.find<command::NextSynthesiser>() != nullptr;
+    input.for_each<PictureCommand>([&](const auto& each) {
+        if constexpr (std::is_same_v<decltype(each), const command::ToggleSourceMap&>)
+            step.toggle_source_map = !step.toggle_source_map;
+    });
+    if (cameras_.in_hand().flight_controller.wheel_mode() == WheelMode::past) {
+        step.time.pulses = input.wheel_steps;
+        step.time.shuttle_pulses = input.shuttle_s * settings_.pulse_rate_hz;
+    }
+    const std::lock_guard lock(mutex_);
+    step.time.to_pulse = std::exchange(seek_, std::nullopt);
+}
+
+void FlightControls::take_session_commands(const FlightInput& input) {
+    for (const Command& each : input.commands)
+        if (const auto* session = std::get_if<SessionCommand>(&each))
+            if (requests_.commands.size() < max_session_commands)
+                requests_.commands.push_back(*session);
 }
 
 void FlightControls::note_lines(const Corridor* corridor) {
@@ -162,73 +155,97 @@ void FlightControls::note_lines(const Corridor* corridor) {
                       cameras_.fly_progress(), on_air_move};
 }
 
-void FlightControls::take_preview(const FlightInput& operator_input) {
-    if (operator_input.fly_to_preview_tenths != 0) fly_to_preview_s_ = 0.1 * operator_input.fly_to_preview_tenths;
-    if (operator_input.toggle_preview) cameras_.toggle_preview();
-    if (!operator_input.cut && !operator_input.fly_to_preview) return;
-    if (!cameras_.preview())
-        return log_info(
-            "there is no camera on preview to cut or fly to: the command preview, key "
-            "/, begins one");
-    if (operator_input.cut) {
-        cameras_.cut();
-        // A tracked camera is not glided away from.
-        is_tracked_ = false;
-        glide_ = {};
-    } else {
-        cameras_.fly_to_preview(fly_to_preview_s_);
-    }
+void FlightControls::obey(const command::TogglePreview&) { cameras_.toggle_preview(); }
+
+bool FlightControls::has_preview_to_show() const {
+    if (cameras_.preview()) return true;
+    log_info(
+        "there is no camera on preview to cut or fly to; add one with the command preview or the "
+        "key /");
+    return false;
+}
+
+void FlightControls::obey(const command::Cut&) {
+    if (!has_preview_to_show()) return;
+    cameras_.cut();
+    // A cut from a tracked camera does not glide.
+    is_tracked_ = may_track_ = false;
+    glide_ = {};
+}
+
+void FlightControls::obey(const command::FlyToPreview&) {
+    if (!has_preview_to_show()) return;
+    cameras_.fly_to_preview(fly_to_preview_s_);
     may_track_ = false;
 }
 
-void FlightControls::fly(const FlightInput& operator_input, double dt_s, std::optional<double> take_s,
+void FlightControls::obey(const command::SetFlyDuration& set) { fly_to_preview_s_ = set.duration_s; }
+
+void FlightControls::obey(const command::ToggleTracking&) { may_track_ = !may_track_; }
+
+void FlightControls::obey(const command::ToggleFollow&) {
+    bool& follows = cameras_.in_hand().follows_performer;
+    follows = !follows;
+}
+
+void FlightControls::obey(const command::ToggleRecording&) { is_recording_ = !is_recording_; }
+
+void FlightControls::obey(const command::ToggleJogMap&) {
+    wheels_.toggle();
+    mapper_.let_go();
+}
+
+void FlightControls::fly(const FlightInput& input, double dt_s, std::optional<double> take_s,
                          CameraStep& step) {
     FlightController& programme = cameras_.programme().flight_controller;
     FlightController& in_hand = cameras_.in_hand().flight_controller;
-    const bool has_preview = cameras_.preview() != nullptr;
-    if (operator_input.toggle_tracking) may_track_ = !may_track_;
-    const bool wheel_steers = operator_input.turns_wheel() && in_hand.wheel_mode() != WheelMode::past;
-    if (!has_preview && (operator_input.steers() || operator_input.toggle_move || wheel_steers)) may_track_ = false;
+    const bool wheel_steers = input.turns_wheel() && in_hand.wheel_mode() != WheelMode::past;
+    if (!cameras_.preview() &&
+        (input.steers() || input.find<command::ToggleMove>() || wheel_steers))
+        may_track_ = false;
     const std::optional<CameraState> tracked =
         may_track_ ? tracked_.newest(MonotonicClock::now()) : std::nullopt;
-    // Before the hands, so that they steer on from there.
+    // Before the operator's input, which steers on from there.
     if (tracked) programme.stand_at(*tracked);
     if (tracked.has_value() != is_tracked_) {
         is_tracked_ = tracked.has_value();
         glide_.begin();
     }
     if (settings_.take_begin && programme.move_take_s()) {
-        // The move says what time it is; who holds time holds the move.
-        if (std::exchange(step.time.toggle_hold, false)) programme.toggle_pause();
-        if (step.time.is_any()) programme.leave_move();
+        // The move sets the time, so holding the time pauses the move, and going elsewhere leaves it.
+        const std::size_t holds = std::erase_if(step.time.commands, [](const TimeCommand& each) {
+            const auto* transport = std::get_if<TransportCommand>(&each);
+            return transport && std::holds_alternative<command::ToggleHold>(*transport);
+        });
+        if (holds % 2 == 1) programme.toggle_pause();
+        if (step.time.moves_time()) programme.leave_move();
     }
-    bool& follows = cameras_.in_hand().follows_performer;
-    if (operator_input.toggle_follow) follows = !follows;
-    // A hand that takes the pivot elsewhere, or a flight that does, ends that.
-    if (operator_input.moves_pivot() || in_hand.move_progress()) follows = false;
-    in_hand.take(operator_input, rig_view_, take_s);
+    // Input or a move that takes the pivot elsewhere ends following.
+    if (input.moves_pivot() || in_hand.move_progress())
+        cameras_.in_hand().follows_performer = false;
+    in_hand.take(input, rig_view_, take_s);
     cameras_.advance(dt_s);
     show(dt_s, tracked, step);
 }
 
-void FlightControls::show(double dt_s, const std::optional<CameraState>& tracked, CameraStep& step) {
+void FlightControls::show(double dt_s, const std::optional<CameraState>& tracked,
+                          CameraStep& step) {
     const FlightController& programme = cameras_.programme().flight_controller;
     if (const std::optional<double> led = programme.move_take_s(); led && settings_.take_begin)
         step.time.at_pulse = *settings_.take_begin + *led * settings_.pulse_rate_hz;
     step.view = programme.view();
     const CameraState shown = glide_.step(tracked.value_or(step.view.camera()), dt_s);
     if (is_tracked_ || !glide_.is_over()) step.camera = shown;
-    if (const CameraPair::Camera* preview = cameras_.preview()) step.preview = preview->flight_controller.view();
+    if (const CameraPair::Camera* preview = cameras_.preview())
+        step.preview = preview->flight_controller.view();
 }
 
 CameraStep FlightControls::fly_to_shot(int number) {
-    FlightInput operator_input;
-    operator_input.recall_shot = number;
     may_track_ = false;
     if (std::exchange(is_tracked_, false)) glide_.begin();
     CameraPair::Camera& programme = cameras_.programme();
     programme.follows_performer = false;
-    programme.flight_controller.take(operator_input, rig_view_);
+    programme.flight_controller.take({.commands = {command::RecallShot{number}}}, rig_view_);
     CameraStep step;
     show(0, std::nullopt, step);
     return step;
@@ -263,9 +280,7 @@ void FlightControls::take_from_session() {
             camera->flight_controller.carry_pivot_to(found.pivot_m);
 }
 
-void FlightControls::record(const FlightInput& operator_input, const CameraStep& step, double time_s,
-                            std::optional<double> take_s) {
-    if (operator_input.toggle_recording) is_recording_ = !is_recording_;
+void FlightControls::record(const CameraStep& step, double time_s, std::optional<double> take_s) {
     if (!is_recording_) return;
     const OrbitView view =
         step.preview ? *step.preview
@@ -275,9 +290,8 @@ void FlightControls::record(const FlightInput& operator_input, const CameraStep&
             : step.view;
     if (flight_.empty() || time_s > flight_.back().time_s)
         flight_.push_back({time_s, view, take_s});
-    if (time_s - flight_.front().time_s > longest_flight_s) {
-        log_warning("the flight that is recorded ends here: {:.0f} s are the most",
-                    longest_flight_s);
+    if (time_s - flight_.front().time_s > max_flight_s) {
+        log_warning("the recording of the flight ended at its limit of {:.0f} s", max_flight_s);
         is_recording_ = false;
     }
 }
@@ -328,7 +342,7 @@ FlightControls::Lines FlightControls::lines() const {
 
 FlightInput FlightControls::take_wheels(double dt_s, std::optional<MonotonicTime>& since) {
     const bool is_map_open = wheels_.is_open();
-    while (std::optional<DeckEvent> event = deck_->next()) {
+    while (std::optional<DeckEvent> event = devices_->next()) {
         wheels_.note(*event);
         if (is_map_open) continue;
         mapper_.take(*event);
@@ -339,9 +353,9 @@ FlightInput FlightControls::take_wheels(double dt_s, std::optional<MonotonicTime
 }
 
 std::string FlightControls::wheel_line() const {
-    if (!deck_) return "";
+    if (!devices_) return "";
     std::string names, fault;
-    for (const DeckDevice& device : deck_->devices()) {
+    for (const DeckDevice& device : devices_->devices()) {
         if (device.usable)
             names += (names.empty() ? "" : ", ") + device.model;
         else if (!device.fault.empty())
@@ -352,9 +366,10 @@ std::string FlightControls::wheel_line() const {
         "{} {}{}{}", names,
         wheels_.is_open()
             ? "moves nothing while its map is open"
-            : fmt::format("drives the {}", name_of(cameras_.in_hand().flight_controller.wheel_mode())),
+            : fmt::format("drives the {}",
+                          name_of(cameras_.in_hand().flight_controller.wheel_mode())),
         mapper_.is_storing() ? "; the next shot button stores" : "",
-        wheels_.unsaved().empty() ? "" : "; its map is changed and not saved");
+        wheels_.unsaved().empty() ? "" : "; its map has unsaved changes");
 }
 
 }  // namespace vantage

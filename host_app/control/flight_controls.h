@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -14,140 +13,149 @@
 #include "host_app/control/tracked_camera.h"
 #include "host_app/flight/camera_pair.h"
 #include "host_app/flight/camera_source.h"
-#include "host_app/flight/corridor_stats.h"
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/flight_plan.h"
 #include "host_app/flight/moves/flight_recording.h"
 #include "host_app/flight/stage_framing.h"
 
 namespace vantage {
 
-/// What hands did, wherever they are, on its way to the programme's thread. Turns add up; a command
-/// that is given again before the programme has taken it waits for the next step.
+/// Operator input on its way to the programme's thread: axes add up, commands queue in order.
+/// Thread-safe.
 class OperatorInputBox {
   public:
-    /// Commands that wait are bounded: false where these had to be left out. Turns never are.
+    /// False if the queue was full and the commands of this input were dropped. Axes never are.
     bool put(const FlightInput& input, MonotonicTime now);
     struct Taken {
         FlightInput input;
-        std::optional<MonotonicTime> since;  ///< of the earliest that is in it
+        std::optional<MonotonicTime> since;  ///< time of the earliest input in it
     };
+    /// Everything since the last call.
     Taken take();
 
-    static constexpr std::size_t most_waiting = 64;
+    /// Bound of the queue, above anything that an operator gives in one tick.
+    static constexpr std::size_t max_commands = 64;
 
   private:
     std::mutex mutex_;
-    std::deque<Taken> waiting_;
+    Taken waiting_;
 };
 
-/// What hands ask of the session and not of the programme, on its way to the session's thread.
+/// Requests of the operator that the session executes on its own thread.
 struct SessionRequests {
-    bool toggle_take = false, save_background = false, learn_background = false;
-    std::string cue_time = {};                 ///< see FlightInput
-    std::optional<Eigen::Vector2d> pick = {};  ///< see FlightInput
-    std::vector<int> outputs;                  ///< pressed, 1 and on, in their order
-    std::optional<FlightController::Change> change = {};   ///< of shots and move, by hand
-    FlightRecording flight = {};               ///< that was recorded; empty: none
-    FlightLimits limits = {};                  ///< that it was flown in
+    std::vector<SessionCommand> commands;                 ///< in order
+    std::optional<FlightController::Change> change = {};  ///< of shots and move
+    FlightRecording flight = {};                          ///< a recorded flight; empty: none
+    FlightLimits limits = {};                             ///< of that flight
 };
 
-/// All hands on the virtual camera: mouse and keyboard where there is a window, and the jog wheels
-/// of the deck. Whatever came until a picture is begun is in that picture.
+/// All operator control of the virtual camera: mouse and keyboard of the window, jog devices, the
+/// control ports and tracked cameras. Input that arrives before a frame is started acts on that
+/// frame. step() and fly_to_shot() run on the programme's thread; functions that other threads may
+/// call say so.
 class FlightControls final : public CameraSource {
   public:
     struct Settings {
         FlightPlan plan;
         double pulse_rate_hz = 30;
-        bool has_past = false;     ///< there is a past to go through
-        bool free_flight = false;  ///< hands may leave the corridor
-        std::optional<double> take_begin =
-            {};  ///< the pulse at which the take that is shown begins
+        bool has_past = false;     ///< there is a replay buffer or a take
+        bool free_flight = false;  ///< the camera may leave the corridor
+        std::optional<double> take_begin = {};  ///< first pulse of the take that is shown
     };
-    /// What rig 1, 2, ... sees, for shots that nobody has stored; empty: no such rig.
-    using RigView = std::function<std::optional<OrbitView>(int number)>;
-    /// How the stage is framed, once that is known.
+    using RigView = FlightController::RigView;
+    /// Framing of the stage; empty until it is known.
     using Framing = std::function<std::optional<StageFraming>()>;
-    /// What the rigs cover now; null: not known.
+    /// The present corridor; null until it is known.
     using CorridorNow = std::function<std::shared_ptr<const Corridor>()>;
-    /// Without a deck there are no wheels; else it must outlive this. Without `framing` limits are
-    /// those of FlightLimits, without `corridor` there is none.
-    FlightControls(Settings settings, JogDevices* deck, RigView rig_view, Framing framing = {},
+    /// `devices` may be null, otherwise it must outlive this object. Without `framing` the limits
+    /// are those of FlightLimits; without `corridor` there is no corridor.
+    FlightControls(Settings settings, JogDevices* devices, RigView rig_view, Framing framing = {},
                    CorridorNow corridor = {});
 
     OperatorInputBox& operator_input() { return operator_input_; }
-    /// One that speaks flies, until a hand steers.
+    /// A tracked camera that delivers poses flies, until the operator steers.
     TrackedCamera& tracked() { return tracked_; }
-    /// The maps of the wheels, to be shown and changed.
+    /// The maps of the wheels, for the desk.
     WheelInput& wheels() { return wheels_; }
-    /// Throws what the deck throws.
+    /// Throws the errors of the jog devices.
     CameraStep step(double time_s, std::optional<double> past_pulse) override;
     CameraStep fly_to_shot(int number) override;
 
-    /// A flight that was recorded: the move from the next step on. From any thread.
+    /// Replaces the move by a recorded flight, at the next step. From any thread.
     void keep_flight(Move move);
-    /// A camera whose pivot goes with a performer.
+    /// A camera whose pivot follows a performer, and the performer's position.
     struct Following {
         std::uint64_t camera;  ///< see CameraPair
         Eigen::Vector3d pivot_m;
     };
-    /// Where the performer is now. From any thread.
+    /// Reports the new position of a performer. From any thread.
     void follow(const Following& found);
 
-    /// To this pulse of the past, and stand there; from any thread. Of several the last counts.
+    /// Goes to a pulse of the past and stops there; the last call before a step counts. From any
+    /// thread.
     void seek(double pulse);
 
-    /// What hands have kept as shots 1, 2, ...; from any thread.
     using Shots = std::array<std::optional<Shot>, most_shots>;
+    /// The stored shots. From any thread.
     Shots shots() const;
-    /// That is flown or may be, as hands have left it; null: none. From any thread.
+    /// The present move; null if there is none. From any thread.
     std::shared_ptr<const Move> move() const;
 
-    /// Those of the steps since the last call; from any thread.
+    /// Requests of the steps since the last call. From any thread.
     SessionRequests take_requests();
 
-    /// After the last step: what is recorded is among the wishes.
+    /// Ends a recording after the last step; the flight is then among the requests.
     void end_recording();
 
-    /// For the desk, from any thread.
+    /// Status for the desk, the lamps and the report.
     struct Lines {
-        std::optional<double> move_progress;  ///< 0..1 while the camera in hand is on the move
+        std::optional<double> move_progress;  ///< 0..1 while the operator's camera is on the move
         std::string wheel_mode;               ///< orbit, move or past
         bool is_tracked = false;              ///< a tracked camera flies
-        std::string wheel;  ///< the wheels, what they drive, and what is wrong with one
+        std::string wheel;  ///< names of the wheels, what they drive, and faults
         CorridorStats corridor;
         bool is_recording = false;  ///< a flight
         bool holds_horizon = true;
-        bool is_following = false;  ///< the pivot of the camera in hand goes with a performer
+        bool is_following = false;  ///< the operator's camera follows a performer
         std::size_t keyframes = 0;  ///< of the move
         std::vector<Following> following;  ///< on programme and preview
-        double fly_to_preview_s = 0;       ///< that a flight to the preview's view takes
-        /// While there is a camera on preview, which hands fly.
+        double fly_to_preview_s = 0;       ///< duration of a flight to the preview
         struct Preview {
             OrbitView view;
-            std::optional<Coverage> coverage;     ///< of its picture; nothing: not known
-            std::optional<double> fly_progress;   ///< 0..1 while the programme's flies to its view
-            std::optional<double> move_progress;  ///< 0..1 while the programme's is on the move
+            std::optional<Coverage> coverage;     ///< empty: not known
+            std::optional<double> fly_progress;   ///< 0..1 of the programme's flight to the preview
+            std::optional<double> move_progress;  ///< 0..1 while the programme is on the move
         };
-        std::optional<Preview> preview;
+        std::optional<Preview> preview;  ///< empty: there is no camera on preview
     };
+    /// From any thread.
     Lines lines() const;
 
   private:
-    /// What the wheels ask for; `since`: when the first of it was moved.
+    /// Input of the wheels; sets `since` to the time of the earliest.
     FlightInput take_wheels(double dt_s, std::optional<MonotonicTime>& since);
     std::string wheel_line() const;
-    /// What hands ask of the camera on preview, and of the programme's to come to its view.
-    void take_preview(const FlightInput& operator_input);
-    /// Whoever flies, tracked camera or helm.
-    void fly(const FlightInput& operator_input, double dt_s, std::optional<double> take_s, CameraStep& step);
-    /// The programme's camera, and what it says of time, after dt_s; and the one on preview.
+    void obey(const command::TogglePreview&);
+    void obey(const command::Cut&);
+    void obey(const command::FlyToPreview&);
+    void obey(const command::SetFlyDuration& set);
+    void obey(const command::ToggleTracking&);
+    void obey(const command::ToggleFollow&);
+    void obey(const command::ToggleRecording&);
+    void obey(const command::ToggleJogMap&);
+    bool has_preview_to_show() const;
+    /// Splits input by the class that executes it.
+    void take_time(const FlightInput& input, CameraStep& step);
+    void take_session_commands(const FlightInput& input);
+    /// Flies the cameras, by the operator or by the tracked camera.
+    void fly(const FlightInput& input, double dt_s, std::optional<double> take_s, CameraStep& step);
+    /// Writes both cameras, and the time that a move sets, into the step.
     void show(double dt_s, const std::optional<CameraState>& tracked, CameraStep& step);
-    /// What the session's thread has made meanwhile.
+    /// Takes over what other threads have handed in.
     void take_from_session();
-    /// Keeps the step's camera while a flight is recorded.
-    void record(const FlightInput& operator_input, const CameraStep& step, double time_s,
-                std::optional<double> take_s);
-    /// What was recorded, to the session. Precondition: mutex_ is held.
+    /// Appends the step's camera to the flight that is being recorded.
+    void record(const CameraStep& step, double time_s, std::optional<double> take_s);
+    /// Hands the recorded flight to the session. Precondition: mutex_ is held.
     void pass_flight_on();
     void note_lines(const Corridor* corridor);
     void note_coverage(const Corridor* corridor, const CameraState& camera, double dt_s);
@@ -155,9 +163,9 @@ class FlightControls final : public CameraSource {
     Settings settings_;
     CameraPair cameras_;
     double fly_to_preview_s_;
-    JogDevices* deck_;
+    JogDevices* devices_;
     RigView rig_view_;
-    Framing framing_;  ///< empty once it has told
+    Framing framing_;  ///< empty once the framing is known
     CorridorNow corridor_now_;
     CorridorStats corridor_stats_;
     JogMapper mapper_;
@@ -165,19 +173,20 @@ class FlightControls final : public CameraSource {
     OperatorInputBox operator_input_;
     TrackedCamera tracked_;
     CameraGlide glide_;
-    bool may_track_ = true;  ///< no hand has taken over
+    bool may_track_ = true;  ///< false after the operator has taken over
     bool is_tracked_ = false;
     double last_s_ = 0;
     bool is_recording_ = false;
     FlightRecording flight_;
     mutable std::mutex mutex_;
+    // Guarded by mutex_.
     Lines lines_;
     SessionRequests requests_;
     std::optional<double> seek_;
     Shots shots_;
     std::shared_ptr<const Move> move_;
-    std::optional<Move> kept_flight_;  ///< on its way to the helm
-    std::vector<Following> followed_;  ///< likewise
+    std::optional<Move> kept_flight_;  ///< for the next step
+    std::vector<Following> followed_;  ///< for the next step
 };
 
 }  // namespace vantage

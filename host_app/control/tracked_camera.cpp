@@ -14,12 +14,12 @@ constexpr double glide_s = 0.8;
 void TrackedCamera::put(const CameraState& camera, MonotonicTime now) {
     const std::lock_guard lock(mutex_);
     camera_ = camera;
-    heard_ = now;
+    received_ = now;
 }
 
 std::optional<CameraState> TrackedCamera::newest(MonotonicTime now) const {
     const std::lock_guard lock(mutex_);
-    return camera_ && now - heard_ < patience ? camera_ : std::nullopt;
+    return camera_ && now - received_ < timeout ? camera_ : std::nullopt;
 }
 
 void CameraGlide::begin() {

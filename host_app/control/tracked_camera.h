@@ -9,29 +9,29 @@
 
 namespace vantage {
 
-/// Where a tracked camera (a pan bar, a crane, a real camera) says that it is, on its way from
-/// whoever hears it to the programme's thread. Only the newest counts.
+/// The newest pose of a tracked camera (a pan bar, a crane, a real camera), handed from the thread
+/// that receives it to the programme's thread. Thread-safe.
 class TrackedCamera {
   public:
     void put(const CameraState& camera, MonotonicTime now);
-    /// Nothing: it has said nothing for a while.
+    /// Empty if no pose arrived within `timeout`.
     std::optional<CameraState> newest(MonotonicTime now) const;
 
-    /// One that is silent for so long is not there.
-    static constexpr std::chrono::milliseconds patience{500};
+    static constexpr std::chrono::milliseconds timeout{500};
 
   private:
     mutable std::mutex mutex_;
     std::optional<CameraState> camera_;
-    MonotonicTime heard_{};
+    MonotonicTime received_{};
 };
 
-/// Takes the camera from what flew it to what flies it now without a jump.
+/// Blends from one camera source to the next, so that the view does not jump when the source
+/// changes. Not thread-safe.
 class CameraGlide {
   public:
-    /// From now on another flies it.
+    /// Starts a blend from the camera of the last step.
     void begin();
-    /// What is shown, dt_s after the last one, of what flies it.
+    /// The blended camera, dt_s after the last step; `flown` is the camera of the new source.
     CameraState step(const CameraState& flown, double dt_s);
     bool is_over() const { return remaining_ <= 0; }
 

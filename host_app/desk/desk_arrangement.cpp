@@ -1,5 +1,6 @@
 #include "host_app/desk/desk_arrangement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,8 +14,8 @@ namespace {
 
 constexpr int desk_file_version = 1;
 constexpr double rad_a_degree = std::numbers::pi / 180;
-/// Of all the monitors that one computer has.
-constexpr int farthest_px = 100'000;
+/// Largest coordinate of a window: more than all monitors of one computer together.
+constexpr int max_coordinate_px = 100'000;
 
 void read_eye(TomlTable& table, OutsideEye& eye) {
     OutsideEye read;
@@ -25,18 +26,17 @@ void read_eye(TomlTable& table, OutsideEye& eye) {
     table.read("elevation_deg", elevation_deg, {0, 90});
     table.read("nearness", nearness, {-10, 10});
     eye = {azimuth_deg * rad_a_degree, 0, 0};
-    // Within its own bounds.
     eye.turn(0, elevation_deg * rad_a_degree);
     eye.go_nearer(nearness);
 }
 
 void read_window(TomlTable& table, WindowPlace& window) {
-    constexpr int least_width_px = 320, least_height_px = 240;
+    constexpr int min_width_px = 320, min_height_px = 240;
     for (const char* key : {"x", "y", "width", "height"}) table.require(key);
-    table.read("x", window.x, {-farthest_px, farthest_px});
-    table.read("y", window.y, {-farthest_px, farthest_px});
-    table.read("width", window.width, {least_width_px, PiLimits::max_image_side_px});
-    table.read("height", window.height, {least_height_px, PiLimits::max_image_side_px});
+    table.read("x", window.x, {-max_coordinate_px, max_coordinate_px});
+    table.read("y", window.y, {-max_coordinate_px, max_coordinate_px});
+    table.read("width", window.width, {min_width_px, PiLimits::max_image_side_px});
+    table.read("height", window.height, {min_height_px, PiLimits::max_image_side_px});
     table.read("maximised", window.is_maximised);
 }
 
@@ -45,6 +45,10 @@ std::string window_text(const char* name, const std::optional<WindowPlace>& wind
     return fmt::format("\n[{}]\nx = {}\ny = {}\nwidth = {}\nheight = {}\nmaximised = {}\n", name,
                        window->x, window->y, window->width, window->height, window->is_maximised);
 }
+
+/// Limits of the 3-D view: above the floor, below straight down, and with the stage in sight.
+constexpr double min_eye_elevation_rad = 0.02, max_eye_elevation_rad = 1.5;
+constexpr double min_nearness = -0.7, max_nearness = 2;
 
 }  // namespace
 
@@ -69,8 +73,7 @@ DeskArrangement load_desk(const std::filesystem::path& path) {
 std::string to_toml(const DeskArrangement& desk) {
     const DeskSwitches& switches = desk.switches;
     std::string text = fmt::format(
-        "# How the desk of Vantage is arranged; docs/desk_file.md explains the keys.\nversion = "
-        "{}\n"
+        "# The arrangement of Vantage's desk; docs/desk_file.md explains the keys.\nversion = {}\n"
         "panels = {}\nrigs = {}\nrigs_apart = {}\nfigures = {}\noutside = {}\n\n[eye]\nazimuth_deg "
         "= {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",
@@ -79,6 +82,39 @@ std::string to_toml(const DeskArrangement& desk) {
         std::remainder(switches.eye.azimuth_rad, 2 * std::numbers::pi) / rad_a_degree,
         switches.eye.elevation_rad / rad_a_degree, switches.eye.nearness);
     return text + window_text("window", desk.window) + window_text("rigs_window", desk.rigs_window);
+}
+
+void OutsideEye::turn(double azimuth_by_rad, double elevation_by_rad) {
+    azimuth_rad += azimuth_by_rad;
+    elevation_rad =
+        std::clamp(elevation_rad + elevation_by_rad, min_eye_elevation_rad, max_eye_elevation_rad);
+}
+
+void OutsideEye::go_nearer(double by) {
+    nearness = std::clamp(nearness + by, min_nearness, max_nearness);
+}
+
+DeskStore::DeskStore(std::filesystem::path file)
+    : file_(std::move(file), "the desk's arrangement") {
+    if (file_.is_there()) desk_ = load_desk(file_.path());
+}
+
+void DeskStore::follow(const DeskArrangement& desk, MonotonicTime now) {
+    // The first position of a window is chosen by the window manager, not by the operator.
+    const bool is_changed = desk.switches != desk_.switches ||
+                            (desk_.window && desk.window != desk_.window) ||
+                            (desk_.rigs_window && desk.rigs_window != desk_.rigs_window);
+    if (is_changed) file_.note_change();
+    desk_ = desk;
+    if (file_.is_due(now)) (void)file_.write(to_toml(desk_));
+}
+
+void DeskStore::finish() {
+    if (file_.is_changed()) (void)file_.write(to_toml(desk_));
+}
+
+std::filesystem::path desk_file_of(std::filesystem::path file) {
+    return file.replace_extension(".desk.toml");
 }
 
 }  // namespace vantage

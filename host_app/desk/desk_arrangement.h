@@ -4,29 +4,75 @@
 #include <optional>
 #include <string>
 
-#include "host_app/desk/desk_switches.h"
+#include "common/base/files/kept_file.h"
 
 namespace vantage {
 
-/// Where a window stands among the monitors, in the screen's coordinates.
+/// The viewpoint of the desk's 3-D view of the stage: an orbit around the middle of the stage.
+struct OutsideEye {
+    double azimuth_rad = 0.5, elevation_rad = 0.55;  ///< as in OrbitView
+    double nearness = 0;  ///< 0: all rigs are in sight; 1: e times nearer
+
+    /// Turns the view. The elevation stays above the floor and below straight down.
+    void turn(double azimuth_by_rad, double elevation_by_rad);
+    /// Moves the view nearer (positive) or farther, within fixed limits.
+    void go_nearer(double by);
+    bool operator==(const OutsideEye&) const = default;
+};
+
+/// The parts of the desk that the operator has switched on.
+struct DeskSwitches {
+    bool panels = true;       ///< false: only the picture is shown
+    int help = 0;             ///< page of the help that is shown; 0: none
+    bool rigs = true;         ///< pictures and state of each rig, in a row at the bottom
+    bool rigs_apart = false;  ///< the rigs are in a window of their own instead of the row
+    bool figures = false;     ///< the side panel shows the measurements since the start
+    bool outside = false;     ///< the stage is shown in 3-D instead of from above
+    OutsideEye eye = {};      ///< viewpoint of the 3-D view
+    bool operator==(const DeskSwitches&) const = default;
+};
+
+/// A window's position and size on the monitors, in the coordinates of the window system.
 struct WindowPlace {
     int x = 0, y = 0, width = 1280, height = 720;
-    bool is_maximised = false;  ///< and the rest is where it goes back to
+    bool is_maximised = false;  ///< position and size are then those of the restored window
     bool operator==(const WindowPlace&) const = default;
 };
 
-/// How hands have arranged the desk.
+/// The operator's arrangement of the desk, which a desk file keeps between sessions.
 struct DeskArrangement {
-    DeskSwitches switches;  ///< but for the help
+    DeskSwitches switches;  ///< `help` is not kept
     std::optional<WindowPlace> window = {};
-    std::optional<WindowPlace> rigs_window = {};  ///< their own
+    std::optional<WindowPlace> rigs_window = {};
     bool operator==(const DeskArrangement&) const = default;
 };
 
-/// Reads a desk file (docs/desk_file.md shows every key). Throws Error with file and line for
-/// whatever does not fit.
+/// Reads a desk file (docs/desk_file.md lists the keys). Throws Error with file and line for an
+/// unknown key or a value outside its range.
 DeskArrangement load_desk(const std::filesystem::path& path);
-/// As a desk file: what load_desk() reads again, angles to a tenth of a degree.
+/// Formats a desk file that load_desk() reads; angles are rounded to 0.1 degrees.
 std::string to_toml(const DeskArrangement& desk);
+
+/// Keeps the desk's arrangement in a file beside the stage's or the take's file. KeptFile decides
+/// when the file is written and how an existing one is replaced. Used on the session's thread.
+class DeskStore {
+  public:
+    /// Reads the file if it exists. Throws Error as load_desk() does.
+    explicit DeskStore(std::filesystem::path file);
+
+    /// The arrangement that the session starts with.
+    const DeskArrangement& desk() const { return desk_; }
+    /// Takes the present arrangement and writes the file when it is due. Call it often.
+    void follow(const DeskArrangement& desk, MonotonicTime now);
+    /// Writes all changes that are not written yet.
+    void finish();
+
+  private:
+    KeptFile file_;
+    DeskArrangement desk_;
+};
+
+/// Returns STAGE.desk.toml for STAGE.toml, and TAKE.desk.toml for TAKE.mkv.
+std::filesystem::path desk_file_of(std::filesystem::path file);
 
 }  // namespace vantage

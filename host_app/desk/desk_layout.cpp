@@ -3,31 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_app/desk/panels/shot_places.h"
-
 namespace vantage {
 namespace {
 
-// In ems.
+// Lengths in ems, the font height.
 constexpr float cells_gap = 0.4f, status_height = 2.5f, time_line_height = 2.9f, side_width = 23;
-/// A window of less has room for the programme, its status and its time only.
-constexpr float least_width_with_side = 62, least_height_with_rigs = 32;
+/// Smallest window with a side panel and with a row of rigs. A smaller one has room only for the
+/// programme, the status bar and the time line.
+constexpr float min_width_with_side = 62, min_height_with_rigs = 32;
 
-/// Of a rig's cell: its caption, and by how much it is wider than its colour picture is high.
+/// Height of the caption of a rig's cell, and the cell's width in heights of its colour picture.
 constexpr float cell_caption_height = 1.6f, cell_aspect = 2.2f;
-/// Of the window's height, for the pictures of all rigs.
-constexpr float most_of_height = 0.19f, least_of_height = 0.1f;
+/// Largest and smallest share of the window's height for the rigs' pictures.
+constexpr float max_rigs_height = 0.19f, min_rigs_height = 0.1f;
 
 float rig_picture_height(float width, float height, float rigs, float rows) {
     const float columns = std::ceil(rigs / rows);
-    return std::min((width / columns - cells_gap) / cell_aspect, most_of_height * height / rows);
+    return std::min((width / columns - cells_gap) / cell_aspect, max_rigs_height * height / rows);
 }
 
-/// Of the width of pictures and side, that the programme has beside the preview; of the height,
-/// that the preview has over the rest of the side.
+/// The programme's share of the width beside the preview, the preview's share of the height above
+/// the side panel, and the height of a picture's name.
 constexpr float programme_share = 0.6f, preview_share = 0.64f, name_height = 1.5f;
 
-/// Preview to the left, as everywhere.
+/// Splits the programme's rectangle. The preview is on the left, as on a vision mixer.
 void halve(DeskLayout& layout, float between) {
     DeskRect& programme = layout.programme;
     layout.preview = programme;
@@ -45,9 +44,10 @@ DeskRect DeskRect::fitted(float aspect) const {
 }
 
 float letter_height_px(float width_px, float height_px, float content_scale) {
-    constexpr float rows = 54, columns = 96, least = 9;
+    // A window has 54 lines of text, but text below 9 px cannot be read.
+    constexpr float rows = 54, columns = 96, min_px = 9;
     return std::round(
-        std::max(std::min(height_px / rows, width_px / columns), least * content_scale));
+        std::max(std::min(height_px / rows, width_px / columns), min_px * content_scale));
 }
 
 DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
@@ -56,10 +56,10 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
     DeskLayout layout;
     layout.status = {0, 0, width, status_height};
     float bottom = height;
-    if (rigs > 0 && height >= least_height_with_rigs) {
+    if (rigs > 0 && height >= min_height_with_rigs) {
         const auto count = static_cast<float>(rigs);
         float rows = 1;
-        while (rig_picture_height(width, height, count, rows) < least_of_height * height / rows &&
+        while (rig_picture_height(width, height, count, rows) < min_rigs_height * height / rows &&
                rows < 3)
             ++rows;
         layout.rig_rows = static_cast<int>(rows);
@@ -74,11 +74,11 @@ DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, f
     const float top = status_height + cells_gap;
     const float middle = std::max(bottom - top, 1.0f);
     float right = width - cells_gap;
-    if (width >= least_width_with_side) {
+    if (width >= min_width_with_side) {
         const float shot_height = middle / shot_places - cells_gap;
         const float shot_width = std::min(shot_height / aspect, 0.11f * width);
         const float bins = has_clips ? 2 : 1;
-        // The side takes what the picture leaves.
+        // The side panel takes the width that the picture leaves.
         const float both_width = right - bins * (shot_width + cells_gap) - 2 * cells_gap;
         const float picture_width =
             has_preview ? std::min((middle - name_height) / aspect, programme_share * both_width)

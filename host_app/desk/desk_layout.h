@@ -2,7 +2,10 @@
 
 namespace vantage {
 
-/// A part of the window, in its pixels from the upper left corner.
+/// Number of shots that the desk shows, one for each number key.
+constexpr int shot_places = 9;
+
+/// A rectangle in the window, in pixels from the upper left corner.
 struct DeskRect {
     float left = 0, top = 0, width = 0, height = 0;
 
@@ -15,28 +18,30 @@ struct DeskRect {
     DeskRect shrunk(float by) const {
         return {left + by, top + by, width - 2 * by, height - 2 * by};
     }
-    /// The largest part in its middle with this height by width.
+    /// The largest centred rectangle in it with this aspect (height divided by width).
     DeskRect fitted(float aspect) const;
 };
 
-/// The height of letters in a window of this size: the same share of every one, but never too small
-/// to be read. `content_scale` is the display's: 2 where its pixels are twice as dense as usual.
+/// Returns the font height for a window of this size: a fixed share of the window, but never too
+/// small to read. `content_scale` is the display's scale: 2 on a display of twice the usual
+/// density.
 float letter_height_px(float width_px, float height_px, float content_scale);
 
-/// Where the parts of the desk stand. What a small window has no room for is empty.
+/// The rectangles of the desk's parts. A part that a small window has no room for is empty.
 struct DeskLayout {
     DeskRect status, programme, preview, shots, clips, side, time_line, rigs;
     int rig_rows = 1;
 };
 
-/// `em_px`: height of letters; `rigs`: how many are to be shown; `aspect`: height by width of the
-/// programme's picture; `has_clips`: there are clips to be shown; `has_preview`: there is a camera
-/// on preview, whose picture stands beside the programme's, each with room for its name over it.
+/// Lays out the desk. `em_px` is the font height, `rigs` the number of rigs in the row, `aspect`
+/// height divided by width of the programme's picture. With `has_clips` there is a column for
+/// clips. With `has_preview` the preview's picture stands beside the programme's, each below its
+/// name.
 DeskLayout desk_layout(float width_px, float height_px, float em_px, int rigs, float aspect,
                        bool has_clips = false, bool has_preview = false);
-/// In how many rows the rigs' cells are largest, where they have the whole window.
+/// Returns the number of rows in which the rigs' cells are largest when they fill a whole window.
 int best_rig_rows(float width_px, float height_px, float em_px, int rigs);
-/// Nothing but the pictures.
+/// Lays out the pictures alone, without panels.
 DeskLayout pictures_alone(float width_px, float height_px, bool has_preview);
 
 }  // namespace vantage

@@ -6,23 +6,23 @@
 
 namespace vantage {
 
-/// Where a camera will be if it goes on as it went in the last moments: straight on, turning as
-/// fast. A cut begins anew.
+/// Predicts a camera at constant velocity and constant turn rate, measured over the last 0.12 s. A
+/// cut starts the measurement again.
 class CameraForecast {
   public:
-    /// Times never fall.
+    /// Times must not decrease.
     void see(const CameraState& camera, double time_s);
 
-    /// Of the camera that was seen last, whose lens it keeps; a second ahead at most, for nobody
-    /// goes straight on for longer. Precondition: see() was called.
+    /// The camera `ahead_s` after the last one that was seen, with its lens; limited to 1 s, since
+    /// no operator holds a course for longer. Precondition: see() was called.
     CameraState in(double ahead_s) const;
 
   private:
-    struct Seen {
+    struct Sample {
         CameraState camera;
         double time_s;
     };
-    std::deque<Seen> seen_;
+    std::deque<Sample> samples_;
 };
 
 }  // namespace vantage

@@ -24,7 +24,7 @@ void CameraPair::toggle_preview() {
 void CameraPair::cut() {
     assert(preview_);
     const WheelMode mode = preview_->flight_controller.wheel_mode();
-    // One that was under way to what is on air now stays where it was cut away.
+    // A flight to the view that is on air now ends where it is.
     if (std::exchange(flies_to_preview_, false)) programme_.flight_controller.halt();
     std::swap(programme_, *preview_);
     share_move();
@@ -43,7 +43,7 @@ std::optional<double> CameraPair::fly_progress() const {
 }
 
 void CameraPair::advance(double dt_s) {
-    for_each_controller([&](FlightController& flight_controller) { flight_controller.advance(dt_s); });
+    for_each_controller([&](FlightController& each) { each.advance(dt_s); });
     if (!programme_.flight_controller.flight_progress()) flies_to_preview_ = false;
     share_move();
 }

@@ -7,13 +7,13 @@
 
 namespace vantage {
 
-/// The programme's camera and, while hands want one, a second on preview. Hands fly the one on
-/// preview then, and the programme's stands, or goes on along its move, until a cut or a flight
-/// brings it to what the preview shows. Without a preview hands fly the programme's.
+/// The programme's camera and, if the operator wants one, a second camera on preview. The operator
+/// flies the camera on preview while there is one; the programme's camera then holds its pose or
+/// goes on along its move. A cut or a flight brings the preview's view on air.
 class CameraPair {
   public:
     struct Camera {
-        std::uint64_t id;  ///< of none before
+        std::uint64_t id;  ///< unique
         FlightController flight_controller;
         bool follows_performer = false;
     };
@@ -21,11 +21,12 @@ class CameraPair {
 
     Camera& programme() { return programme_; }
     const Camera& programme() const { return programme_; }
-    /// Null: there is none.
+    /// Null if there is no preview.
     const Camera* preview() const { return preview_ ? &*preview_ : nullptr; }
+    /// The camera that the operator flies.
     Camera& in_hand() { return preview_ ? *preview_ : programme_; }
     const Camera& in_hand() const { return preview_ ? *preview_ : programme_; }
-    /// Null: it has gone meanwhile.
+    /// Null if the camera was removed.
     Camera* find(std::uint64_t id);
     template <class Visit>
     void for_each_controller(Visit visit) {
@@ -33,21 +34,20 @@ class CameraPair {
         if (preview_) visit(preview_->flight_controller);
     }
 
-    /// The camera on preview begins at the programme's view; hands are back at the programme's
-    /// where it ends.
+    /// Adds a camera on preview at the programme's view, or removes it.
     void toggle_preview();
     // Precondition of both: there is a preview.
-    /// Both change places at once, each with what it is on: a move goes on, also to air.
+    /// Swaps both cameras at once, each with its flight and its move.
     void cut();
-    /// The programme's camera leaves what it is on and flies to the view that the preview has now.
+    /// The programme's camera leaves its move or flight and flies to the present view of the preview.
     void fly_to_preview(double duration_s);
-    /// 0..1 while it does.
+    /// Progress 0..1 of that flight.
     std::optional<double> fly_progress() const;
 
-    /// Lets dt_s seconds pass.
     void advance(double dt_s);
-    /// What hands changed of shots and move. Both cameras have it; one that is on its move on air
-    /// flies that as it was until it is off it or in hand.
+    /// Shots and move, if the operator changed them since the last call. Both cameras take the
+    /// change; a camera that is on its move on air takes the new move when it leaves the old one or
+    /// is flown by the operator.
     std::optional<FlightController::Change> take_change();
 
   private:
@@ -57,7 +57,7 @@ class CameraPair {
     std::optional<Camera> preview_;
     std::uint64_t last_id_ = 1;
     bool flies_to_preview_ = false;
-    std::optional<std::uint64_t> move_lacking_id_;  ///< the camera that has not the newest move
+    std::optional<std::uint64_t> move_lacking_id_;  ///< the camera that still has the old move
     FlightBook newest_;
 };
 

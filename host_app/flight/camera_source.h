@@ -8,27 +8,27 @@
 
 namespace vantage {
 
-/// What hands and plans want of one tick.
+/// Camera and operator input of one tick.
 struct CameraStep {
     OrbitView view;
-    /// Where what flies is no hand on an orbit: the camera, of which `view` is the nearest orbit.
+    /// The camera, where it is not on an orbit, as a tracked one; `view` is then the nearest orbit.
     std::optional<CameraState> camera{};
-    std::optional<OrbitView> preview{};  ///< of the camera on preview; nothing: there is none
+    std::optional<OrbitView> preview{};  ///< of the camera on preview; empty: there is none
     bool next_synthesiser = false, toggle_source_map = false;
     TransportInput time{};
-    std::optional<MonotonicTime> hand{};  ///< of the earliest input that is new in this step
+    std::optional<MonotonicTime> input{};  ///< time of the earliest input that is new in this step
 };
 
-/// Whoever flies the virtual camera. Asked once a tick, on the programme's thread, as late as
-/// possible; never waits.
+/// Source of the virtual camera. The programme calls it once a tick, on its own thread and as late
+/// as possible. Calls never block.
 class CameraSource {
   public:
     virtual ~CameraSource() = default;
-    /// The camera at `time_s` after the start of the programme; times grow. `past_pulse`: where in
-    /// the past, or in a take, the programme is.
+    /// The camera `time_s` after the start of the programme; times never decrease. `past_pulse` is
+    /// the playback position in the past or in a take; empty: live.
     virtual CameraStep step(double time_s, std::optional<double> past_pulse) = 0;
-    /// The camera of the step before, which flies to this shot from now on; one that takes no time
-    /// is there at once.
+    /// Starts a flight to a shot and returns the camera of the step before; a shot without a flight
+    /// time is reached at once.
     virtual CameraStep fly_to_shot(int number) = 0;
 };
 

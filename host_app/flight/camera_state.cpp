@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// A tenth of a pixel of a picture of 2000 columns and 45 degrees.
+/// 0.1 pixel in a picture of 2000 columns and 45 degrees.
 constexpr double same_angle_rad = 4e-5;
 
 }  // namespace

@@ -6,21 +6,21 @@
 
 namespace vantage {
 
-/// The virtual camera at one moment: six degrees of freedom and a lens. Whatever steers (a hand on
-/// an orbit, keyframes, a tracked camera) ends in one of these.
+/// The virtual camera at one moment: pose and lens. All camera sources (orbit, keyframes, tracked
+/// camera) produce one.
 struct CameraState {
     Pose world_from_camera = Pose::Identity();
     double field_of_view_rad = 0.785;  ///< horizontal
-    double focus_m = 4.5;              ///< distance of what it is about: a pivot, a focal plane
+    double focus_m = 4.5;              ///< distance of the pivot or of the focal plane
 
-    /// K of a pinhole with square pixels and its centre in the middle of the picture.
+    /// Intrinsics of a pinhole camera with square pixels and a centred principal point.
     Eigen::Matrix3d K(int width_px, int height_px) const;
 };
 
-/// Whether a picture of one would not differ visibly from one of the other.
+/// Whether frames of the two cameras look the same: they differ by less than 0.1 pixel.
 bool is_same_view(const CameraState& a, const CameraState& b);
 
-/// On the straight way from one to the other; 0: `a`, 1: `b`.
+/// Interpolates on the straight way between two cameras; 0 gives `a`, 1 gives `b`.
 CameraState mixed(const CameraState& a, const CameraState& b, double share_of_b);
 
 }  // namespace vantage

@@ -8,20 +8,20 @@
 namespace vantage {
 namespace {
 
-/// Rays of the picture, across and down, and how much less its corners count than its middle.
+/// Number of rays across and down, and the fall-off of their weight towards the corners.
 constexpr int columns = 9, rows = 5;
 constexpr double corner_falloff = 1.0;
-/// Of a rig's half picture: the width in which it counts less and less.
+/// Width of the smooth border of a rig's image, as a share of half the image.
 constexpr double soft_border = 0.1;
-/// Of the distance at which the rig that sees it best stands: nearer than the first nothing counts,
-/// farther than the second everything does.
+/// Distances of the camera to a surface, as shares of the distance of the rig that sees it best.
+/// The surface counts as blurred below the first and as sharp above the second.
 constexpr double blurred_at = 0.1, sharp_at = 0.3;
-/// A rig that sees a surface at this share of the density that the picture needs is good for it.
-constexpr double dense_enough = 0.5;
-/// Of what a ray into the stage shows: performers; the rest is what is behind them.
+/// Share of the picture's pixel density at which a rig covers a surface.
+constexpr double min_density = 0.5;
+/// Share of performers in a ray through their volume; the rest is background.
 constexpr double performers_share = 0.5;
-/// Off the nearest rig, as seen from the stage: from here on what is lost is lost for being aside,
-/// and from there on for being on the far side.
+/// Angles between the camera and the nearest rig, seen from the stage, above which losses count as
+/// `aside` and as `behind`.
 constexpr double aside_rad = 35 * std::numbers::pi / 180,
                  far_side_rad = 120 * std::numbers::pi / 180;
 
@@ -30,7 +30,7 @@ double smooth_step(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Normals of the half of a ball that faces +z, each standing for the same part of its outline.
+/// Normals on the half of a ball that faces +z, each for the same area of its silhouette.
 std::vector<Eigen::Vector3d> facing_normals() {
     constexpr int rings = 4;
     std::vector<Eigen::Vector3d> normals{Eigen::Vector3d::UnitZ()};
@@ -127,7 +127,8 @@ Coverage Corridor::of(const CameraState& camera) const {
             for (std::size_t i = 0; i < losses.size(); ++i) losses[i] += weight * ray.losses[i];
         }
     }
-    // From far aside the set opposite is outside the rigs' pictures too, but that is not why.
+    // Far beside the rigs the background opposite is outside their images as well, but the angle is
+    // the reason to report.
     const auto lost_to = [&](CoverageLoss loss) -> double& {
         return losses[static_cast<std::size_t>(loss)];
     };
@@ -157,12 +158,12 @@ Corridor::RayCoverage Corridor::of_ray(const Eigen::Vector3d& eye_m,
     const double along_m = to_centre.dot(direction);
     const double miss_squared = std::max(to_centre.squaredNorm() - along_m * along_m, 0.0);
     const double radius = extent_.radius_m, background = extent_.background_m;
-    // How far the ray is in the ball, and how much of the ray's picture is of what is there.
+    // Length of the ray within the ball, and the share of the ray that shows the ball.
     const double half_chord_m = std::sqrt(std::max(radius * radius - miss_squared, 0.0));
     const double leaves_at_m = along_m + half_chord_m;
     const double body = (1 - smooth_step(0.8 * radius, 1.2 * radius, std::sqrt(miss_squared))) *
                         smooth_step(0, 0.5 * radius, leaves_at_m);
-    // The set behind: as far beyond the middle where a ray passes the performers by.
+    // The background lies at the same distance beyond the middle for every ray.
     RayCoverage ray =
         of_background(eye_m + std::max(along_m + background, 0.2 * background) * direction);
     if (body <= 0) return ray;
@@ -172,7 +173,7 @@ Corridor::RayCoverage Corridor::of_ray(const Eigen::Vector3d& eye_m,
     ray.share += of_performers * (met.share - ray.share);
     for (std::size_t i = 0; i < ray.losses.size(); ++i)
         ray.losses[i] += of_performers * (met.losses[i] - ray.losses[i]);
-    // A performer that the camera nearly touches hides all else.
+    // A performer right in front of the camera hides everything else.
     const double blurred = body * (1 - met.sharp) * ray.share;
     ray.share -= blurred;
     ray.losses[static_cast<std::size_t>(CoverageLoss::too_near)] += blurred;
@@ -183,7 +184,7 @@ Corridor::BodyCoverage Corridor::of_body(const Eigen::Vector3d& point_m,
                                          const Eigen::Vector3d& to_eye, double distance_m) const {
     static const std::vector<Eigen::Vector3d> normals = facing_normals();
     struct Seer {
-        Eigen::Vector3d direction;  ///< towards it, z towards the virtual camera
+        Eigen::Vector3d direction;  ///< towards the rig; z points to the virtual camera
         double in_picture;
     };
     Eigen::Matrix3d upright;
@@ -213,7 +214,7 @@ Corridor::BodyCoverage Corridor::of_body(const Eigen::Vector3d& point_m,
         for (const Seer& seer : seers)
             most = std::max(
                 most, seer.in_picture * std::clamp(normal.dot(seer.direction) /
-                                                       (dense_enough * std::max(normal.z(), 1e-3)),
+                                                       (min_density * std::max(normal.z(), 1e-3)),
                                                    0.0, 1.0));
         facing += most / static_cast<double>(normals.size());
     }
@@ -225,13 +226,13 @@ Corridor::BodyCoverage Corridor::of_body(const Eigen::Vector3d& point_m,
 
 Corridor::RayCoverage Corridor::of_background(const Eigen::Vector3d& point_m) const {
     RayCoverage covered;
-    bool any_before = false;
+    bool is_any_ahead = false;
     for (std::size_t i = 0; i < rigs_.size(); ++i) {
         const Eigen::Vector3d in_rig = rigs_from_world_[i] * point_m;
-        any_before |= in_rig.z() > 0;
+        is_any_ahead |= in_rig.z() > 0;
         covered.share = std::max(covered.share, in_picture(rigs_[i], in_rig));
     }
-    covered.losses[static_cast<std::size_t>(any_before ? CoverageLoss::outside
+    covered.losses[static_cast<std::size_t>(is_any_ahead ? CoverageLoss::outside
                                                        : CoverageLoss::behind)] = 1 - covered.share;
     return covered;
 }

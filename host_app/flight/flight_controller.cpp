@@ -16,12 +16,12 @@ namespace {
 constexpr double rad_per_step = std::numbers::pi / 180;
 constexpr double rad_per_shuttle_s = 30 * std::numbers::pi / 180;
 constexpr double move_s_per_step = 0.1;
-/// Time in which a wheel's step is travelled by 63 %.
+/// Time constant of the travel along the move after a step of the wheel.
 constexpr double wheel_follow_s = 0.08;
 constexpr double join_s = 0.8;
-/// Of the turn to another pivot.
+/// Duration of the turn to another pivot.
 constexpr double look_s = 0.8;
-/// What a flight from rest to rest is faster at most than on the whole.
+/// Ratio of the highest to the mean speed of a flight with Easing::ease.
 constexpr double ease_peak = 1.5;
 
 OrbitView mixed(const OrbitView& a, OrbitView b, double share_of_b) {
@@ -37,8 +37,8 @@ OrbitView mixed(const OrbitView& a, OrbitView b, double share_of_b) {
     return view;
 }
 
-/// The shortest flight between them from rest to rest within the limits of speed.
-double least_flight_s(const OrbitView& a, const OrbitView& b, const FlightLimits& limits) {
+/// Duration of the fastest flight from rest to rest within the speed limits.
+double min_flight_s(const OrbitView& a, const OrbitView& b, const FlightLimits& limits) {
     const double turn_rad =
         std::max({std::abs(nearest_turn(b.azimuth_rad, a.azimuth_rad) - a.azimuth_rad),
                   std::abs(b.elevation_rad - a.elevation_rad),
@@ -65,7 +65,7 @@ const char* name_of(WheelMode mode) {
 }
 
 FlightController::FlightController(const OrbitView& start, std::optional<Move> move, bool has_past,
-           const FlightHabits& habits)
+                                   const FlightHabits& habits)
     : camera_(start, habits.applied_to({})),
       start_(start),
       limits_(habits.applied_to({})),
@@ -99,7 +99,7 @@ void FlightController::keep_flight(Move move) {
 void FlightController::set_move(std::optional<Move> move) {
     const double place = move_ ? place_s() : 0;
     if (on_move_ && move) {
-        // It goes on there, and glides over to what has become of the move.
+        // The camera stays on the move, and glides over to the new one.
         joined_from_ = view();
         joining_ = 1;
     } else {
@@ -119,21 +119,18 @@ std::optional<FlightController::Change> FlightController::take_change() {
 }
 
 void FlightController::stand_at(const CameraState& camera) {
-    leave_move();
-    shot_flight_.reset();
+    take_in_hand();
     camera_.jump_to(taken_over(camera, limits_, camera_.view().azimuth_rad));
 }
 
 void FlightController::fly_over_to(const FlightController& other, double duration_s) {
-    leave_move();
-    shot_flight_.reset();
+    take_in_hand();
     holds_horizon_ = other.holds_horizon_;
     fly_to(other.view(), duration_s, Easing::ease);
 }
 
 void FlightController::halt() {
-    leave_move();
-    shot_flight_.reset();
+    take_in_hand();
     camera_.jump_to(camera_.view());
 }
 
@@ -177,6 +174,11 @@ void FlightController::leave_move() {
     pending_s_ = joining_ = 0;
 }
 
+void FlightController::take_in_hand() {
+    leave_move();
+    shot_flight_.reset();
+}
+
 void FlightController::toggle_pause() {
     if (on_move_) playing_ = !playing_;
 }
@@ -195,7 +197,7 @@ void FlightController::travel(double seconds) {
     if (!move_->loops()) move_s_ = std::clamp(move_s_, 0.0, move_->duration_s());
 }
 
-void FlightController::next_mode() {
+void FlightController::obey(const command::NextWheelMode&, const Surroundings&) {
     switch (mode_) {
         case WheelMode::orbit:
             if (move_)
@@ -215,8 +217,7 @@ void FlightController::next_mode() {
 void FlightController::take_wheel(const FlightInput& input) {
     if (mode_ == WheelMode::past) return;
     if (mode_ == WheelMode::orbit) {
-        leave_move();
-        shot_flight_.reset();
+        take_in_hand();
         camera_.orbit(input.wheel_steps * rad_per_step + input.shuttle_s * rad_per_shuttle_s, 0);
         return;
     }
@@ -234,11 +235,12 @@ void FlightController::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
     if (!on_move_ && !shot_flight_) camera_.carry_pivot_to(pivot_m);
 }
 
-void FlightController::look_at(const Eigen::Vector3d& pivot_m) {
+void FlightController::obey(const command::LookAt& look, const Surroundings&) {
+    take_in_hand();
     const OrbitView here = camera_.view();
     const Eigen::Vector3d eye = here.eye_m();
-    if ((pivot_m - eye).norm() < limits_.min_distance_m) return;
-    OrbitView there = view_from_eye(eye, pivot_m, here.field_of_view_rad, here.azimuth_rad);
+    if ((look.point_m - eye).norm() < limits_.min_distance_m) return;
+    OrbitView there = view_from_eye(eye, look.point_m, here.field_of_view_rad, here.azimuth_rad);
     there.roll_rad = here.roll_rad;
     fly_to(taken_over(there.camera(), limits_, there.azimuth_rad), look_s, Easing::ease);
 }
@@ -248,7 +250,7 @@ void FlightController::fly_to(const OrbitView& asked, double duration_s, Easing 
     if (holds_horizon_) view.roll_rad = 0;
     const bool is_held =
         !corridor_ || corridor_->of(constrained(view, limits_).camera()).share >= Corridor::end;
-    // Towards what the corridor does not hold the camera goes as far as it does.
+    // Towards a view outside the corridor the camera goes as far as the corridor allows.
     if (!is_held) {
         camera_.fly_to(view);
         return;
@@ -258,7 +260,7 @@ void FlightController::fly_to(const OrbitView& asked, double duration_s, Easing 
         camera_.jump_to(to);
         return;
     }
-    shot_flight_ = {from, to, std::max(duration_s, least_flight_s(from, to, limits_)), 0, easing};
+    shot_flight_ = {from, to, std::max(duration_s, min_flight_s(from, to, limits_)), 0, easing};
 }
 
 double FlightController::place_s() const {
@@ -267,40 +269,48 @@ double FlightController::place_s() const {
     return std::clamp(move_s_, 0.0, end_s);
 }
 
-void FlightController::edit_move(const FlightInput& input, std::optional<double> take_s) {
-    if (move_ && move_->keyframes().size() >= most_keyframes &&
-        (input.add_keyframe || input.set_keyframe)) {
-        log_warning("the move has {} keyframes, the most that one may have: no more is put in",
-                    most_keyframes);
-        return;
-    }
-    if (input.add_keyframe || (input.set_keyframe && !move_)) {
-        set_move(appended(move_, view(), take_s, habits_.keyframe_gap_s, limits_));
-        move_s_ = move_->duration_s();
-    } else if (input.set_keyframe) {
-        set_move(with_view_at(*move_, place_s(), view(), take_s));
-    }
-    if (!move_) return;
-    const std::size_t nearest = nearest_keyframe(*move_, place_s());
-    if (input.remove_keyframe) {
-        set_move(without_keyframe(*move_, nearest));
-    } else if (input.retime_s != 0) {
-        set_move(retimed(*move_, nearest, input.retime_s));
-        move_s_ = move_->keyframes()[nearest].time_s;
-    }
+bool FlightController::has_room_for_keyframe() const {
+    if (keyframes() < most_keyframes) return true;
+    log_warning("the move already has {} keyframes, the maximum; remove one to add another",
+                most_keyframes);
+    return false;
 }
 
-void FlightController::jump_keyframes(int count) {
+void FlightController::obey(const command::AddKeyframe&, const Surroundings& surroundings) {
+    if (!has_room_for_keyframe()) return;
+    set_move(appended(move_, view(), surroundings.take_s, habits_.keyframe_gap_s, limits_));
+    move_s_ = move_->duration_s();
+}
+
+void FlightController::obey(const command::SetKeyframe&, const Surroundings& surroundings) {
+    if (!move_) return obey(command::AddKeyframe{}, surroundings);
+    if (!has_room_for_keyframe()) return;
+    set_move(with_view_at(*move_, place_s(), view(), surroundings.take_s));
+}
+
+void FlightController::obey(const command::RemoveKeyframe&, const Surroundings&) {
+    if (move_) set_move(without_keyframe(*move_, nearest_keyframe(*move_, place_s())));
+}
+
+void FlightController::retime(double later_s) {
+    if (!move_) return;
+    const std::size_t nearest = nearest_keyframe(*move_, place_s());
+    set_move(retimed(*move_, nearest, later_s));
+    move_s_ = move_->keyframes()[nearest].time_s;
+}
+
+void FlightController::obey(const command::JumpKeyframes& jump, const Surroundings&) {
+    if (!move_) return;
     const std::vector<MoveKeyframe>& keyframes = move_->keyframes();
-    // Where it is on its way to, which no wheel turns beyond the ends.
+    // The position that the camera is already on its way to, within the ends of the move.
     const double here_s = move_->loops()
                               ? place_s() + pending_s_
                               : std::clamp(place_s() + pending_s_, 0.0, move_->duration_s());
-    // Where it stands at one, that is where it comes from.
+    // A keyframe at the present position is not a target.
     constexpr double same_s = 0.01;
-    const int step = count > 0 ? 1 : -1;
+    const int step = jump.count > 0 ? 1 : -1;
     double there_s = here_s;
-    for (int i = 0; i != count; i += step) {
+    for (int i = 0; i != jump.count; i += step) {
         const double from_s = there_s;
         for (const MoveKeyframe& keyframe : keyframes) {
             if (step > 0 && keyframe.time_s > from_s + same_s) {
@@ -314,33 +324,44 @@ void FlightController::jump_keyframes(int count) {
     pending_s_ = there_s - place_s();
 }
 
-void FlightController::take(const FlightInput& input,
-                const std::function<std::optional<OrbitView>(int number)>& rig_view,
-                std::optional<double> take_s) {
-    if (input.next_wheel_mode) next_mode();
-    if (input.toggle_horizon) holds_horizon_ = !holds_horizon_;
-    if (input.toggle_move && move_) {
-        if (playing_) {
-            leave_move();
-        } else {
-            // From where the wheel holds it, else from the start.
-            if (!on_move_) move_s_ = 0;
-            shot_flight_.reset();
-            on_move_ = playing_ = true;
-        }
-    }
-    if (input.store_shot) {
-        std::optional<Shot>& place = shot(input.store_shot);
-        if (!place) place = Shot{fmt::format("shot {}", input.store_shot), {}, habits_.shot_s};
-        place->view = view();
-        is_changed_ = true;
-    }
-    if (input.edits_move()) edit_move(input, take_s);
-    if (input.keyframe_jump != 0 && move_) jump_keyframes(input.keyframe_jump);
-    if (input.turns_wheel()) take_wheel(input);
-    if (!input.steers()) return;
-    leave_move();
+void FlightController::obey(const command::ToggleHorizon&, const Surroundings&) {
+    holds_horizon_ = !holds_horizon_;
+}
+
+void FlightController::obey(const command::ToggleMove&, const Surroundings&) {
+    if (!move_) return;
+    if (playing_) return leave_move();
+    // The move plays from where the wheel holds it, otherwise from its start.
+    if (!on_move_) move_s_ = 0;
     shot_flight_.reset();
+    on_move_ = playing_ = true;
+}
+
+void FlightController::obey(const command::StoreShot& store, const Surroundings&) {
+    std::optional<Shot>& place = shot(store.number);
+    if (!place) place = Shot{fmt::format("shot {}", store.number), {}, habits_.shot_s};
+    place->view = view();
+    is_changed_ = true;
+}
+
+void FlightController::obey(const command::ResetView&, const Surroundings&) {
+    take_in_hand();
+    fly_to(start_, habits_.shot_s, Easing::ease);
+}
+
+void FlightController::obey(const command::RecallShot& recall, const Surroundings& surroundings) {
+    take_in_hand();
+    if (const std::optional<Shot>& stored = shot(recall.number))
+        fly_to(stored->view, stored->duration_s, stored->easing);
+    else if (const std::optional<OrbitView> to = surroundings.rig_view(recall.number))
+        fly_to(*to, habits_.shot_s, Easing::ease);
+}
+
+void FlightController::take_axes(const FlightInput& input) {
+    if (input.retime_s != 0) retime(input.retime_s);
+    if (input.turns_wheel()) take_wheel(input);
+    if (!input.turns_camera()) return;
+    take_in_hand();
     camera_.orbit(input.orbit_azimuth_rad, input.orbit_elevation_rad);
     camera_.pan(input.pan_right_widths, input.pan_up_widths);
     camera_.dolly(input.dolly);
@@ -348,14 +369,13 @@ void FlightController::take(const FlightInput& input,
     camera_.crane(input.crane_up_widths);
     camera_.look(input.look_right_rad, input.look_up_rad);
     if (!holds_horizon_) camera_.roll(input.roll_rad);
-    if (input.pivot_m) look_at(*input.pivot_m);
-    if (input.reset) fly_to(start_, habits_.shot_s, Easing::ease);
-    if (input.recall_shot) {
-        if (const std::optional<Shot>& stored = shot(input.recall_shot))
-            fly_to(stored->view, stored->duration_s, stored->easing);
-        else if (const std::optional<OrbitView> to = rig_view(input.recall_shot))
-            fly_to(*to, habits_.shot_s, Easing::ease);
-    }
+}
+
+void FlightController::take(const FlightInput& input, const RigView& rig_view,
+                            std::optional<double> take_s) {
+    take_axes(input);
+    const Surroundings surroundings{rig_view, take_s};
+    input.for_each<FlightCommand>([&](const auto& each) { obey(each, surroundings); });
 }
 
 void FlightController::advance(double dt_s) {

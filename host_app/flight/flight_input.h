@@ -1,17 +1,101 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "host_app/replay/replay_call.h"
+#include "host_app/replay/transport_input.h"
 
 namespace vantage {
+namespace command {
 
-/// What the operator's hands did since the last look, whatever they held. Angles in radians, shifts
-/// in picture widths, dolly and zoom in powers of e (see OrbitCamera).
+// Executed by FlightController, for the camera that the operator flies.
+struct ResetView {};
+struct RecallShot {
+    int number = 0;  ///< from 1
+};
+struct StoreShot {
+    int number = 0;  ///< from 1
+};
+struct LookAt {
+    Eigen::Vector3d point_m;  ///< the new pivot, in the world
+};
+struct ToggleHorizon {};
+struct NextWheelMode {};
+struct ToggleMove {};
+struct AddKeyframe {};
+struct SetKeyframe {};
+struct RemoveKeyframe {};
+struct JumpKeyframes {
+    int count = 0;  ///< negative: backwards along the move
+};
+
+// Executed by FlightControls.
+struct TogglePreview {};
+struct Cut {};
+struct FlyToPreview {};
+struct SetFlyDuration {
+    double duration_s = 0;  ///< of every flight to the preview from now on
+};
+struct ToggleTracking {};
+struct ToggleFollow {};
+struct ToggleRecording {};
+struct ToggleJogMap {};
+
+// Executed by the programme.
+struct NextSynthesiser {};
+struct ToggleSourceMap {};
+
+// Executed by the session, on its own thread.
+struct ToggleTake {};
+struct SaveBackground {};
+struct LearnBackground {};
+struct ToggleOutput {
+    int number = 0;  ///< from 1
+};
+/// Move the pivot to the surface that is visible at a place in the picture.
+struct PickPivot {
+    Eigen::Vector2d place;  ///< 0..1 to the right and down
+};
+struct CueTime {
+    std::string time;  ///< see pulse_in_past()
+};
+
+}  // namespace command
+
+using FlightCommand =
+    std::variant<command::ResetView, command::RecallShot, command::StoreShot, command::LookAt,
+                 command::ToggleHorizon, command::NextWheelMode, command::ToggleMove,
+                 command::AddKeyframe, command::SetKeyframe, command::RemoveKeyframe,
+                 command::JumpKeyframes>;
+using CameraCommand =
+    std::variant<command::TogglePreview, command::Cut, command::FlyToPreview,
+                 command::SetFlyDuration, command::ToggleTracking, command::ToggleFollow,
+                 command::ToggleRecording, command::ToggleJogMap>;
+using PictureCommand = std::variant<command::NextSynthesiser, command::ToggleSourceMap>;
+using SessionCommand =
+    std::variant<command::ToggleTake, command::SaveBackground, command::LearnBackground,
+                 command::ToggleOutput, command::PickPivot, command::CueTime>;
+
+/// A command of an operator, grouped by the class that executes it. A new command needs its struct
+/// in one of the groups, its row in the table (control/table) and its handler.
+using Command = std::variant<FlightCommand, CameraCommand, TransportCommand, ReplayCall,
+                             PictureCommand, SessionCommand>;
+
+/// Whether T is one of the alternatives of a variant.
+template <class T, class Variant>
+inline constexpr bool is_alternative = false;
+template <class T, class... Types>
+inline constexpr bool is_alternative<T, std::variant<Types...>> = (std::is_same_v<T, Types> || ...);
+
+/// Operator input since the last poll, of all devices together: analogue axes that add up, and
+/// commands in the order in which they were given. Angles are in radians, shifts in picture widths,
+/// dolly and zoom in powers of e (see OrbitCamera).
 struct FlightInput {
     double orbit_azimuth_rad = 0, orbit_elevation_rad = 0;
     double pan_right_widths = 0, pan_up_widths = 0;
@@ -19,84 +103,47 @@ struct FlightInput {
     double crane_up_widths = 0;
     double look_right_rad = 0, look_up_rad = 0;  ///< the camera turns where it stands
     double roll_rad = 0;
-    bool toggle_freeze = false, reset = false, next_synthesiser = false, toggle_move = false;
-    bool toggle_tracking = false;
-    bool toggle_jog_map = false;  ///< on the desk
-    bool next_wheel_mode = false, to_live = false, toggle_source_map = false, toggle_take = false;
-    bool save_background = false, learn_background = false;
-    bool mark_in = false, mark_out = false, clear_marks = false, toggle_loop = false, cue = false;
-    bool add_keyframe = false, set_keyframe = false, remove_keyframe = false;
-    bool toggle_recording = false;  ///< of a flight
-    bool toggle_horizon = false, toggle_follow = false;
-    bool toggle_preview = false;               ///< a second camera, which hands fly then
-    bool cut = false, fly_to_preview = false;  ///< to its view: at once, or in the time for that
-    int fly_to_preview_tenths = 0;             ///< that time from now on; 0: as it was
-    /// A place in the picture, 0..1 to the right and down: the pivot goes to what is seen there.
-    std::optional<Eigen::Vector2d> pick = {};
-    std::optional<Eigen::Vector3d> pivot_m = {};  ///< where that was found
-    int keyframe_jump = 0;                        ///< to the next keyframes of the move, either way
-    double retime_s = 0;                          ///< of the keyframe at which the move stands
-    int speed_steps = 0;                          ///< to faster or slower playing of the past
-    int recall_shot = 0, store_shot = 0;          ///< 1..9; 0: none
-    int toggle_output = 0;                        ///< 1..8; 0: none
-
-    /// Detents of a jog wheel, clockwise positive.
-    double wheel_steps = 0;
-    /// What a shuttle ring asks for: seconds of normal speed in this look's time, so at 2x speed
-    /// twice its length.
+    double retime_s = 0;     ///< shift of the keyframe nearest to the position on the move
+    double wheel_steps = 0;  ///< detents of a jog wheel, clockwise positive
+    /// Way that a shuttle ring asks for: seconds at normal speed, so twice the elapsed time at 2x.
     double shuttle_s = 0;
 
-    /// Frames back (negative) or on, through the past.
-    double past_steps = 0;
-    /// Of clips, play list and playback, in their order, after what else there is of time.
-    std::vector<ReplayCall> replay = {};
-    /// A time code, or seconds, that the past is asked for; empty: none.
-    std::string cue_time = {};
+    std::vector<Command> commands = {};
 
-    /// True if the operator has the camera itself in hand.
-    bool steers() const {
-        return orbit_azimuth_rad != 0 || orbit_elevation_rad != 0 || pan_right_widths != 0 ||
-               pan_up_widths != 0 || dolly != 0 || zoom != 0 || crane_up_widths != 0 ||
-               look_right_rad != 0 || look_up_rad != 0 || roll_rad != 0 || pivot_m || reset ||
-               recall_shot != 0;
+    /// The last command of type T, or null.
+    template <class T>
+    const T* find() const {
+        const T* found = nullptr;
+        for (const Command& each : commands)
+            std::visit(
+                [&](const auto& group) {
+                    if constexpr (std::is_same_v<T, std::remove_cvref_t<decltype(group)>>)
+                        found = &group;
+                    else if constexpr (is_alternative<T, std::remove_cvref_t<decltype(group)>>)
+                        found = std::holds_alternative<T>(group) ? &std::get<T>(group) : found;
+                },
+                each);
+        return found;
     }
-    /// True if the pivot is taken elsewhere.
-    bool moves_pivot() const {
-        return pan_right_widths != 0 || pan_up_widths != 0 || crane_up_widths != 0 ||
-               look_right_rad != 0 || look_up_rad != 0 || pivot_m || reset || recall_shot != 0;
+    /// Calls `execute` with each command of a group, in order.
+    template <class Group, class Execute>
+    void for_each(const Execute& execute) const {
+        for (const Command& each : commands)
+            if (const Group* group = std::get_if<Group>(&each)) std::visit(execute, *group);
     }
-    /// True if the move itself is to be changed.
-    bool edits_move() const {
-        return add_keyframe || set_keyframe || remove_keyframe || retime_s != 0;
-    }
-    /// True if it is about the camera on preview.
-    bool commands_preview() const {
-        return toggle_preview || cut || fly_to_preview || fly_to_preview_tenths != 0;
-    }
-    /// True if there is anything in it.
-    bool is_any() const {
-        return steers() || turns_wheel() || toggle_freeze || next_synthesiser || toggle_move ||
-               next_wheel_mode || to_live || toggle_source_map || store_shot != 0 || past_steps != 0 ||
-               toggle_tracking || toggle_jog_map || toggle_take || save_background || learn_background ||
-               toggle_output != 0 || mark_in || mark_out || clear_marks || toggle_loop || cue ||
-               speed_steps != 0 || !replay.empty() || !cue_time.empty() || edits_move() ||
-               toggle_recording || keyframe_jump != 0 || pick || toggle_horizon || toggle_follow ||
-               commands_preview();
-    }
-    /// True if it says where in time to be, or marks it.
-    bool commands_time() const {
-        return toggle_freeze || to_live || mark_in || mark_out || clear_marks || toggle_loop ||
-               cue || speed_steps != 0 || past_steps != 0 || !replay.empty() || !cue_time.empty();
-    }
-    /// Whether the same thing is commanded in both, so that one of them would be lost in add(), or
-    /// the order of what was asked of replay.
-    bool commands_twice(const FlightInput& other) const;
-    /// Without its commands: what it turns and shifts.
-    FlightInput turns() const;
+
+    /// Whether one of the camera's own axes moves.
+    bool turns_camera() const;
+    /// Whether the operator flies the camera, by its axes or to a view.
+    bool steers() const;
+    /// Whether the pivot moves to another point of the stage.
+    bool moves_pivot() const;
     bool turns_wheel() const { return wheel_steps != 0 || shuttle_s != 0; }
+    bool is_any() const;
 
-    /// Both hands together.
+    /// Adds the axes, and appends the commands.
     void add(const FlightInput& other);
+    void add_axes(const FlightInput& other);
 };
 
 }  // namespace vantage

@@ -9,23 +9,23 @@
 namespace vantage {
 namespace {
 
-/// Time in which a goal beyond the end of the corridor comes back to the camera by 63 %.
+/// Time constant with which a goal outside the corridor returns to the camera.
 constexpr double forget_time_s = 0.1;
 
-/// One number on its way: how fast it goes now, towards a speed that falls off with what is left of
-/// the way, no faster than `most`, and no sooner than its ramp allows.
+/// Step of one member of the view towards its goal: the speed falls with the remaining way and is
+/// limited, and so is its rate of change.
 class Follower {
   public:
     Follower(const FlightLimits& limits, double dt_s) : limits_(limits), dt_s_(dt_s) {}
 
-    /// Of a way of any direction: the step that is gone of it.
+    /// The step in this tick along the remaining way, a number or a vector.
     template <class Way>
-    Way step(const Way& way, const Way& speed, double most) const {
+    Way step(const Way& way, const Way& speed, double max_speed) const {
         Way wanted = (1 - std::exp(-dt_s_ / limits_.follow_s)) / dt_s_ * way;
-        if (limits_.ramp_s <= 0) return dt_s_ * limited(wanted, most);
-        const double ramp = most / limits_.ramp_s;
-        // What half of that brakes on the way that is left, so that nothing runs past its goal.
-        wanted = limited(wanted, std::min(most, std::sqrt(ramp * length(way))));
+        if (limits_.ramp_s <= 0) return dt_s_ * limited(wanted, max_speed);
+        const double ramp = max_speed / limits_.ramp_s;
+        // Half of the ramp must be enough to brake on the remaining way, so the goal is not overrun.
+        wanted = limited(wanted, std::min(max_speed, std::sqrt(ramp * length(way))));
         return dt_s_ * Way(speed + limited(Way(wanted - speed), ramp * dt_s_));
     }
 
@@ -33,8 +33,8 @@ class Follower {
     static double length(double way) { return std::abs(way); }
     static double length(const Eigen::Vector3d& way) { return way.norm(); }
     template <class Way>
-    static Way limited(const Way& way, double most) {
-        return length(way) > most ? Way(most / length(way) * way) : way;
+    static Way limited(const Way& way, double max_length) {
+        return length(way) > max_length ? Way(max_length / length(way) * way) : way;
     }
 
     const FlightLimits& limits_;
@@ -48,14 +48,14 @@ OrbitCamera::OrbitCamera(const OrbitView& start, const FlightLimits& limits) : l
 }
 
 void OrbitCamera::orbit(double azimuth_rad, double elevation_rad) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     goal_.azimuth_rad += azimuth_rad;
     goal_.elevation_rad += elevation_rad;
     goal_ = constrained(goal_, limits_);
 }
 
 void OrbitCamera::pan(double right_widths, double up_widths) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     const double width_m = 2 * goal_.distance_m * std::tan(0.5 * goal_.field_of_view_rad);
     const Eigen::Matrix3d axes = goal_.world_from_camera().linear();
     goal_.pivot_m += width_m * (right_widths * axes.col(0) - up_widths * axes.col(1));
@@ -63,14 +63,14 @@ void OrbitCamera::pan(double right_widths, double up_widths) {
 }
 
 void OrbitCamera::crane(double up_widths) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     const double width_m = 2 * goal_.distance_m * std::tan(0.5 * goal_.field_of_view_rad);
     goal_.pivot_m.y() += width_m * up_widths;
     goal_ = constrained(goal_, limits_);
 }
 
 void OrbitCamera::look(double right_rad, double up_rad) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     const Eigen::Vector3d eye = goal_.eye_m();
     OrbitView turned = goal_;
     turned.azimuth_rad -= right_rad;
@@ -81,7 +81,7 @@ void OrbitCamera::look(double right_rad, double up_rad) {
 }
 
 void OrbitCamera::roll(double clockwise_rad) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     goal_.roll_rad += clockwise_rad;
 }
 
@@ -96,13 +96,13 @@ void OrbitCamera::carry_pivot_to(const Eigen::Vector3d& pivot_m) {
 }
 
 void OrbitCamera::dolly(double nearer) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     goal_.distance_m *= std::exp(-nearer);
     goal_ = constrained(goal_, limits_);
 }
 
 void OrbitCamera::zoom(double narrower) {
-    is_let_through_ = false;
+    ignores_corridor_ = false;
     goal_.field_of_view_rad *= std::exp(-narrower);
     goal_ = constrained(goal_, limits_);
 }
@@ -111,20 +111,20 @@ void OrbitCamera::fly_to(const OrbitView& view) {
     goal_ = constrained(view, limits_);
     goal_.azimuth_rad = nearest_turn(goal_.azimuth_rad, current_.azimuth_rad);
     goal_.roll_rad = nearest_turn(goal_.roll_rad, current_.roll_rad);
-    is_let_through_ = corridor_ && corridor_->of(goal_.camera()).share >= Corridor::end;
+    ignores_corridor_ = corridor_ && corridor_->of(goal_.camera()).share >= Corridor::end;
 }
 
 void OrbitCamera::jump_to(const OrbitView& view) {
     goal_ = current_ = constrained(view, limits_);
     speed_ = {};
-    is_let_through_ = false;
+    ignores_corridor_ = false;
 }
 
 OrbitView OrbitCamera::followed(double dt_s) const {
     OrbitView next = current_;
     const Follower follower(limits_, dt_s);
-    const auto follow = [&](double OrbitView::*channel, double speed, double most) {
-        next.*channel += follower.step(goal_.*channel - current_.*channel, speed, most);
+    const auto follow = [&](double OrbitView::*channel, double speed, double max_speed) {
+        next.*channel += follower.step(goal_.*channel - current_.*channel, speed, max_speed);
     };
     follow(&OrbitView::azimuth_rad, speed_.azimuth, limits_.max_turn_rad_s);
     follow(&OrbitView::elevation_rad, speed_.elevation, limits_.max_turn_rad_s);
@@ -133,7 +133,7 @@ OrbitView OrbitCamera::followed(double dt_s) const {
     follow(&OrbitView::field_of_view_rad, speed_.field_of_view, limits_.max_zoom_rad_s);
     next.pivot_m += follower.step(Eigen::Vector3d(goal_.pivot_m - current_.pivot_m), speed_.pivot,
                                   limits_.max_speed_m_s);
-    // Both ends of the way are above the floor, but not every mixture of them.
+    // Both ends of the way are above the floor, but a view between them may not be.
     return constrained(next, limits_);
 }
 
@@ -141,11 +141,11 @@ void OrbitCamera::advance(double dt_s) {
     assert(dt_s >= 0);
     if (dt_s == 0) return;
     const OrbitView before = current_, next = followed(dt_s);
-    if (corridor_ && !is_let_through_)
+    if (corridor_ && !ignores_corridor_)
         go_within_corridor(next, dt_s);
     else
         current_ = next;
-    // What held it back, held its speed back too.
+    // The speed follows from the way, which limits may have shortened.
     const auto speed_of = [&](double OrbitView::*channel) {
         return (current_.*channel - before.*channel) / dt_s;
     };
@@ -161,7 +161,7 @@ void OrbitCamera::go_within_corridor(const OrbitView& next, double dt_s) {
         return;
     }
     double here = share_of(current_);
-    // One way of moving after another, so that only what leads out is held back.
+    // One member of the view after another, so that only motion that leads out is held back.
     const auto go = [&](auto OrbitView::*channel) {
         using Value = std::remove_cvref_t<decltype(next.*channel)>;
         const Value way = next.*channel - current_.*channel;
@@ -170,15 +170,14 @@ void OrbitCamera::go_within_corridor(const OrbitView& next, double dt_s) {
         double after = share_of(there);
         if (after < here) {
             double kept = Corridor::outward_speed(here);
-            // However long this step: not across the end.
+            // A long step is halved until it does not cross the end.
             for (int halving = 0; halving < 6; ++halving) {
                 there.*channel = current_.*channel + kept * way;
                 after = share_of(there);
                 if (kept == 0 || after >= std::min(here, Corridor::end)) break;
                 kept = halving == 4 ? 0 : 0.5 * kept;
             }
-            // What a hand asks for beyond the end is forgotten, so that the way back is felt at
-            // once.
+            // The part of the goal beyond the end decays, so that input the other way acts at once.
             const double remembered = std::exp(-(1 - kept) * dt_s / forget_time_s);
             goal_.*channel = there.*channel + remembered * (goal_.*channel - there.*channel);
         }

@@ -10,16 +10,16 @@
 namespace vantage {
 namespace {
 
-/// Axes that are more parallel than this say nothing of where they meet (1 / condition).
-constexpr double least_crossing = 0.01;
-/// Of the depth that is seen: how near the camera may come to its pivot, how far it may go, and how
-/// far the pivot may be moved.
+/// Smallest ratio of singular values at which the crossing of the axes counts as known; below it
+/// they are nearly parallel.
+constexpr double min_crossing = 0.01;
+/// Nearest and farthest distance to the pivot, and the range of the pivot, as shares of the depth.
 constexpr double nearest = 0.05, farthest = 6, reach = 4;
-/// Of the depth that is seen: how far from the middle performers are, and the set behind them.
+/// Distances of performers and of the background from the middle, as shares of the depth.
 constexpr double performers = 0.4, background = 0.8;
 constexpr double floor_margin_m = 0.05, same_place_m = 0.01;
 
-/// The point that is nearest to all rigs' axes.
+/// The point nearest to the optical axes of all rigs.
 std::optional<Eigen::Vector3d> crossing(std::span<const FramedRig> rigs) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -30,7 +30,7 @@ std::optional<Eigen::Vector3d> crossing(std::span<const FramedRig> rigs) {
         right += across * rig.world_from_camera.translation();
     }
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum);
-    if (svd.singularValues()[2] < least_crossing * svd.singularValues()[0]) return std::nullopt;
+    if (svd.singularValues()[2] < min_crossing * svd.singularValues()[0]) return std::nullopt;
     return sum.inverse() * right;
 }
 
@@ -53,7 +53,7 @@ std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
     const auto off_m = [&](const FramedRig& rig) {
         return (rig.world_from_camera.translation() - mean).norm();
     };
-    // Of two that are as near, the first.
+    // Of two rigs at the same distance the first counts.
     for (const FramedRig& rig : rigs)
         if (off_m(rig) < off_m(*nearest_rig) - same_place_m) nearest_rig = &rig;
     const FramedRig& middle = *nearest_rig;
@@ -61,7 +61,7 @@ std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
     const Eigen::Vector3d axis = middle.world_from_camera.linear().col(2);
     Eigen::Vector3d pivot = eye + middle.median_depth_m * axis;
     if (const std::optional<Eigen::Vector3d> meeting = crossing(rigs)) {
-        // Only what this rig looks at, about as far away as it sees, is a pivot for its view.
+        // The crossing is the pivot only if it lies at about the depth that this rig sees.
         const double along_m = axis.dot(*meeting - eye);
         if (along_m > 0.3 * middle.median_depth_m && along_m < 3 * middle.median_depth_m)
             pivot = eye + along_m * axis;
@@ -69,7 +69,7 @@ std::optional<StageFraming> frame_stage(std::span<const FramedRig> all) {
     StageFraming framing;
     framing.start = view_from_eye(eye, pivot, middle.field_of_view_rad);
     FlightLimits& limits = framing.limits;
-    // A rig that stands below the floor of a stage without one: the floor is where it sees none.
+    // If a rig stands below y = 0, the floor is below everything that the rigs see.
     const bool has_floor = std::all_of(rigs.begin(), rigs.end(), [](const FramedRig& rig) {
         return rig.world_from_camera.translation().y() > floor_margin_m;
     });

@@ -9,25 +9,25 @@
 
 namespace vantage {
 
-/// One rig's camera, and how far away most of what it sees is.
+/// Pose and lens of one rig's camera, and the median of the depth that it measures.
 struct FramedRig {
     std::string name;
     Pose world_from_camera = Pose::Identity();
     double field_of_view_rad = 0.785;
-    double median_depth_m = 0;  ///< 0: it sees no depth
+    double median_depth_m = 0;  ///< 0: no depth
 };
 
-/// Where the virtual camera begins on a stage, and where it may go.
+/// Start view, limits and extent of a stage.
 struct StageFraming {
     OrbitView start;
     FlightLimits limits;
     StageExtent extent;
 };
 
-/// The camera begins at the middle rig's place, with its pivot where the rigs' axes meet, or, if
-/// they don't, on its axis at the depth of what it sees. Limits are those of a stage that is as
-/// deep as the rigs see, and so is its extent: the floor is y = 0, or below the lowest rig where
-/// one stands under that. Nothing without a rig that sees depth.
+/// Derives start view, limits and extent of a stage from its rigs. The camera starts at the middle
+/// rig, with the pivot where the rigs' optical axes meet; if they do not meet, on its axis at its
+/// median depth. Limits and extent are multiples of the largest median depth. The floor is y = 0, or
+/// lies below the lowest rig if a rig stands lower. Empty if no rig has depth.
 std::optional<StageFraming> frame_stage(std::span<const FramedRig> rigs);
 
 }  // namespace vantage

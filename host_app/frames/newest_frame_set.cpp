@@ -5,8 +5,8 @@
 namespace vantage {
 namespace {
 
-/// How long the thread may take to notice that it should end.
-constexpr std::chrono::milliseconds patience{50};
+/// Longest wait for a frame set, and so for the thread to notice that it is to end.
+constexpr std::chrono::milliseconds poll_period{50};
 
 }  // namespace
 
@@ -27,24 +27,24 @@ void NewestFrameSet::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-void NewestFrameSet::supersede(const FrameSet& set) {
-    ++superseded_.sets;
-    count_frames(set, superseded_.frames);
+void NewestFrameSet::count_replaced(const FrameSet& set) {
+    ++replaced_.sets;
+    count_frames(set, replaced_.frames);
 }
 
 ReceiverStatus NewestFrameSet::close() {
     stop();
     const std::lock_guard lock(mutex_);
-    if (newest_) supersede(*newest_);
+    if (newest_) count_replaced(*newest_);
     newest_.reset();
     ReceiverStatus status = feed_.status();
-    // Sets that were closed since the thread looked last; a set is counted a moment before it can
-    // be taken.
+    // Read frame sets that were closed after the thread ended. The receiver counts a frame set a
+    // moment before it can be read.
     for (int tries = 0; tries < 1000 && !failure_; ++tries) {
         if (taken_off_ + status.frame_sets_dropped >= status.sets) break;
         while (const std::optional<FrameSet> set = feed_.next(std::chrono::milliseconds(1))) {
             ++taken_off_;
-            supersede(*set);
+            count_replaced(*set);
         }
         status = feed_.status();
     }
@@ -60,21 +60,21 @@ std::optional<FrameSet> NewestFrameSet::take(std::chrono::nanoseconds timeout) {
     return taken;
 }
 
-NewestFrameSet::Superseded NewestFrameSet::superseded() const {
+NewestFrameSet::Replaced NewestFrameSet::replaced() const {
     const std::lock_guard lock(mutex_);
-    return superseded_;
+    return replaced_;
 }
 
 void NewestFrameSet::run() {
-    name_this_thread("sets");
+    name_this_thread("frame sets");
     try {
         for (;;) {
-            std::optional<FrameSet> set = feed_.next(patience);
+            std::optional<FrameSet> set = feed_.next(poll_period);
             {
                 const std::lock_guard lock(mutex_);
                 if (set) {
                     ++taken_off_;
-                    if (newest_) supersede(*newest_);
+                    if (newest_) count_replaced(*newest_);
                     newest_.swap(set);
                 }
                 if (stopping_) return;

@@ -8,23 +8,22 @@
 
 namespace vantage {
 
-/// Frame sets of the past by their pulse: of the replay buffer, or of a take. Safe to use from any
-/// thread.
+/// Random access to past frame sets by pulse: those of the replay buffer, or of a take. Thread-safe.
 class PastFrameSets {
   public:
     virtual ~PastFrameSets() = default;
 
-    /// Of the newest set that is not later than `pulse`, else of the oldest there is; empty if none
-    /// is.
+    /// Pulse of the newest frame set not later than `pulse`, otherwise of the oldest; empty if there
+    /// is none.
     virtual std::optional<std::uint64_t> pulse_at(double pulse) const = 0;
-    /// That set. Decodes it.
+    /// Decodes and returns that frame set.
     virtual std::optional<FrameSet> at(double pulse) const = 0;
 
     struct Span {
         std::uint64_t oldest = 0, newest = 0;  ///< pulses
-        std::size_t sets = 0, bytes = 0;
+        std::size_t sets = 0, bytes = 0;       ///< number and size of the frame sets
     };
-    /// Empty if nothing is kept.
+    /// Empty if there is no frame set.
     virtual std::optional<Span> span() const = 0;
 };
 

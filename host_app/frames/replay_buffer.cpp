@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-/// What came over the wire was decoded once, so it can be again.
+/// Cannot fail, since the frame was decoded once on arrival.
 std::shared_ptr<const RigFrame> decode(const std::shared_ptr<const PackedFrame>& packed) {
     auto frame = std::make_shared<RigFrame>(
         FrameDecoder().decode(packed->header, packed->colour, packed->disparity));
@@ -48,7 +48,6 @@ void ReplayBuffer::add(const FrameSet& set) {
     }
 }
 
-/// Null if there is none. Precondition: mutex_ is held.
 const ReplayBuffer::Kept* ReplayBuffer::find(double pulse) const {
     if (kept_.empty()) return nullptr;
     const auto later =

@@ -12,16 +12,16 @@
 
 namespace vantage {
 
-/// The last sets that came, for going back to them: as many as fit into a stated memory, the oldest
-/// leave first. Frames are kept as they came over the wire, a tenth of what they are decoded, and
-/// decoded when they are asked for; one that came over no wire is kept as it is. Safe to use from
-/// any thread.
+/// The newest frame sets of a stage, as many as fit into a given amount of memory. Frames are kept
+/// as they arrived, at about a tenth of their decoded size, and decoded on access. Frames that did
+/// not come over the network are kept decoded. Thread-safe.
 class ReplayBuffer final : public PastFrameSets {
   public:
     explicit ReplayBuffer(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-    /// Sets come in the order of their pulses; one of an earlier pulse than the newest begins anew,
-    /// since the stage has. A set that does not fit alone is not kept.
+    /// Adds a frame set and drops the oldest to stay within the memory. Pulses increase; a frame set
+    /// with an earlier pulse clears the buffer, since the stage was restarted. A frame set that is
+    /// larger than the buffer is not kept.
     void add(const FrameSet& set);
 
     std::optional<std::uint64_t> pulse_at(double pulse) const override;
@@ -32,7 +32,7 @@ class ReplayBuffer final : public PastFrameSets {
     struct Slot {
         std::string rig;
         std::shared_ptr<const PackedFrame> packed;
-        std::shared_ptr<const RigFrame> frame;  ///< where there is no packed one
+        std::shared_ptr<const RigFrame> frame;  ///< if `packed` is null
         Absence absence = Absence::none;
     };
     struct Kept {
@@ -42,6 +42,7 @@ class ReplayBuffer final : public PastFrameSets {
         std::size_t bytes = 0;
     };
     static Kept kept_of(const FrameSet& set);
+    /// Null if the buffer is empty. Precondition: mutex_ is held.
     const Kept* find(double pulse) const;
 
     std::size_t max_bytes_;
@@ -50,7 +51,7 @@ class ReplayBuffer final : public PastFrameSets {
     std::size_t bytes_ = 0;
 };
 
-/// The same feed, of which every set that is taken is kept too. The ring must outlive it.
+/// A feed that also adds every frame set to a replay buffer, which must outlive it.
 StageFeed kept_feed(StageFeed feed, ReplayBuffer& ring);
 
 }  // namespace vantage

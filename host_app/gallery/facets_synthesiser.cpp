@@ -5,7 +5,7 @@
 
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/vertex_array.h"
-#include "host_app/pipeline/plain_preparer.h"
+#include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"

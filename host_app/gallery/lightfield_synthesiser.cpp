@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "host_app/gallery/camera_plane.h"
-#include "host_app/pipeline/plain_preparer.h"
+#include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "host_app/pipeline/plain_preparer.h"
+#include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"

@@ -30,9 +30,11 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.repeated));
     text.counter("missed_ticks", "Ticks that passed before the programme came to them.");
     text.sample(number(programme.missed));
-    text.counter("superseded_pictures",
-                 "Pictures that no tick showed: a newer one was ready before.");
-    text.sample(number(programme.superseded));
+    text.counter("replaced_pictures",
+                 "Pictures replaced by a newer one before a tick showed them.");
+    text.sample(number(programme.replaced));                                  // old name
+    text.counter("superseded_pictures", "Deprecated: see replaced_pictures.");  // old name
+    text.sample(number(programme.replaced));                                  // old name
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
     text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");
@@ -46,12 +48,17 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.percentiles(programme.interval_ms);
     text.summary("exposure_to_picture_seconds", "From exposure to the hand-over of its picture.");
     text.percentiles(programme.latency_ms);
-    text.summary("hand_to_picture_seconds", "From an input to the first picture with it.");
+    text.summary("input_to_picture_seconds", "From operator input to the first picture with it.");
+    text.percentiles(programme.input_ms);
+    text.summary("hand_to_picture_seconds",  // old name
+                 "Deprecated: see input_to_picture_seconds.");
     text.percentiles(programme.input_ms);
     text.summary("seek_to_picture_seconds", "From a jump in time to its picture.");
     text.percentiles(programme.seek_ms);
-    text.summary("rest_to_best_seconds",
+    text.summary("idle_to_best_seconds",
                  "From the last change of camera and time to the best picture.");
+    text.percentiles(programme.rest_ms);
+    text.summary("rest_to_best_seconds", "Deprecated: see idle_to_best_seconds.");
     text.percentiles(programme.rest_ms);
     text.summary("step_seconds", "Steps of a frame's way, of rigs the worst one's.");
     for (const StepTime& step : step_times(report))
@@ -72,8 +79,11 @@ void write_frame_sets(const LiveReport& report, MetricText& text) {
     text.counter("instants", "Instants that were prepared, of sets or between two pulses.");
     text.sample(number(report.instants_prepared), {{"of", "set"}});
     text.sample(number(report.instants_between), {{"of", "between"}});
-    text.counter("sets_left_out", "Sets that no instant was made of.");
-    text.sample(number(report.frame_sets_superseded), {{"why", "superseded"}});
+    text.counter("frame_sets_left_out", "Frame sets that no instant was prepared from.");
+    text.sample(number(report.frame_sets_replaced), {{"why", "replaced"}});
+    text.sample(number(report.frame_sets_dropped), {{"why", "dropped"}});
+    text.counter("sets_left_out", "Deprecated: see frame_sets_left_out.");
+    text.sample(number(report.frame_sets_replaced), {{"why", "superseded"}});  // old name
     text.sample(number(report.frame_sets_dropped), {{"why", "dropped"}});
 }
 
@@ -81,13 +91,20 @@ void write_rigs(const LiveReport& report, MetricText& text) {
     text.gauge("rig_up", "1 while the rig is connected.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.connected ? 1 : 0, {{"rig", rig.status.rig}});
-    text.counter("rig_frames", "Frames by the place that they came to, and what became of them.");
-    for (const RigAccount& rig : report.rigs)
-        for (const CounterGroup& group : counters_of(rig))
-            for (const Counter& counter : group.counters)
-                text.sample(
-                    number(counter.value),
-                    {{"rig", rig.status.rig}, {"place", group.key}, {"result", counter.key}});
+    const auto write_frames = [&](bool by_old_keys) {
+        for (const RigAccount& rig : report.rigs)
+            for (const CounterGroup& group : counters_of(rig))
+                for (const Counter& counter : group.counters)
+                    text.sample(number(counter.value),
+                                {{"rig", rig.status.rig},
+                                 {"place", group.key},
+                                 {"result",
+                                  by_old_keys && counter.old_key ? counter.old_key : counter.key}});
+    };
+    text.counter("rig_frame_results", "Frames by place and result, as the summary has them.");
+    write_frames(false);
+    text.counter("rig_frames", "Deprecated: see rig_frame_results.");
+    write_frames(true);
     text.counter("rig_outages", "Times that the rig was away.");
     for (const RigAccount& rig : report.rigs)
         text.sample(number(rig.status.outages), {{"rig", rig.status.rig}});
@@ -111,9 +128,14 @@ void write_rigs(const LiveReport& report, MetricText& text) {
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.same_clock || rig.status.sync.disciplined ? 1 : 0,
                     {{"rig", rig.status.rig}});
-    text.gauge("rig_set_known_ratio", "Of the rig's set, that is known.");
-    for (const RigAccount& rig : report.rigs)
-        if (rig.set) text.sample(rig.set->known, {{"rig", rig.status.rig}});
+    const auto write_background = [&] {
+        for (const RigAccount& rig : report.rigs)
+            if (rig.background) text.sample(rig.background->known, {{"rig", rig.status.rig}});
+    };
+    text.gauge("rig_background_known_ratio", "Learnt share of the rig's background.");
+    write_background();
+    text.gauge("rig_set_known_ratio", "Deprecated: see rig_background_known_ratio.");
+    write_background();
 }
 
 void write_outputs(const LiveReport& report, MetricText& text) {

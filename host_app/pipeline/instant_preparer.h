@@ -4,62 +4,84 @@
 
 #include "host_app/background/background_access.h"
 #include "host_app/surfaces/instant.h"
+#include "host_app/surfaces/recycle_pool.h"
 #include "host_app/surfaces/triangle_builder.h"
 #include "host_app/views/depth_view.h"
 #include "host_app/views/virtual_view.h"
 
 namespace vantage {
 
-/// How well an instant is prepared, and so at what cost. The governor moves along
+/// A quality level of instant preparation and so its cost. The governor moves along
 /// prepare_levels().
 struct PrepareLevel {
-    int rank = 0;  ///< 0: the best; a higher one is cheaper
+    int rank = 0;  ///< 0 is the best; a higher rank costs less
     std::size_t rigs = most_drawn_rigs;
-    /// Performers' depth is held against the other rigs: what those see through is taken away, and
-    /// depth is moved to where the rigs' pictures agree.
+    /// The foreground's depth is compared with the other rigs: depth that they see through is
+    /// carved away, and depth is moved to where the rigs' images match.
     bool is_refined = true;
-    bool has_fine_grid = true;  ///< surfaces may be drawn by every pixel, with their rims
-    float bend = TriangleBuilder::default_bend;  ///< that their coarse grids leave out
+    bool has_fine_grid = true;  ///< surfaces may be drawn with one vertex per pixel, with rims
+    float bend = TriangleBuilder::default_bend;  ///< least bend that splits a cell of a coarse grid
 };
 
-/// From the best to the cheapest, by rank.
+/// All preparation levels from the best to the cheapest, ordered by rank.
 std::span<const PrepareLevel> prepare_levels();
 
-/// Makes instants of the rigs' depth views, on the GPU. Belongs to one thread and to the context
-/// that was current at construction. What is learnt along time is kept here, in seconds.
+/// Turns the rigs' depth views into instants on the GPU. Belongs to one thread and to the context
+/// that was current at construction. Subclasses keep what they learn over time; times are in
+/// seconds.
 class InstantPreparer {
   public:
     virtual ~InstantPreparer() = default;
 
-    /// Takes the views of the next instant, filmed `dt_s` after the one before: uploads them and
-    /// learns from them. Views may differ in size, lack depth, or be one or none.
+    /// Uploads the views of the next instant, exposed `dt_s` after the one before, and learns from
+    /// them. Views may differ in size and may lack depth; there may be one view or none.
     virtual void take(std::span<const DepthView> views, double dt_s) = 0;
 
-    /// The instant that was taken last, ready to be rendered from `target` and near it. May be
-    /// called again for another target or a better level.
+    /// Returns the last taken instant, ready to be rendered from `target` and nearby. May be called
+    /// again for another target or a better level.
     virtual std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                                    const PrepareLevel& level) = 0;
 
-    /// Does a piece of work that betters later instants, and waits for what of it has a thread of
-    /// its own. `target`: what they are wished for.
+    /// Refines what later instants are made from, as far as rendering from `target` needs it, until
+    /// nothing is left to do. Waits for work that runs on a thread of its own.
     virtual void improve(const VirtualView& target) {
         while (improve_a_step(target)) continue;
     }
-    /// A step of that, as long as a pass takes, where there is no time for more. True: more of the
-    /// same work is left.
+    /// Does one step of improve(), about as long as one pass takes. Returns true if more steps of
+    /// the same work are left.
     virtual bool improve_a_step(const VirtualView& /*target*/) { return false; }
 
-    /// Goes through all that these views may ever need, and learns nothing of them: a driver
-    /// compiles a shader when it is first drawn with, which takes seconds for all of them.
-    /// Precondition: nothing was taken yet, or it may be forgotten.
+    /// Runs every pass that these views may ever need and learns nothing: a driver compiles a
+    /// shader when it is first used, which takes seconds for all of them. Precondition: nothing was
+    /// taken yet, or it may be forgotten.
     virtual void warm_up(std::span<const DepthView> /*views*/, const VirtualView& /*target*/) {}
 
-    /// The next instant does not follow the last one (a cut): nothing that moves goes on. What
-    /// stands still is still known.
+    /// Announces that the next instant does not follow the last one (a cut). Forgets what was
+    /// tracked of moving things and keeps the background.
     virtual void cut() {}
 
-    /// What it learns of the set; null: nothing.
+    /// Returns access to the learnt background, or null if the preparer learns none.
     virtual BackgroundAccess* background_access() { return nullptr; }
+};
+
+/// Prepares the rigs' images and depth maps unchanged and triangulates their grids.
+class PlainPreparer final : public InstantPreparer {
+  public:
+    /// `takes_all` also takes views without depth; their surfaces are one pixel of unknown depth.
+    explicit PlainPreparer(const ShaderLibrary& library, bool takes_all = false)
+        : triangles_(library), takes_all_(takes_all) {}
+
+    void take(std::span<const DepthView> views, double dt_s) override;
+    std::shared_ptr<const Instant> prepare(const VirtualView& target,
+                                           const PrepareLevel& level) override;
+
+  private:
+    RecyclePool<RigSurface> surfaces_;
+    std::unique_ptr<ColourCorrector> corrector_;
+    std::unique_ptr<DepthUploader> uploader_;
+    TriangleBuilder triangles_;
+    bool takes_all_;
+    std::shared_ptr<const Instant> instant_ = std::make_shared<Instant>();
 };
 
 }  // namespace vantage

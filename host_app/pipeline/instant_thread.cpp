@@ -3,49 +3,46 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
-#include "common/base/time/time.h"
 #include "common/base/time/time_budget.h"
 #include "common/gl/context/context_loss.h"
 #include "common/gl/context/driver_lock.h"
 #include "common/gl/context/limits.h"
 #include "common/gl/objects/fence.h"
 #include "common/gl/sliced_drawing.h"
+#include "host_app/pipeline/rig_demand.h"
 #include "host_app/refine/multi_view_refinement.h"
-#include "host_app/views/depth_views.h"
 
 namespace vantage {
 namespace {
 
-/// What a slice may hold up another context's picture for.
+/// Longest time that one slice of drawing may delay a frame on another context.
 constexpr std::chrono::milliseconds slice{4};
-/// Of the time, while pictures are rendered beside.
-constexpr double least_preparing = 0.4;
-/// How long the thread waits for a set before it looks at what is wished.
-constexpr std::chrono::milliseconds patience{5};
-/// For an instant, at the end.
-constexpr std::chrono::seconds longest_preparation{10};
-/// After a fault, before everything is made anew.
-constexpr std::chrono::milliseconds recovery{200};
-/// Between two looks at whether what is held could be better.
-constexpr std::chrono::milliseconds refinements{100};
-/// A set is bettered when no instant waits; but a computer that is never done with them does it
-/// too, for this share of the time. What was left of it counts for so long.
-constexpr double least_improving = 0.1;
-constexpr std::chrono::milliseconds longest_carried{200};
-/// Instants further apart have nothing to say to each other.
-constexpr double longest_gap_s = 1;
+/// Least share of the time for preparation while frames are rendered beside it: without it a
+/// renderer that is always late would leave no time for new instants.
+constexpr double min_preparing_share = 0.4;
+/// Longest wait for a frame set before the thread looks at the request again.
+constexpr std::chrono::milliseconds poll_period{5};
+/// Longest time that close() waits for the instant in preparation.
+constexpr std::chrono::seconds max_closing_time{10};
+/// Pause after a fault before the preparer is made anew.
+constexpr std::chrono::milliseconds recovery_pause{200};
+/// Least time between two checks whether a held instant can be prepared better.
+constexpr std::chrono::milliseconds refinement_period{100};
+/// The background is refined when no frame set waits. A computer that always has one waiting
+/// spends this share of the time on it too; unused time counts for so long.
+constexpr double min_refining_share = 0.1;
+constexpr std::chrono::milliseconds refining_memory{200};
+/// Instants that lie further apart do not follow each other: nothing that moves is tracked across.
+constexpr double max_gap_s = 1;
 
-constexpr std::uint64_t no_pulse = ~std::uint64_t{0};
+/// Ends preparation when the request has jumped in time meanwhile.
+struct JumpedInTime {};
 
-/// Something else is wished for.
-struct GaveWay {};
-
-std::optional<TaiTime> exposure_of(const FrameSet& set) {
+std::optional<TaiTime> earliest_exposure(const FrameSet& set) {
     std::optional<TaiTime> exposure;
     for (const FrameSet::Slot& slot : set.slots)
         if (slot.frame && (!exposure || slot.frame->exposure < *exposure))
@@ -53,8 +50,8 @@ std::optional<TaiTime> exposure_of(const FrameSet& set) {
     return exposure;
 }
 
-/// Whether what was prepared for `before` would be another instant, or a better one, for `wish`.
-bool is_better(const InstantRequest& request, const InstantRequest& before) {
+/// Whether preparing for `request` would give another or a better instant than for `before`.
+bool differs(const InstantRequest& request, const InstantRequest& before) {
     const auto is_elsewhere = [](const VirtualView& view, const VirtualView& other) {
         return !view.world_from_camera.isApprox(other.world_from_camera, 1e-6);
     };
@@ -62,11 +59,11 @@ bool is_better(const InstantRequest& request, const InstantRequest& before) {
            (request.preview && (!before.preview || is_elsewhere(*request.preview, *before.preview)));
 }
 
-/// Those of the first set. Where others of so many rigs are yet to come, one that is there stands
-/// for them too, a little further on each: shaders differ by the number of rigs that are compared,
-/// and what rigs do for each other is rehearsed before the show, not in it.
-std::vector<DepthView> for_warm_up(std::vector<DepthView> views, std::size_t rigs) {
-    // Further apart than a rig's own two cameras, so that others tell something new.
+/// Adds copies of a view, moved aside, until there are as many views as `rigs` or as refinement
+/// compares. Shaders differ by the number of compared rigs, and all of them are compiled at warm-up
+/// even if some rigs are not there yet.
+std::vector<DepthView> padded_for_warm_up(std::vector<DepthView> views, std::size_t rigs) {
+    // Further apart than a rig's own two cameras, or the comparison would be left out.
     constexpr double apart_baselines = 5;
     const std::size_t compared = std::min(rigs, MultiViewRefinement::max_others + 1);
     while (!views.empty() && views.size() < compared) {
@@ -78,7 +75,7 @@ std::vector<DepthView> for_warm_up(std::vector<DepthView> views, std::size_t rig
     return views;
 }
 
-/// The first, and what rigs the second has besides.
+/// Returns `first` with the rigs that only `second` has appended.
 std::shared_ptr<const Instant> joined(std::shared_ptr<const Instant> first, const Instant& second) {
     std::vector<InstantRig> more;
     for (const InstantRig& rig : second.rigs)
@@ -91,25 +88,81 @@ std::shared_ptr<const Instant> joined(std::shared_ptr<const Instant> first, cons
     return both;
 }
 
-StageFeed kept(StageFeed feed, ReplayBuffer& replay, std::size_t bytes) {
-    return bytes > 0 ? kept_feed(std::move(feed), replay) : feed;
-}
-
 }  // namespace
+
+/// The thread's loop and the state that it alone uses, which outlives a fault.
+class InstantThread::Loop {
+  public:
+    explicit Loop(InstantThread& owner)
+        : owner_(owner),
+          settings_(owner.settings_),
+          views_(settings_.colours, settings_.compensate_gains, settings_.pulse_rate_hz),
+          preparers_(*owner.contexts_, settings_.background) {}
+
+    /// Runs until the thread is stopped. After a fault everything on the GPU is made anew.
+    void run();
+
+  private:
+    void prepare_until_stopped();
+    /// Reads what is requested. Returns false if the thread is to stop.
+    bool begin_round(InstantRequest& request, Maker& maker);
+    /// Prepares a frame set, or refines, or waits for a short time.
+    void run_round(const InstantRequest& request);
+    void answer_background_requests();
+    /// Changes to the requested synthesiser and prepares the shown frame set for it.
+    void change_synthesiser(const Maker& maker, const InstantRequest& request,
+                            const ShaderLibrary& shaders);
+    /// Returns the frame set to prepare next, or nothing after a short wait.
+    std::optional<FrameSetSource::Past> next_set(const InstantRequest& request);
+    std::optional<FrameSet> take_live();
+    /// Compiles the shaders with the first frame set. That takes seconds: a newer live frame set
+    /// that arrived meanwhile replaces it.
+    void warm_up(FrameSet& set, const InstantRequest& request);
+    void prepare_set(FrameSetSource::Past next, const InstantRequest& request,
+                     MonotonicTime taken_up);
+    /// Prepares the shown instant again if the request asks for a better or another one.
+    void refine_shown(const InstantRequest& request);
+    void refine_background(const InstantRequest& request);
+    /// Asks the rigs that the views need to send, and the others to stop.
+    void ask_for_rigs(std::span<const DepthView> views, const InstantRequest& request);
+    /// Prepares `ready` for the request and makes it the newest instant.
+    void publish(ReadyInstant ready, const InstantRequest& request, MonotonicTime start);
+    /// Does the work and returns true; or returns false if a jump in time cancelled it.
+    template <class Work>
+    bool unless_time_jumps(const InstantRequest& request, const Work& work);
+    void cancel_if_time_jumped() const;
+    void wait_briefly();
+
+    InstantThread& owner_;
+    const Settings& settings_;
+    FrameSetViews views_;
+    RigDemand demand_;
+    PreparerPool preparers_;
+    std::shared_ptr<InstantPreparer> preparer_;  ///< null: none was asked for yet
+    ReadyInstant last_;                          ///< the newest instant
+    std::optional<double> last_pulse_;           ///< with its share; of the last frame set taken
+    std::optional<InstantRequest> prepared_;     ///< what the newest instant was prepared for
+    MonotonicTime refined_{};                    ///< when refine_shown() ran last
+    TimeBudget refining_{min_refining_share, refining_memory, MonotonicClock::now()};
+    bool is_retaking_ = false;  ///< a new preparer is taking the shown frame set
+    bool is_warmed_up_ = false;
+    /// The jump count of the work in progress, which a further jump cancels; empty: none does.
+    std::optional<std::uint64_t> cancelling_jumps_;
+    std::uint64_t prepared_jumps_ = 0;  ///< jump count of the last frame set's request
+};
 
 InstantThread::InstantThread(Settings settings, StageFeed feed, ContextGroup& contexts)
     : settings_(std::move(settings)),
       contexts_(&contexts),
-      replay_(settings_.replay_bytes),
-      sets_(kept(std::move(feed), replay_, settings_.replay_bytes)),
-      thread_([this] { run(); }) {}
+      source_(std::move(feed), settings_.replay_bytes, settings_.take),
+      thread_([this] { Loop(*this).run(); }) {}
 
 InstantThread::~InstantThread() {
     {
         const std::lock_guard lock(mutex_);
         is_stopping_ = true;
     }
-    woken_.notify_all();
+    stop_requested_.notify_all();
     thread_.join();
 }
 
@@ -130,7 +183,7 @@ void InstantThread::learn_background_anew() {
 
 std::future<Background> InstantThread::background() {
     const std::lock_guard lock(mutex_);
-    return asked_for_background_.emplace_back().get_future();
+    return background_requests_.emplace_back().get_future();
 }
 
 std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
@@ -139,381 +192,310 @@ std::shared_ptr<const ReadyInstant> InstantThread::newest() const {
     return newest_;
 }
 
-InstantThread::Stats InstantThread::stats() const {
-    const std::lock_guard lock(mutex_);
-    Stats stats = stats_;
-    stats.superseded = sets_.superseded();
-    stats.superseded.sets += failed_.sets;
-    for (const auto& [rig, frames] : failed_.frames) stats.superseded.frames[rig] += frames;
-    stats.prepare_ms = prepare_ms_.summary();
-    stats.rig_steps = {capture_ms_.summary(), rectify_ms_.summary(), match_ms_.summary(),
-                       pack_ms_.summary()};
-    return stats;
-}
-
 ReceiverStatus InstantThread::close() {
-    ReceiverStatus status = sets_.close();
-    // The look under way may have taken a set before that; the second one after it has none left.
+    ReceiverStatus status = source_.close();
+    // The round in progress may have taken a frame set before the feed was closed; when the round
+    // after the next begins, none is left in preparation.
     std::unique_lock lock(mutex_);
-    const std::uint64_t before = looks_;
-    looked_.wait_for(lock, longest_preparation,
-                     [&] { return is_stopping_ || looks_ >= before + 2; });
+    const std::uint64_t before = rounds_;
+    round_begun_.wait_for(lock, max_closing_time,
+                          [&] { return is_stopping_ || rounds_ >= before + 2; });
     return status;
 }
 
-void InstantThread::run() {
+void InstantThread::Loop::run() {
     name_this_thread("instants");
-    std::uint64_t lost = 0;  ///< generation of contexts; 0: none
+    std::uint64_t lost_generation = 0;  // 0: none
     for (;;) {
         try {
-            contexts_->renew(lost);
-            prepare_instants();
+            owner_.contexts_->renew(lost_generation);
+            prepare_until_stopped();
             return;
         } catch (const ContextLost& error) {
-            log_warning("what was prepared is made anew on new contexts: {}", error.what());
-            if (!generations_.empty()) lost = generations_.back().member.generation;
+            log_warning("the GPU was reset and instants are prepared anew: {}", error.what());
+            if (preparers_.generation() > 0) lost_generation = preparers_.generation();
         } catch (const std::exception& error) {
-            log_error("an instant could not be prepared, and its preparer is made anew: {}",
+            log_error("an instant could not be prepared; its preparer is made anew: {}",
                       error.what());
         }
-        std::unique_lock lock(mutex_);
-        ++stats_.faults;
-        count_unprepared();
-        if (woken_.wait_for(lock, recovery, [&] { return is_stopping_; })) return;
+        owner_.stats_.note_fault();
+        preparer_.reset();
+        prepared_.reset();
+        std::unique_lock lock(owner_.mutex_);
+        if (owner_.stop_requested_.wait_for(lock, recovery_pause,
+                                            [&] { return owner_.is_stopping_; }))
+            return;
     }
 }
 
-std::optional<FrameSet> InstantThread::next_set(const InstantRequest& request, std::uint64_t shown_pulse,
-                                                double& share) {
-    const DriverLock::Pause pause;
-    share = 0;
-    if (!request.pulse && !request.is_held) {
-        fetched_.reset();
+void InstantThread::Loop::prepare_until_stopped() {
+    const ContextGroup::Member member = preparers_.join(last_.synthesiser);
+    const DriverLock turn(owner_.contexts_->driver());
+    const CurrentContext current(*member.context);
+    require_context("instants were prepared");
+    const SlicedDrawing slices(
+        slice, &owner_.render_priority_, [this] { cancel_if_time_jumped(); }, min_preparing_share);
+    const ShaderLibrary shaders;
+    InstantRequest request;
+    Maker maker;
+    while (begin_round(request, maker)) {
+        if (owner_.contexts_->generation() != member.generation)
+            throw ContextLost("another thread found the GPU reset");
+        preparers_.release_unused();
+        answer_background_requests();
+        if (maker.make && (!preparer_ || last_.synthesiser != maker.synthesiser))
+            change_synthesiser(maker, request, shaders);
+        if (preparer_)
+            run_round(request);
+        else
+            wait_briefly();
+    }
+    // Instants that others still hold keep their preparer; the rest ends on this context.
+    {
+        const std::lock_guard lock(owner_.mutex_);
+        owner_.newest_.reset();
+    }
+    last_ = {};
+    preparer_.reset();
+    preparers_.clear();
+}
+
+bool InstantThread::Loop::begin_round(InstantRequest& request, Maker& maker) {
+    const std::lock_guard lock(owner_.mutex_);
+    if (owner_.is_stopping_) return false;
+    ++owner_.rounds_;
+    owner_.round_begun_.notify_all();
+    request = owner_.request_;
+    maker = owner_.maker_;
+    return true;
+}
+
+void InstantThread::Loop::run_round(const InstantRequest& request) {
+    MonotonicTime taken_up = MonotonicClock::now();
+    if (std::optional<FrameSetSource::Past> next = next_set(request)) {
+        if (!is_warmed_up_) {
+            warm_up(next->set, request);
+            taken_up = MonotonicClock::now();
+        }
+        prepare_set(std::move(*next), request, taken_up);
+    } else if (request.pulse || request.is_held) {
+        refine_shown(request);
+    } else if (prepared_) {
+        refine_background(request);
+    }
+}
+
+void InstantThread::Loop::answer_background_requests() {
+    bool learns_anew = false;
+    std::vector<std::promise<Background>> requests;
+    {
+        const std::lock_guard lock(owner_.mutex_);
+        learns_anew = std::exchange(owner_.learns_anew_, false);
+        requests = std::exchange(owner_.background_requests_, {});
+    }
+    BackgroundAccess* access = preparer_ ? preparer_->background_access() : nullptr;
+    if (learns_anew) preparers_.learn_background_anew();
+    for (std::promise<Background>& request : requests) {
         try {
-            return sets_.take(patience);
+            if (preparer_ && !access)
+                fail(
+                    "the synthesiser {} learns no background: choose another with --synth or the "
+                    "F2 key",
+                    last_.synthesiser);
+            Background background = access ? access->learnt() : Background();
+            if (background.rigs.empty())
+                fail(
+                    "nothing is known of the background yet, since no rig has shown any: wait for "
+                    "the first frames");
+            request.set_value(std::move(background));
+        } catch (const ContextLost&) {
+            request.set_exception(std::make_exception_ptr(Error(
+                "the GPU was reset while the background was read from it: save it again")));
+            throw;
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            failure_ = std::current_exception();
-            is_stopping_ = true;
-            return std::nullopt;
+            request.set_exception(std::current_exception());
         }
     }
-    // Once only: what is shown stays, though the buffer drops its set meanwhile.
-    if (request.pulse && request.pulse != fetched_) {
-        fetched_ = request.pulse;
-        if (std::optional<FrameSet> set = past_frame_set(request, shown_pulse, share)) return set;
+}
+
+void InstantThread::Loop::change_synthesiser(const Maker& maker, const InstantRequest& request,
+                                             const ShaderLibrary& shaders) {
+    preparer_ = preparers_.preparer_of(maker.synthesiser, maker.make, shaders);
+    last_.synthesiser = maker.synthesiser;
+    last_pulse_.reset();
+    prepared_.reset();
+    // Tried once: if it fails, the next frame set is prepared instead.
+    if (last_.set && !std::exchange(is_retaking_, true)) {
+        const MonotonicTime start = MonotonicClock::now();
+        preparer_->cut();
+        preparer_->take(views_.views_of(*last_.set, false), 0);
+        publish(last_, request, start);
+        prepared_ = request;
     }
-    std::unique_lock lock(mutex_);
-    woken_.wait_for(lock, patience, [&] { return is_stopping_; });
+    is_retaking_ = false;
+}
+
+std::optional<FrameSetSource::Past> InstantThread::Loop::next_set(const InstantRequest& request) {
+    const DriverLock::Pause pause;
+    if (!request.pulse && !request.is_held) {
+        std::optional<FrameSet> set = take_live();
+        if (!set) return std::nullopt;
+        return FrameSetSource::Past{std::move(*set), 0};
+    }
+    if (request.pulse) {
+        // After a cancelled preparation the preparer holds a part of another frame set: then the
+        // shown one is taken again too.
+        const std::optional<std::uint64_t> shown =
+            prepared_ && last_.set ? std::optional(last_.set->trigger_index) : std::nullopt;
+        if (auto past = owner_.source_.take_past(*request.pulse, request.moments_per_pulse, shown,
+                                                 last_.share))
+            return past;
+    }
+    wait_briefly();
     return std::nullopt;
 }
 
-std::optional<FrameSet> InstantThread::past_frame_set(const InstantRequest& request, std::uint64_t shown_pulse,
-                                                double& share) {
-    const std::optional<std::uint64_t> there = past().pulse_at(*request.pulse);
-    if (!there) return std::nullopt;
-    const double passed = *request.pulse - static_cast<double>(*there);
-    const double moment = 1.0 / request.moments_a_pulse;
-    // A pulse that the past lacks is not made up for: then the one before it is shown. What was
-    // filmed comes before what is made.
-    if (request.moments_a_pulse > 1 && passed >= moment / 2 && passed < 1) share = passed;
-    if (*there == shown_pulse &&
-        (request.moments_a_pulse == 1 || std::abs(share - last_.share) < 0.999 * moment)) {
-        share = 0;
+std::optional<FrameSet> InstantThread::Loop::take_live() {
+    try {
+        return owner_.source_.take_live(poll_period);
+    } catch (...) {
+        const std::lock_guard lock(owner_.mutex_);
+        owner_.failure_ = std::current_exception();
+        owner_.is_stopping_ = true;
         return std::nullopt;
     }
-    return share > 0 ? between_.at(past(), *there, share) : past().at(*request.pulse);
 }
 
-std::vector<DepthView> InstantThread::views_of(const FrameSet& set, bool is_counted) {
+void InstantThread::Loop::wait_briefly() {
     const DriverLock::Pause pause;
-    std::vector<DepthView> views = depth_views_of(set, settings_.colours);
-    if (!settings_.compensate_gains) return views;
-    if (is_counted) {
-        const double pulses = last_compensated_ && set.trigger_index > *last_compensated_
-                                  ? static_cast<double>(set.trigger_index - *last_compensated_)
-                                  : 0;
-        gain_compensation_.see(views, pulses / settings_.pulse_rate_hz);
-        last_compensated_ = set.trigger_index;
-    }
-    for (DepthView& view : views) gain_compensation_.apply(view);
-    return views;
+    std::unique_lock lock(owner_.mutex_);
+    owner_.stop_requested_.wait_for(lock, poll_period, [&] { return owner_.is_stopping_; });
 }
 
-void InstantThread::ask_for_rigs(std::span<const DepthView> views, const InstantRequest& request) {
+void InstantThread::Loop::warm_up(FrameSet& set, const InstantRequest& request) {
+    owner_.stats_.begin(set);
+    preparer_->warm_up(padded_for_warm_up(views_.views_of(set, false), set.slots.size()),
+                       request.target);
+    is_warmed_up_ = true;
+    if (!request.pulse) {
+        if (std::optional<FrameSet> newer = owner_.source_.take_live()) {
+            owner_.stats_.drop();
+            set = std::move(*newer);
+        }
+    }
+    owner_.stats_.cancel();
+}
+
+void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRequest& request,
+                                      MonotonicTime taken_up) {
+    const MonotonicTime start = MonotonicClock::now();
+    const bool is_live = !request.pulse;
+    const bool is_counted = next.share == 0 && (is_live || owner_.source_.has_take());
+    if (is_counted) owner_.stats_.begin(next.set);
+    const double pulse = static_cast<double>(next.set.trigger_index) + next.share;
+    // Time may run backwards; that is no cut.
+    const double dt_s = last_pulse_ ? std::abs(pulse - *last_pulse_) / settings_.pulse_rate_hz
+                                    : 2 * max_gap_s;
+    if (dt_s > max_gap_s) preparer_->cut();
+    last_pulse_ = pulse;
+    const std::vector<DepthView> views = views_.views_of(next.set, is_counted);
+    // While the past is shown, the camera says nothing about the rigs that are needed live.
+    if (is_live) ask_for_rigs(views, request);
+    const auto prepare = [&] {
+        preparer_->take(views, std::min(dt_s, max_gap_s));
+        ReadyInstant ready = last_;
+        ready.set = std::make_shared<const FrameSet>(std::move(next.set));
+        ready.share = next.share;
+        ready.exposure = earliest_exposure(*ready.set);
+        ready.is_live = is_live;
+        ready.taken_up = taken_up;
+        ready.fetch_ms = to_ms(start - taken_up);
+        publish(std::move(ready), request, start);
+    };
+    // The first frame set after a jump is always finished, so that a jog shows what it passes.
+    const bool follows_jump = std::exchange(prepared_jumps_, request.jumps) != request.jumps;
+    if (follows_jump) {
+        prepare();
+    } else if (!unless_time_jumps(request, prepare)) {
+        owner_.stats_.drop();
+        prepared_.reset();
+        return;
+    }
+    prepared_ = request;
+    const BackgroundAccess* background = preparer_->background_access();
+    owner_.stats_.note_prepared(
+        {.set = *last_.set,
+         .is_counted = is_counted,
+         .is_interpolated = last_.share > 0,
+         .prepare_ms = last_.prepare_ms,
+         .gain_compensation = views_.gains(),
+         .backgrounds = background ? background->states() : std::vector<RigBackgroundState>()});
+    if (is_live && refining_.has_some(MonotonicClock::now())) refine_background(request);
+}
+
+void InstantThread::Loop::refine_shown(const InstantRequest& request) {
+    const MonotonicTime start = MonotonicClock::now();
+    if (!prepared_ || !differs(request, *prepared_) || start - refined_ <= refinement_period)
+        return;
+    if (unless_time_jumps(request, [&] { publish(last_, request, start); })) prepared_ = request;
+    refined_ = start;
+}
+
+void InstantThread::Loop::refine_background(const InstantRequest& request) {
+    const MonotonicTime start = MonotonicClock::now();
+    (void)unless_time_jumps(request, [&] { preparer_->improve_a_step(request.target); });
+    refining_.spend(MonotonicClock::now() - start);
+}
+
+void InstantThread::Loop::ask_for_rigs(std::span<const DepthView> views,
+                                       const InstantRequest& request) {
     demand_.see(views);
     if (request.target.width_px == 0) return;
     std::vector<VirtualView> targets{request.target};
     if (request.preview) targets.push_back(*request.preview);
     for (const RigDemand::Change& change : demand_.update(targets, MonotonicClock::now())) {
         log_info("asking rig {} to {} sending", change.rig, change.streaming ? "start" : "stop");
-        sets_.ask(change.rig, change.streaming);
+        owner_.source_.ask(change.rig, change.streaming);
     }
 }
 
-void InstantThread::publish(ReadyInstant ready, const InstantRequest& request,
-                            const std::shared_ptr<InstantPreparer>& preparer, MonotonicTime start) {
-    ready.instant = preparer->prepare(request.target, request.level);
+void InstantThread::Loop::publish(ReadyInstant ready, const InstantRequest& request,
+                                  MonotonicTime start) {
+    ready.instant = preparer_->prepare(request.target, request.level);
     if (request.preview && request.level.rank == 0)
-        ready.instant = joined(ready.instant, *preparer->prepare(*request.preview, request.level));
-    ready.preparer = preparer;
-    ready.generation = generations_.back().member.generation;
+        ready.instant = joined(ready.instant, *preparer_->prepare(*request.preview, request.level));
+    ready.preparer = preparer_;
+    ready.generation = preparers_.generation();
     Fence::insert().wait("an instant was waited for");
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
     ++ready.number;
     last_ = std::move(ready);
-    const std::lock_guard lock(mutex_);
-    newest_ = std::make_shared<const ReadyInstant>(last_);
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.newest_ = std::make_shared<const ReadyInstant>(last_);
 }
 
-void InstantThread::tend_background(InstantPreparer* preparer) {
-    bool learns_anew = false;
-    std::vector<std::promise<Background>> asked;
-    {
-        const std::lock_guard lock(mutex_);
-        learns_anew = std::exchange(learns_anew_, false);
-        asked = std::exchange(asked_for_background_, {});
-    }
-    BackgroundAccess* memory = preparer ? preparer->background_access() : nullptr;
-    if (learns_anew) {
-        // Also not after a reset of the GPU, nor for another synthesiser.
-        settings_.set = nullptr;
-        for (const auto& [synthesiser, each] : generations_.back().preparers)
-            if (BackgroundAccess* one = each->background_access()) one->learn_anew();
-    }
-    for (std::promise<Background>& one : asked) {
-        try {
-            if (preparer && !memory)
-                fail("the synthesiser {} learns no set: choose another (--synth, F2)",
-                     last_.synthesiser);
-            Background set = memory ? memory->learnt() : Background();
-            if (set.rigs.empty()) fail("nothing is known of the set: no rig has shown any yet");
-            one.set_value(std::move(set));
-        } catch (const ContextLost&) {
-            one.set_exception(std::make_exception_ptr(
-                Error("the GPU was reset while the set was read from it; save it again")));
-            throw;
-        } catch (...) {
-            one.set_exception(std::current_exception());
-        }
-    }
-}
-
-void InstantThread::let_go_of_preparers() {
-    const auto let_go = [](Generation& one) {
-        std::erase_if(one.retired, [](const auto& each) { return each.use_count() == 1; });
-    };
-    let_go(generations_.back());
-    if (generations_.size() == 1) return;
-    const CurrentContext none{CurrentContext::None{}};
-    for (auto one = generations_.begin(); one != generations_.end() - 1; ++one) {
-        for (auto& [synthesiser, preparer] : std::exchange(one->preparers, {}))
-            one->retired.push_back(std::move(preparer));
-        let_go(*one);
-    }
-    std::erase_if(generations_, [&](const Generation& one) {
-        return one.retired.empty() && &one != &generations_.back();
-    });
-}
-
-std::shared_ptr<InstantPreparer> InstantThread::preparer_of(const Maker& maker,
-                                                            const ShaderLibrary& shaders) {
-    auto& known = generations_.back().preparers;
-    if (const auto at = known.find(maker.synthesiser); at != known.end()) return at->second;
-    std::shared_ptr<InstantPreparer> preparer = maker.make(shaders);
-    if (BackgroundAccess* memory = preparer->background_access()) memory->begin_with(settings_.set);
-    return known[maker.synthesiser] = std::move(preparer);
-}
-
-void InstantThread::give_way_to_jump() const {
-    if (!jumps_) return;
-    const std::lock_guard lock(mutex_);
-    if (request_.jumps != *jumps_) throw GaveWay();
-}
-
-bool InstantThread::unless_time_jumps(const InstantRequest& request, const std::function<void()>& work) {
+template <class Work>
+bool InstantThread::Loop::unless_time_jumps(const InstantRequest& request, const Work& work) {
     bool is_done = true;
-    jumps_ = request.jumps;
+    cancelling_jumps_ = request.jumps;
     try {
         work();
-    } catch (const GaveWay&) {
+    } catch (const JumpedInTime&) {
         is_done = false;
     } catch (...) {
-        // Of what is made anew after a fault nothing gives way.
-        jumps_.reset();
+        // Nothing cancels what is made anew after a fault.
+        cancelling_jumps_.reset();
         throw;
     }
-    jumps_.reset();
+    cancelling_jumps_.reset();
     return is_done;
 }
 
-void InstantThread::count_unprepared() {
-    if (!unprepared_) return;
-    ++failed_.sets;
-    count_frames(*unprepared_, failed_.frames);
-    unprepared_.reset();
-}
-
-void InstantThread::note_prepared(bool is_counted, const BackgroundAccess* memory) {
-    const std::lock_guard lock(mutex_);
-    if (last_.share > 0) ++stats_.between;
-    if (is_counted) {
-        ++stats_.prepared;
-        count_frames(*last_.set, stats_.frames);
-        for (const FrameSet::Slot& slot : last_.set->slots) {
-            if (!slot.frame) continue;
-            capture_ms_.add(slot.frame->times.capture_ms);
-            rectify_ms_.add(slot.frame->times.rectify_ms);
-            match_ms_.add(slot.frame->times.match_ms);
-            pack_ms_.add(slot.frame->times.pack_ms);
-        }
-    }
-    stats_.gain_compensation = gain_compensation_.rigs();
-    stats_.sets = memory ? memory->states() : std::vector<RigBackgroundState>();
-    prepare_ms_.add(last_.prepare_ms);
-}
-
-void InstantThread::warm_up(InstantPreparer& preparer, FrameSet& set, const InstantRequest& request) {
-    unprepared_ = set;
-    preparer.warm_up(for_warm_up(views_of(set, false), set.slots.size()), request.target);
-    is_warmed_up_ = true;
-    std::optional<FrameSet> newer = request.pulse ? std::nullopt : sets_.take();
-    if (newer) {
-        const std::lock_guard lock(mutex_);
-        count_unprepared();
-        set = std::move(*newer);
-    }
-    unprepared_.reset();
-}
-
-void InstantThread::prepare_instants() {
-    if (generations_.empty() || generations_.back().member.generation != contexts_->generation())
-        generations_.push_back({contexts_->join(), {}, {}});
-    else if (auto faulty = generations_.back().preparers.extract(last_.synthesiser))
-        generations_.back().retired.push_back(std::move(faulty.mapped()));
-    const ContextGroup::Member member = generations_.back().member;
-    const DriverLock turn(contexts_->driver());
-    const CurrentContext current(*member.context);
-    require_context("instants were prepared");
-    const SlicedDrawing slices(
-        slice, &way_, [this] { give_way_to_jump(); }, least_preparing);
-    const ShaderLibrary shaders;
-    std::shared_ptr<InstantPreparer> preparer;
-    std::optional<InstantRequest> prepared;  ///< what the newest instant was prepared for
-    MonotonicTime refined{};
-    TimeBudget improving(least_improving, longest_carried, MonotonicClock::now());
-    const auto improve = [&](const InstantRequest& request) {
-        const MonotonicTime start = MonotonicClock::now();
-        (void)unless_time_jumps(request, [&] { preparer->improve_a_step(request.target); });
-        improving.spend(MonotonicClock::now() - start);
-    };
-    for (;;) {
-        InstantRequest request;
-        Maker maker;
-        {
-            const std::lock_guard lock(mutex_);
-            if (is_stopping_) break;
-            ++looks_;
-            looked_.notify_all();
-            request = request_;
-            maker = maker_;
-        }
-        if (contexts_->generation() != member.generation)
-            throw ContextLost("another thread found the GPU reset");
-        let_go_of_preparers();
-        tend_background(preparer.get());
-        if (maker.make && (!preparer || last_.synthesiser != maker.synthesiser)) {
-            preparer = preparer_of(maker, shaders);
-            last_.synthesiser = maker.synthesiser;
-            last_pulse_.reset();
-            prepared.reset();
-            // Once: where that fails the next set has to do.
-            if (last_.set && !std::exchange(is_retaking_, true)) {
-                const MonotonicTime start = MonotonicClock::now();
-                preparer->cut();
-                preparer->take(views_of(*last_.set, false), 0);
-                publish(last_, request, preparer, start);
-                prepared = request;
-            }
-            is_retaking_ = false;
-        }
-        if (!preparer) {
-            const DriverLock::Pause pause;
-            std::unique_lock lock(mutex_);
-            woken_.wait_for(lock, patience, [&] { return is_stopping_; });
-            continue;
-        }
-        // Of a set that was given up half-way the preparer has some: what is shown comes anew too.
-        const std::uint64_t shown = prepared && last_.set ? last_.set->trigger_index : no_pulse;
-        MonotonicTime taken_up = MonotonicClock::now();
-        double share = 0;
-        std::optional<FrameSet> set = next_set(request, shown, share);
-        if (set && !is_warmed_up_) {
-            warm_up(*preparer, *set, request);
-            taken_up = MonotonicClock::now();
-        }
-        const MonotonicTime start = MonotonicClock::now();
-        if (set) {
-            const bool is_live = !request.pulse;
-            // Of a take everything counts; of a stage's past it was counted when it was live.
-            const bool is_counted = share == 0 && (is_live || settings_.take);
-            if (is_counted) unprepared_ = *set;
-            const double pulse = static_cast<double>(set->trigger_index) + share;
-            // Time that runs backwards is no cut.
-            const double dt_s = last_pulse_
-                                    ? std::abs(pulse - *last_pulse_) / settings_.pulse_rate_hz
-                                    : 2 * longest_gap_s;
-            if (dt_s > longest_gap_s) preparer->cut();
-            last_pulse_ = pulse;
-            const std::vector<DepthView> views = views_of(*set, is_counted);
-            // In the past the camera says nothing of what is needed live.
-            if (is_live) ask_for_rigs(views, request);
-            // What was jumped to is made ready in any case, so that a jog shows what it passes.
-            const bool is_sought = std::exchange(fetched_jumps_, request.jumps) != request.jumps;
-            const auto get_ready = [&] {
-                preparer->take(views, std::min(dt_s, longest_gap_s));
-                ReadyInstant next = last_;
-                next.set = std::make_shared<const FrameSet>(std::move(*set));
-                next.share = share;
-                next.exposure = exposure_of(*next.set);
-                next.is_live = is_live;
-                next.taken_up = taken_up;
-                next.fetch_ms = to_ms(start - taken_up);
-                publish(std::move(next), request, preparer, start);
-            };
-            if (is_sought)
-                get_ready();
-            else if (!unless_time_jumps(request, get_ready)) {
-                const std::lock_guard lock(mutex_);
-                count_unprepared();
-                prepared.reset();
-                continue;
-            }
-            prepared = request;
-            unprepared_.reset();
-            note_prepared(is_counted, preparer->background_access());
-            if (is_live && improving.has_some(MonotonicClock::now())) improve(request);
-        } else if (prepared && (request.pulse || request.is_held) && is_better(request, *prepared) &&
-                   start - refined > refinements) {
-            if (unless_time_jumps(request, [&] { publish(last_, request, preparer, start); }))
-                prepared = request;
-            refined = start;
-        } else if (prepared && !request.pulse && !request.is_held) {
-            improve(request);
-        }
-    }
-    // What is left of them goes with its preparer, on this context, or on none if that was lost.
-    {
-        const std::lock_guard lock(mutex_);
-        newest_.reset();
-    }
-    last_ = {};
-    preparer.reset();
-    generations_.back().preparers.clear();
-    generations_.back().retired.clear();
-    const CurrentContext none{CurrentContext::None{}};
-    generations_.clear();
+void InstantThread::Loop::cancel_if_time_jumped() const {
+    if (!cancelling_jumps_) return;
+    const std::lock_guard lock(owner_.mutex_);
+    if (owner_.request_.jumps != *cancelling_jumps_) throw JumpedInTime();
 }
 
 }  // namespace vantage

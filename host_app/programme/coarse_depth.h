@@ -1,25 +1,41 @@
 #pragma once
 
+#include <algorithm>
+
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/readback.h"
 #include "host_app/surfaces/drawn_texture.h"
 
 namespace vantage {
 
-/// What a rendered picture shows, coarsely: the inverse of the nearest depth in every cell of a
-/// grid, read back. The context that was current at construction must be current at every call.
+/// Reduces the depth of a rendered frame to a coarse grid, with the inverse of the nearest depth in
+/// each cell, and reads it back. The context that was current at construction must be current at
+/// every call.
 class CoarseDepth {
   public:
     explicit CoarseDepth(const ShaderLibrary& library) : pass_(library, "coarse_depth.frag") {}
 
-    /// `depth_m` as of ViewRenderer::depth_m().
-    void begin(const Texture& depth_m);
+    /// Starts the reduction; `depth_m` is that of ViewRenderer::depth_m().
+    void begin(const Texture& depth_m) {
+        const cv::Size size = depth_m.size();
+        const int columns = std::min(max_columns, size.width);
+        const cv::Size cells(columns, std::max(1, size.height * columns / size.width));
+        grid_.resize(cells);
+        Program& program = pass_.use();
+        program.set("depth_m", 0);
+        program.set("cells", Eigen::Vector2i(cells.width, cells.height));
+        depth_m.bind(0);
+        pass_.draw(grid_.target());
+        readback_.begin(grid_.texture());
+    }
     bool is_begun() const { return readback_.is_begun(); }
-    /// 1/m, 0 where nothing is; of the picture's shape. Waits until it is here. Precondition:
-    /// is_begun().
+    /// Waits for the grid: inverse depth in 1/m, 0 without a surface, with the aspect ratio of the
+    /// frame. Precondition: is_begun().
     cv::Mat1f take() { return readback_.take(); }
 
   private:
+    static constexpr int max_columns = 160;
+
     FullscreenPass pass_;
     DrawnTexture grid_{TextureFormat::r32f};
     Readback readback_;

@@ -9,28 +9,28 @@
 namespace vantage {
 namespace {
 
-/// Works in a row that do not fit before the level falls; one that is this many times too long
-/// counts for two.
-constexpr int most_misfits = 3;
+/// Number of works in a row that do not fit before the level falls. A work that takes more than
+/// `far_off` times its share counts twice.
+constexpr int max_misfits = 3;
 constexpr double far_off = 2;
-/// Of the time for a work at the next better level, by what it took before or, untried, by what
-/// this one takes.
+/// The level rises if the next better one is expected to take less than this share of its time. For
+/// a level that was not tried the expectation is the present time multiplied by `untried_ratio`.
 constexpr double room = 0.75, untried_ratio = 1.6;
-/// Before the level rises: until it first had to fall, at first then, and at most.
-constexpr double least_patience_s = 0.5, first_patience_s = 2, longest_patience_s = 60;
-/// A level that had to be left within so long after it was risen to was a mistake.
+/// Wait before the level rises: before the first fall, after it, and at most.
+constexpr double min_wait_s = 0.5, first_wait_s = 2, max_wait_s = 60;
+/// Rising was a mistake if the level has to fall within this time.
 constexpr double mistake_s = 5;
+/// Weight of a new sample in the usual time of a level.
 constexpr double mean_share = 0.2;
-/// Of a tick and of the time between two pulses. Rendering has the right of way over preparing:
-/// what it takes, instants are late by. Preparing counts the time that it gave way for.
+/// Shares of a tick for rendering and of the time between two pulses for preparing. Rendering has
+/// priority over preparing and so delays instants. The time of preparing includes these delays.
 constexpr double rendering_share = 0.65, preparing_share = 0.9;
-/// Where the cheapest instants do not fit beside it rendering has to do with less, instant by
-/// instant, down to the least; where they have room it gets that back.
-constexpr double least_rendering_share = 0.3, lesser = 0.93, more = 1.03;
-/// A picture that is reprojected meanwhile may take half of the time between two pulses, but no
-/// more than this.
-constexpr double longest_picture_ms = 100;
-/// Of the 200 ms that a jump in time may last.
+/// If the cheapest instants do not fit, the share of rendering is reduced by a factor at every
+/// instant, down to a minimum; if they fit with room, it is raised again.
+constexpr double min_rendering_share = 0.3, reduction = 0.93, recovery_factor = 1.03;
+/// Upper limit for a frame that is reprojected meanwhile, besides half of the time between pulses.
+constexpr double max_frame_ms = 100;
+/// Time to prepare the instant after a jump in time, which shall take 200 ms in all.
 constexpr double sought_ms = 80;
 
 double seconds(MonotonicTime from, MonotonicTime to) {
@@ -40,11 +40,11 @@ double seconds(MonotonicTime from, MonotonicTime to) {
 }  // namespace
 
 LevelChooser::LevelChooser(std::size_t levels, double share)
-    : share_(share), usual_ms_(levels), spent_s_(levels), patience_s_(first_patience_s) {}
+    : share_(share), usual_ms_(levels), spent_s_(levels), wait_s_(first_wait_s) {}
 
 void LevelChooser::begin_with_the_cheapest() {
     level_ = usual_ms_.size() - 1;
-    patience_s_ = least_patience_s;
+    wait_s_ = min_wait_s;
 }
 
 void LevelChooser::fix(std::size_t level) {
@@ -78,13 +78,13 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     misfits_ = work_ms > far_off * allowed_ms ? misfits_ + 2
                : work_ms > allowed_ms         ? misfits_ + 1
                                               : 0;
-    if (misfits_ >= most_misfits && level_ + 1 < usual_ms_.size()) {
-        // One that was risen to and left soon: wait longer before the next try. One that held: its
-        // times are past.
+    if (misfits_ >= max_misfits && level_ + 1 < usual_ms_.size()) {
+        // After a rise that did not hold, wait longer before the next one; a level that held resets
+        // the wait.
         if (seconds(*since_, now) >= mistake_s)
-            patience_s_ = first_patience_s;
+            wait_s_ = first_wait_s;
         else if (is_risen_to_)
-            patience_s_ = std::clamp(2 * patience_s_, first_patience_s, longest_patience_s);
+            wait_s_ = std::clamp(2 * wait_s_, first_wait_s, max_wait_s);
         std::size_t cheaper = level_ + 1;
         for (double ms = work_ms / untried_ratio; ms > allowed_ms && cheaper + 1 < usual_ms_.size();
              ms /= untried_ratio)
@@ -96,16 +96,15 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     const std::optional<double>& refine_ms = usual_ms_[level_ - 1];
     const double expected_ms = untried_ratio * *usual_ms;
     const bool fits = std::min(refine_ms.value_or(expected_ms), expected_ms) <= room * allowed_ms;
-    // Where most of the time is the same at every level the next one takes less than expected: one
-    // that was never tried is, once this one has room.
+    // If most of the time is the same at every level, an untried one takes less than expected, so
+    // it is tried once this level has room.
     const bool is_worth_a_try = !refine_ms && *usual_ms <= room * allowed_ms;
     if (!fits && !is_worth_a_try) {
         fitting_since_.reset();
         return;
     }
     if (!fitting_since_) fitting_since_ = now;
-    if (seconds(*fitting_since_, now) >= (fits ? patience_s_ : first_patience_s))
-        go_to(level_ - 1, now);
+    if (seconds(*fitting_since_, now) >= (fits ? wait_s_ : first_wait_s)) go_to(level_ - 1, now);
 }
 
 std::vector<double> LevelChooser::shares(MonotonicTime now) const {
@@ -123,7 +122,7 @@ QualityRequest QualityRequest::parse(const std::string& text) {
     std::size_t level = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), level);
     if (fault != std::errc() || end != text.data() + text.size() || level >= render_levels().size())
-        fail("--quality is best, auto or a level from 0 (the best) to {}, not '{}'",
+        fail("--quality must be best, auto or a level from 0 (the best) to {}, but it is '{}'",
              render_levels().size() - 1, text);
     return {level};
 }
@@ -137,16 +136,16 @@ void Governor::saw_prepare(int rank, double ms, MonotonicTime now) {
     prepare_.saw(static_cast<std::size_t>(rank), ms, instant_ms_, now);
     const double allowed_ms = preparing_share * instant_ms_;
     if (is_cheapest && ms > allowed_ms)
-        rendering_share_ = std::max(least_rendering_share, lesser * rendering_share_);
+        rendering_share_ = std::max(min_rendering_share, reduction * rendering_share_);
     else if (ms < room * allowed_ms)
-        rendering_share_ = std::min(rendering_share, more * rendering_share_);
+        rendering_share_ = std::min(rendering_share, recovery_factor * rendering_share_);
     render_.set_share(rendering_share_);
 }
 
 void Governor::saw_past_instant(double ms) {
-    constexpr std::size_t judged_instants = 5;
+    constexpr std::size_t max_samples = 5;
     past_ms_.push_back(ms);
-    if (past_ms_.size() > judged_instants) past_ms_.pop_front();
+    if (past_ms_.size() > max_samples) past_ms_.pop_front();
 }
 
 int Governor::moments_a_pulse(double speed) const {
@@ -162,12 +161,11 @@ int Governor::moments_a_pulse(double speed) const {
 Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& request)
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
-      carried_picture_ms_(std::max(tick_ms_, std::min(longest_picture_ms, 0.5 * instant_ms_))),
+      reprojected_frame_ms_(std::max(tick_ms_, std::min(max_frame_ms, 0.5 * instant_ms_))),
       rendering_share_(rendering_share),
       render_(render_levels().size(), rendering_share),
       prepare_(prepare_levels().size(), preparing_share) {
-    // What a GPU can do is found out from below: pictures that come in time first, better ones
-    // then.
+    // The level is raised from the cheapest one, so that frames are in time from the start.
     if (!request.level) {
         render_.begin_with_the_cheapest();
         prepare_.begin_with_the_cheapest();

@@ -11,30 +11,31 @@
 
 namespace vantage {
 
-/// Finds, among levels that get cheaper by rank, the best one whose work fits into a time. Falls as
-/// soon as several works in a row did not fit, by as many levels as it takes; rises only after a
-/// while of room, and the more cautiously the sooner it had to fall again, so that nothing pumps.
+/// Chooses the best quality level whose work fits into a given time; higher levels are cheaper. It
+/// falls when several works in a row did not fit, by as many levels as needed. It rises only after
+/// a while with time to spare, and waits longer the sooner it had to fall again, which prevents
+/// oscillation. Not thread-safe.
 class LevelChooser {
   public:
-    /// Works may take `share` of the time.
+    /// Work may take `share` of the time.
     LevelChooser(std::size_t levels, double share);
 
     std::size_t level() const { return level_; }
-    /// Before the first work: begins there, and is quick to rise until it first had to fall.
+    /// Starts at the cheapest level, and rises quickly until it first has to fall. To be called
+    /// before the first work.
     void begin_with_the_cheapest();
-    /// From now on this one, whatever it takes.
+    /// Fixes the level.
     void fix(std::size_t level);
-    /// From now on works may take so much of the time.
     void set_share(double share) { share_ = share; }
 
-    /// The best level, of this one and those that are cheaper, whose works take so long at most by
-    /// what they took before; the cheapest where none is known to. A fixed one stays.
+    /// The best level, from the present one on, whose work usually takes at most `ms`; the cheapest
+    /// one if none is known to. A fixed level stays.
     std::size_t fitting(double ms) const;
 
-    /// A work at `level` took `work_ms` of the `time_ms` that there were for it.
+    /// Records that a work at `level` took `work_ms` of the available `time_ms`.
     void saw(std::size_t level, double work_ms, double time_ms, MonotonicTime now);
 
-    /// Shares of the time that the levels were taken for until now.
+    /// Shares of the time that was spent at each level.
     std::vector<double> shares(MonotonicTime now) const;
 
   private:
@@ -43,54 +44,54 @@ class LevelChooser {
     double share_;
     std::size_t level_ = 0;
     bool is_fixed_ = false, is_risen_to_ = false;
-    std::vector<std::optional<double>> usual_ms_;  ///< of every level that was tried
+    std::vector<std::optional<double>> usual_ms_;  ///< by level; empty: not tried yet
     int misfits_ = 0;
-    std::optional<MonotonicTime> since_;  ///< of this level
+    std::optional<MonotonicTime> since_;  ///< start of the present level
     std::optional<MonotonicTime> fitting_since_;
     std::vector<double> spent_s_;
-    double patience_s_;
+    double wait_s_;  ///< before the next rise
 };
 
-/// What `--quality` asks for.
+/// The value of `--quality`.
 struct QualityRequest {
-    std::optional<std::size_t> level;  ///< nothing: what fits
-    /// "best", "auto" or a number from 0 (the best) on. Throws Error with the mend otherwise.
+    std::optional<std::size_t> level;  ///< empty: the best level that fits
+    /// Parses "best", "auto" or a number from 0 (the best). Throws Error otherwise.
     static QualityRequest parse(const std::string& text);
 };
 
-/// Holds the programme's ticks and the stage's instants: measures what rendering and preparing
-/// take, and lowers or raises either's level of quality.
+/// Keeps the programme at its frame rate and the instants at the rate of the stage. It measures how
+/// long rendering and preparing take and chooses the quality level of each. Not thread-safe.
 class Governor {
   public:
-    /// `rate_hz` of the output; `pulse_rate_hz` of the stage.
+    /// `rate_hz` is the frame rate of the output, `pulse_rate_hz` that of the stage.
     Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& request);
 
     const RenderLevel& render() const { return render_levels()[render_.level()]; }
     const PrepareLevel& prepare() const { return prepare_levels()[prepare_.level()]; }
-    /// For the first picture of where time jumped to, which is waited for.
+    /// Level for the first frame after a jump in time, which the operator is waiting for.
     const PrepareLevel& prepare_sought() const;
 
-    /// `is_carried_on`: reprojections of the picture go between it and the next one, so that it may
-    /// take longer than a tick where pulses are rarer than ticks.
-    void saw_render(const RenderLevel& level, double ms, bool is_carried_on, MonotonicTime now) {
+    /// Records the time of a frame. With `is_reprojected` reprojections fill the ticks until the
+    /// next frame, so it may take longer than a tick if pulses are rarer than ticks.
+    void saw_render(const RenderLevel& level, double ms, bool is_reprojected, MonotonicTime now) {
         render_.saw(static_cast<std::size_t>(level.rank), ms,
-                    is_carried_on ? carried_picture_ms_ : tick_ms_, now);
+                    is_reprojected ? reprojected_frame_ms_ : tick_ms_, now);
     }
     void saw_prepare(int rank, double ms, MonotonicTime now);
-    /// An instant of the past was fetched and prepared in so long.
+    /// Records the time to fetch and prepare an instant of the past.
     void saw_past_instant(double ms);
-    /// How many moments of a pulse are prepared when the past is played at this speed: no more a
-    /// second than pulses come live, and no more than there is time for. 1: pulses only.
+    /// Number of moments per pulse that are prepared in slow motion at this speed: at most as many
+    /// per second as there are live pulses, and as the time allows. 1: pulses only.
     int moments_a_pulse(double speed) const;
     std::vector<double> render_shares(MonotonicTime now) const { return render_.shares(now); }
     std::vector<double> prepare_shares(MonotonicTime now) const { return prepare_.shares(now); }
 
   private:
     double tick_ms_, instant_ms_;
-    double carried_picture_ms_;  ///< that one may take which is reprojected meanwhile
-    double rendering_share_;     ///< less where even the cheapest instants come late beside it
+    double reprojected_frame_ms_;  ///< time available for a frame that is reprojected meanwhile
+    double rendering_share_;       ///< smaller if even the cheapest instants are late beside it
     LevelChooser render_, prepare_;
-    std::deque<double> past_ms_;  ///< of the last instants of the past
+    std::deque<double> past_ms_;  ///< times of the last instants of the past
 };
 
 }  // namespace vantage

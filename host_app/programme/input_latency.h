@@ -1,37 +1,53 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
-#include <optional>
 
 #include "common/base/percentiles.h"
 #include "common/base/time/time.h"
 
 namespace vantage {
 
-/// Inputs of hands, each until the first picture with it is handed over. Whoever flies is asked in
-/// looks, which are numbered from 1 on.
+/// Measures input latency: from each operator input to the hand-over of the first frame with it.
+/// Steps of the camera source are numbered from 1. Not thread-safe.
 class InputLatency {
   public:
-    /// The earliest input that is new in this look. `only_flies`: it changes nothing but the
-    /// camera, so that a picture which was carried on to that shows it.
-    void saw(MonotonicTime input, std::uint64_t look, bool only_flies);
-    /// What is waited for changes no picture.
+    /// Adds the earliest new input of a step. `only_flies`: it changes only the camera, so that a
+    /// reprojection shows it as well.
+    void saw(MonotonicTime input, std::uint64_t step, bool only_flies) {
+        if (waiting_.size() < max_waiting) waiting_.push_back({input, step, only_flies});
+    }
+    /// Drops all inputs, since they change no frame.
     void drop() { waiting_.clear(); }
-    /// A picture from the camera of one look, rendered of another one, which is no later, is handed
-    /// over. The longest that an input waited for it counts.
-    void showed(std::uint64_t camera_look, std::uint64_t rendered_look, MonotonicTime now);
+    /// Records the hand-over of a frame with the camera of one step that was rendered for another
+    /// one, which is not later. The longest latency of the inputs in it counts.
+    void showed(std::uint64_t camera_step, std::uint64_t rendered_step, MonotonicTime now) {
+        const auto is_shown = [&](const Input& input) {
+            return input.step <= (input.only_flies ? camera_step : rendered_step);
+        };
+        const auto first = std::find_if(waiting_.begin(), waiting_.end(), is_shown);
+        if (first == waiting_.end()) return;
+        all_ms_.add(to_ms(now - first->time));
+        std::erase_if(waiting_, is_shown);
+    }
 
     bool is_waiting() const { return !waiting_.empty(); }
-    /// For a picture that is rendered with an input.
-    bool is_waiting_for_rendering() const;
+    /// Whether an input waits that a reprojection cannot show.
+    bool is_waiting_for_rendering() const {
+        return std::any_of(waiting_.begin(), waiting_.end(),
+                           [](const Input& input) { return !input.only_flies; });
+    }
 
     Percentiles all_ms() const { return all_ms_.summary(); }
 
   private:
+    /// Bound of the memory while no frame is handed over; the earliest inputs count.
+    static constexpr std::size_t max_waiting = 100;
+
     struct Input {
         MonotonicTime time;
-        std::uint64_t look;
+        std::uint64_t step;
         bool only_flies;
     };
     std::deque<Input> waiting_;  ///< from the earliest to the latest

@@ -10,8 +10,9 @@
 namespace vantage {
 namespace {
 
+/// Length of a slice, after which other work may use the GPU.
 constexpr std::chrono::milliseconds slice{4};
-/// After a fault, before everything is made anew.
+/// Wait after a fault before the renderer is recreated.
 constexpr std::chrono::milliseconds recovery{200};
 
 }  // namespace
@@ -22,11 +23,11 @@ bool is_same_picture(const PictureJob& a, const PictureJob& b) {
 }
 
 PictureMaker::PictureMaker(SynthesiserEntry synthesiser, PictureFormat format,
-                           ContextGroup& contexts, RenderPriority& way, Manner manner)
+                           ContextGroup& contexts, RenderPriority& priority, Manner manner)
     : synthesiser_(std::move(synthesiser)),
       format_(format),
       contexts_(&contexts),
-      way_(&way),
+      priority_(&priority),
       manner_(manner),
       thread_([this] { run(); }) {}
 
@@ -87,7 +88,7 @@ int PictureMaker::faults() const {
 
 void PictureMaker::run() {
     name_this_thread(manner_ == Manner::at_once ? "picture" : "picture, slices");
-    std::uint64_t lost = 0;  ///< generation of contexts; 0: none
+    std::uint64_t lost = 0;  ///< generation of contexts that was lost; 0: none
     for (;;) {
         ContextGroup::Member member;
         try {
@@ -96,11 +97,10 @@ void PictureMaker::run() {
             make_pictures(member);
             return;
         } catch (const ContextLost& error) {
-            log_warning("the renderer is made anew on new contexts: {}", error.what());
+            log_warning("the renderer is recreated on new GPU contexts: {}", error.what());
             lost = member.generation;
         } catch (const std::exception& error) {
-            log_error("the picture could not be rendered, and its renderer is made anew: {}",
-                      error.what());
+            log_error("rendering failed, and the renderer is recreated: {}", error.what());
         }
         std::unique_lock lock(mutex_);
         ++faults_;
@@ -115,7 +115,8 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
-    if (manner_ == Manner::in_slices) slices.emplace(slice, way_, [this] { wait_while_paused(); });
+    if (manner_ == Manner::in_slices)
+        slices.emplace(slice, priority_, [this] { wait_while_paused(); });
     const ShaderLibrary shaders;
     ViewPainter painter(synthesiser_, format_, shaders);
     {
@@ -128,10 +129,10 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
         if (work->is_warm_up) {
             for (const RenderLevel& level : render_levels()) {
                 work->job.level = level;
-                (void)made(painter, work->job);
+                (void)rendered(painter, work->job);
             }
         } else {
-            picture = made(painter, work->job);
+            picture = rendered(painter, work->job);
         }
         claim.reset();
         const std::lock_guard lock(mutex_);
@@ -142,25 +143,26 @@ void PictureMaker::make_pictures(const ContextGroup::Member& member) {
     }
 }
 
-std::optional<PictureMaker::Work> PictureMaker::next_work(std::uint64_t generation,
-                                                          std::optional<RenderPriority::Claim>& claim) {
+std::optional<PictureMaker::Work> PictureMaker::next_work(
+    std::uint64_t generation, std::optional<RenderPriority::Claim>& claim) {
     const DriverLock::Pause pause;
     std::unique_lock lock(mutex_);
     for (;;) {
         woken_.wait(lock, [&] { return is_stopping_ || job_; });
         if (is_stopping_) return std::nullopt;
         if (contexts_->generation() != generation)
-            throw ContextLost("another thread found the GPU reset");
+            throw ContextLost("another thread detected a GPU reset");
         if (job_->instant->generation == generation) {
-            // Before the turn, which who prepares takes again and again.
-            if (manner_ == Manner::at_once) claim.emplace(*way_);
+            // The claim comes before the driver lock, which threads that prepare keep taking.
+            if (manner_ == Manner::at_once) claim.emplace(*priority_);
             return Work{*job_, std::exchange(is_warm_up_, false)};
         }
         job_.reset();
     }
 }
 
-std::shared_ptr<MadePicture> PictureMaker::made(ViewPainter& painter, const PictureJob& job) const {
+std::shared_ptr<MadePicture> PictureMaker::rendered(ViewPainter& painter,
+                                                    const PictureJob& job) const {
     auto made = std::make_shared<MadePicture>();
     const MonotonicTime start = MonotonicClock::now();
     made->picture = painter.paint(*job.instant->instant, job.camera, job.level,

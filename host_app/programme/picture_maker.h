@@ -17,61 +17,62 @@
 
 namespace vantage {
 
-/// What the programme wants a picture of.
+/// A frame to be rendered.
 struct PictureJob {
     std::shared_ptr<const ReadyInstant> instant;
     CameraState camera;
     RenderLevel level;
-    bool source_map = false;  ///< also which rigs its pixels come from
-    std::uint64_t look = 0;   ///< of the programme, that the camera is of
+    bool source_map = false;  ///< render the source map as well
+    std::uint64_t step = 0;   ///< number of the programme's step that gave the camera
 };
 
-/// Whether a picture of one would be that of the other.
+/// Whether both jobs give the same frame.
 bool is_same_picture(const PictureJob& a, const PictureJob& b);
 
-/// A picture of the virtual camera. Immutable.
+/// A rendered frame of the virtual camera. Immutable.
 struct MadePicture {
     PictureJob job;
-    ColourImage picture;               ///< rgba8 of the programme's size
-    std::optional<SourceMap> sources;  ///< where it was wanted
-    cv::Mat1f inverse_depth;           ///< as of CoarseDepth; empty: not known
+    ColourImage picture;               ///< rgba8, of the programme's size
+    std::optional<SourceMap> sources;  ///< if the job asked for it
+    cv::Mat1f inverse_depth;           ///< see CoarseDepth; empty: not known
     double render_ms = 0, readback_ms = 0;
-    double make_ms = 0;  ///< from start() on: those, and what it waited for
-    /// Of a reprojection: what it was carried on from; its job is that one's but for camera and
-    /// look. Null: it was rendered itself.
+    double make_ms = 0;  ///< from start() to the finished frame, with all waits
+    /// The frame that this one was reprojected from, null if it was rendered. Their jobs differ in
+    /// camera and step.
     std::shared_ptr<const MadePicture> rendered;
 };
 
-/// Renders on a thread and a context of its own, one picture at a time, so that the programme's
-/// clock waits for neither GPU nor compiler. A fault is logged, and everything is made anew; so it
-/// is when the GPU was reset, and instants of before give no picture.
+/// Renders frames on its own thread and GL context, one at a time, so that the programme's clock
+/// waits neither for the GPU nor for the shader compiler. After a fault, which is logged, and after
+/// a GPU reset the renderer is recreated; jobs with instants from before a reset are dropped.
+/// Thread-safe.
 class PictureMaker {
   public:
     enum class Manner {
-        at_once,    ///< with the right of way
-        in_slices,  ///< gives way to others: for pictures that may take long
+        at_once,    ///< with render priority
+        in_slices,  ///< gives way to other work between slices; for frames that may take long
     };
-    /// `contexts` and `way` must outlive the maker. Compiles at once; is_idle() tells when it is
-    /// done.
+    /// `contexts` and `priority` must outlive the maker. It starts to compile at once and is idle
+    /// when that is done.
     PictureMaker(SynthesiserEntry synthesiser, PictureFormat format, ContextGroup& contexts,
-                 RenderPriority& way, Manner manner = Manner::at_once);
+                 RenderPriority& priority, Manner manner = Manner::at_once);
     ~PictureMaker();
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
 
     const std::string& synthesiser() const { return synthesiser_.name; }
-    /// It can begin a picture now.
+    /// Whether it can start a frame.
     bool is_idle() const;
     /// Precondition: is_idle().
     void start(PictureJob job);
-    /// Makes pictures of the job at all levels, which nobody gets: see InstantPreparer::rehearse().
+    /// Renders the job at all levels and discards the frames; see InstantPreparer::warm_up().
     /// Precondition: is_idle().
     void warm_up(PictureJob job);
-    /// In slices: waits between two of them, for as long as this is so.
+    /// With Manner::in_slices: stops between two slices, or goes on.
     void pause(bool is_paused);
-    /// What was finished since the last call.
+    /// The frame that was finished since the last call; null: none.
     std::shared_ptr<const MadePicture> take_finished();
-    /// Times that everything was made anew after a fault.
+    /// Number of times that the renderer was recreated after a fault.
     int faults() const;
 
   private:
@@ -83,16 +84,16 @@ class PictureMaker {
     void run();
     void wait_while_paused();
     void make_pictures(const ContextGroup::Member& member);
-    /// Waits for it, and claims the way for what is made at once; nothing at the end. Throws
-    /// ContextLost if this generation of contexts is.
+    /// Waits for a job and claims render priority for Manner::at_once. Empty when the maker ends.
+    /// Throws ContextLost if this generation of contexts was lost.
     std::optional<Work> next_work(std::uint64_t generation,
                                   std::optional<RenderPriority::Claim>& claim);
-    std::shared_ptr<MadePicture> made(ViewPainter& painter, const PictureJob& job) const;
+    std::shared_ptr<MadePicture> rendered(ViewPainter& painter, const PictureJob& job) const;
 
     SynthesiserEntry synthesiser_;
     PictureFormat format_;
     ContextGroup* contexts_;
-    RenderPriority* way_;
+    RenderPriority* priority_;
     Manner manner_;
     mutable std::mutex mutex_;
     std::condition_variable woken_;

@@ -22,7 +22,8 @@ void PictureSinks::give(const ProgrammePicture& picture) {
             ++sink.state.pictures;
         } catch (const std::exception& error) {
             sink.state.failure = error.what();
-            log_error("{} is closed, and the programme goes on: {}", sink.state.name, error.what());
+            log_error("{} failed and was closed; the programme goes on: {}", sink.state.name,
+                      error.what());
         }
     }
     note();

@@ -10,22 +10,23 @@
 
 namespace vantage {
 
-/// A sink as the programme sees it.
+/// Status of a sink.
 struct SinkState {
     std::string name;
     std::uint64_t pictures = 0;
-    std::string failure;  ///< empty: it works
+    std::string failure;  ///< error that closed it; empty: none
 };
 
-/// All that the programme's pictures go to. What fails is closed, logged, and the others go on.
+/// All sinks of the programme's frames. A sink that fails is logged and closed, and the others go
+/// on. Used on the programme's thread, except for states().
 class PictureSinks {
   public:
-    /// Before the first picture.
+    /// To be called before the first frame.
     void add(std::unique_ptr<PictureSink> sink);
     void give(const ProgrammePicture& picture);
-    /// After the last picture.
+    /// To be called after the last frame.
     void finish();
-    /// Of those with a name. Thread-safe.
+    /// States of the sinks that have a name. Thread-safe.
     std::vector<SinkState> states() const;
 
   private:

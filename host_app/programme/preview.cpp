@@ -5,12 +5,12 @@
 namespace vantage {
 namespace {
 
-/// Of the time, that its pictures take at the most.
-constexpr double share_of_time = 0.33;
-/// After a picture, however long that took: for once, it compiled or waited for a reset.
-constexpr std::chrono::nanoseconds longest_rest = std::chrono::seconds(1);
-/// Of a tick, that a picture of a better level may take.
-constexpr double share_of_tick = 0.2;
+/// Largest share of the time that frames of the preview take.
+constexpr double busy_share = 0.33;
+/// Longest pause after a frame, since a frame that compiled or waited for a reset is an exception.
+constexpr std::chrono::nanoseconds max_pause = std::chrono::seconds(1);
+/// Largest share of a tick for a frame at a better level.
+constexpr double max_tick_share = 0.2;
 
 PictureFormat half_of(const PictureFormat& format) {
     return {std::max(2, format.width_px / 2), std::max(2, format.height_px / 2), {}};
@@ -19,12 +19,12 @@ PictureFormat half_of(const PictureFormat& format) {
 }  // namespace
 
 Preview::Preview(const PictureFormat& programme, double rate_hz, ContextGroup& contexts,
-                 RenderPriority& way)
+                 RenderPriority& priority)
     : format_(half_of(programme)),
       tick_ms_(1000 / rate_hz),
       contexts_(&contexts),
-      way_(&way),
-      level_(render_levels().size(), share_of_tick) {
+      priority_(&priority),
+      level_(render_levels().size(), max_tick_share) {
     level_.begin_with_the_cheapest();
 }
 
@@ -33,8 +33,8 @@ void Preview::take_finished(MonotonicTime now) {
     is_under_way_ = false;
     const MonotonicTime::duration took = now - began_;
     next_ = now + std::min(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                               (1 / share_of_time - 1) * took),
-                           longest_rest);
+                               (1 / busy_share - 1) * took),
+                           max_pause);
     std::shared_ptr<const MadePicture> made = maker_->take_finished();
     if (!made) return;
     shown_ = std::move(made);
@@ -55,7 +55,7 @@ void Preview::follow(const std::optional<OrbitView>& view, const SynthesiserEntr
     if (is_under_way_) return;
     std::unique_ptr<PictureMaker>& maker = makers_[synthesiser.name];
     if (!maker)
-        maker = std::make_unique<PictureMaker>(synthesiser, format_, *contexts_, *way_,
+        maker = std::make_unique<PictureMaker>(synthesiser, format_, *contexts_, *priority_,
                                                PictureMaker::Manner::in_slices);
     maker_ = maker.get();
     if (!may_begin || now < next_ || !instant || instant->synthesiser != maker_->synthesiser() ||

@@ -12,30 +12,30 @@
 
 namespace vantage {
 
-/// Pictures of the camera on preview, of the instants that are there anyway and in the time that
-/// the programme leaves over: a picture maker of its own gives way to the programme's, is begun
-/// only while that rests, and takes no more than a share of the time. Off until it is asked for. Of
-/// the programme's thread, which never waits for it.
+/// Renders frames of the camera on preview, from the programme's instants and in the time that the
+/// programme leaves over. Its own renderer gives way to the programme's, starts only while that is
+/// idle, and takes at most a share of the time. Used on the programme's thread, which never waits
+/// for it.
 class Preview {
   public:
-    /// Pictures have half the width and height of the programme's, and one eye.
+    /// Frames have half the width and height of the programme's, and one eye.
     Preview(const PictureFormat& programme, double rate_hz, ContextGroup& contexts,
-            RenderPriority& way);
+            RenderPriority& priority);
 
-    /// To be called at every tick. `view`: what the camera on preview sees; nothing: there is none.
-    /// `instant`: null before the first. `may_begin`: the programme rests.
+    /// To be called at every tick. `view` is empty if there is no camera on preview, and `instant`
+    /// is null before the first. `may_begin`: the programme's renderer is idle.
     void follow(const std::optional<OrbitView>& view, const SynthesiserEntry& synthesiser,
                 const std::shared_ptr<const ReadyInstant>& instant, bool may_begin,
                 MonotonicTime now);
-    /// In the middle of a picture: it waits, for as long as this is so.
+    /// Stops in the middle of a frame, or goes on.
     void pause(bool is_paused);
-    /// Waits for what is under way.
+    /// Waits for the frame in work and ends the renderers.
     void end();
 
-    /// Null: none yet, or there is no camera on preview.
+    /// Null before the first frame, and if there is no camera on preview.
     std::shared_ptr<const MadePicture> picture() const { return shown_; }
     std::uint64_t pictures() const { return pictures_; }
-    /// What the last one took, waiting for the programme included.
+    /// Time of the last frame, with its waits for the programme.
     double last_make_ms() const { return last_make_ms_; }
 
   private:
@@ -44,10 +44,10 @@ class Preview {
     PictureFormat format_;
     double tick_ms_;
     ContextGroup* contexts_;
-    RenderPriority* way_;
+    RenderPriority* priority_;
     LevelChooser level_;
-    std::map<std::string, std::unique_ptr<PictureMaker>> makers_;  ///< by synthesiser, kept
-    PictureMaker* maker_ = nullptr;  ///< in use; null: it was never asked for
+    std::map<std::string, std::unique_ptr<PictureMaker>> makers_;  ///< by name of the synthesiser
+    PictureMaker* maker_ = nullptr;                                ///< in use; null: none so far
     std::optional<PictureJob> begun_;
     bool is_under_way_ = false;
     MonotonicTime began_{}, next_{};

@@ -1,19 +1,14 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <exception>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "common/base/percentiles.h"
-#include "common/base/time/time_budget.h"
 #include "host_app/flight/camera_forecast.h"
 #include "host_app/flight/camera_source.h"
 #include "host_app/pipeline/instant_thread.h"
@@ -22,70 +17,42 @@
 #include "host_app/programme/picture_maker.h"
 #include "host_app/programme/picture_sinks.h"
 #include "host_app/programme/preview.h"
-#include "host_app/programme/reprojection.h"
+#include "host_app/programme/programme_sound.h"
+#include "host_app/programme/programme_stats.h"
+#include "host_app/programme/render_timing.h"
 #include "host_app/programme/reprojector.h"
 #include "host_app/programme/seek_watch.h"
+#include "host_app/programme/synthesiser_switch.h"
 #include "host_app/replay/replay.h"
-#include "host_app/sound/picture_sound.h"
 
 namespace vantage {
 
-/// What the programme counted and measured.
-struct ProgrammeStats {
-    std::uint64_t ticks = 0;        ///< since the first picture
-    std::uint64_t pictures = 0;     ///< ticks with a new one
-    std::uint64_t reprojected = 0;  ///< ticks for which a new one was due and not ready, and which
-                                    ///< got the last one as the camera would see it now
-    Percentiles reprojected_way;    ///< of all that were reprojected, new ones too, in shares of
-                                    ///< the picture's width
-    std::uint64_t repeated = 0;     ///< such ticks that got the last one as it was
-    std::uint64_t missed = 0;       ///< of those, ticks that had passed before the programme came
-                                    ///< to them; sinks were given them late
-    std::uint64_t superseded = 0;   ///< pictures that no tick showed: a newer one was ready before
-    Percentiles late_ms;            ///< from a tick to the hand-over of its picture
-    double duration_s = 0;          ///< since the first picture
-    Percentiles interval_ms;        ///< between two new pictures
-    Percentiles latency_ms;         ///< from exposure to the hand-over of the first picture of it
-    Percentiles input_ms;  ///< from an input that moves the camera or changes what is drawn to the
-                          ///< hand-over of the first picture with it
-    Percentiles seek_ms;  ///< from a jump in time to the hand-over of its instant's picture
-    SeekSteps<Percentiles> seek_steps_ms;
-    Percentiles rest_ms;  ///< from the last change of camera and time to the best picture
-    Percentiles render_ms, readback_ms;
-    std::vector<double> render_shares, prepare_shares;  ///< of the time, by level
-    std::uint64_t preview_pictures = 0;
-    Percentiles preview_ms;  ///< that one took, waiting for the programme included
-    int faults = 0;          ///< renderers that were made anew
-    std::vector<SinkState> sinks;
-};
-
-/// How the programme stands, for the desk.
+/// Status of the programme, for the desk and the lamps.
 struct ProgrammeState {
-    std::shared_ptr<const MadePicture> picture;  ///< null before the first
+    std::shared_ptr<const MadePicture> picture;  ///< null before the first frame
     OrbitView view;
-    /// Of the camera on preview.
     struct Preview {
-        std::optional<OrbitView> view;               ///< nothing: there is none
-        std::shared_ptr<const MadePicture> picture;  ///< null before the first
-        std::uint64_t pictures = 0;                  ///< so far
+        std::optional<OrbitView> view;               ///< empty: there is no camera on preview
+        std::shared_ptr<const MadePicture> picture;  ///< null before its first frame
+        std::uint64_t pictures = 0;                  ///< number of its frames so far
     } preview;
     bool source_map = false;
     TransportState time;
     ReplayState replay;
-    std::optional<PastFrameSets::Span> past;  ///< that there is
-    std::optional<double> behind_s;      ///< in a stage's past: how far
+    std::optional<PastFrameSets::Span> past;  ///< empty: there is no past
+    std::optional<double> behind_s;           ///< delay behind live; empty unless in a stage's past
     std::string synthesiser;
     double latency_ms = 0;
 
-    // Of the picture's quality; 0 is the best, and before the first.
+    // Quality levels of the frame on screen; 0 is the best, and the value before the first frame.
     int render_level() const { return picture ? picture->job.level.rank : 0; }
     int prepare_level() const { return picture ? picture->job.instant->instant->level : 0; }
 };
 
-/// The programme's clock: at every tick the newest picture goes to the sinks, and the next one is
-/// begun, of the newest camera and the newest ready instant. It waits for nothing but its ticks: a
-/// tick without a new picture gets the last one, reprojected to where the camera is meanwhile or as
-/// it was, and is counted.
+/// The clock of the programme. At every tick it hands the newest frame to the sinks, and it starts
+/// the next frame from the newest camera and the newest prepared instant. It waits for nothing but
+/// its ticks: a tick whose frame is not ready gets the last one, reprojected to the present camera
+/// if possible, and is counted. It runs on its own thread.
 class Programme {
   public:
     struct Settings {
@@ -93,101 +60,112 @@ class Programme {
         double rate_hz = 30, pulse_rate_hz = 30;
         std::string synthesiser = default_synthesiser;
         QualityRequest quality;
-        bool source_map = false;                        ///< shown at first
-        Replay replay = {};                             ///< at first
-        bool ends_with_past = false;                    ///< once the end of what is played is shown
-        std::shared_ptr<PictureSound> sound = nullptr;  ///< that goes with it; null: none
+        bool source_map = false;                        ///< at the start
+        Replay replay = {};                             ///< at the start
+        bool ends_with_past = false;                    ///< end after the last frame of a take
+        std::shared_ptr<PictureSound> sound = nullptr;  ///< null: no sound
     };
-    /// Draws on contexts of the instants' group. Runs from start() on. `pilot` and `instants` must
-    /// outlive it.
+    /// Renders on contexts of the group of `instants`. `instants` and `camera_source` must outlive
+    /// this object.
     Programme(Settings settings, InstantThread& instants, CameraSource& camera_source);
     ~Programme();
     Programme(const Programme&) = delete;
     Programme& operator=(const Programme&) = delete;
 
-    /// Before start().
+    /// To be called before start().
     void add(std::unique_ptr<PictureSink> sink) { sinks_.add(std::move(sink)); }
-    /// `is_over` is asked at every tick: pictures so far and seconds since the first tick.
+    /// Starts the ticks. The programme ends when `is_over` returns true, which it asks at every
+    /// tick with the number of ticks and the time so far.
     void start(std::function<bool(std::uint64_t pictures, double time_s)> is_over);
-    /// Whether it ended by itself. Throws what ended it.
+    /// Whether the programme ended by itself. Throws the error that ended it.
     bool is_over() const;
-    /// Ends the ticks, then the sinks.
+    /// Ends the ticks, and then the sinks.
     void stop();
 
     ProgrammeState state() const;
     ProgrammeStats stats() const;
 
   private:
-    /// Makes a synthesiser's pictures. Kept when another takes over: drivers give back little of
-    /// what a renderer has taken, and who comes back need not compile again.
-    struct Renderer {
-        SynthesiserEntry synthesiser;
-        std::unique_ptr<PictureMaker> maker;
-        std::unique_ptr<PictureMaker> still;  ///< of what is held; null: nothing was yet
+    /// The operator's camera at the present step and at the one before.
+    struct CameraTrack {
+        OrbitView view;
+        CameraState now, before;
+        CameraForecast forecast;
+        std::optional<OrbitView> preview;
+
+        bool is_still() const { return is_same_view(now, before); }
+    };
+    /// Frames on their way to the sinks; null: none.
+    struct Frames {
+        std::shared_ptr<const MadePicture> rendered;     ///< not handed over yet
+        std::shared_ptr<const MadePicture> reprojected;  ///< not handed over yet
+        std::shared_ptr<const MadePicture> shown;  ///< the last rendered frame that was handed over
+        std::shared_ptr<const MadePicture> handed;  ///< the same, or a reprojection of it
+
+        const std::shared_ptr<const MadePicture>& newest_rendered() const {
+            return rendered ? rendered : shown;
+        }
+        bool can_reproject() const { return shown && !shown->inverse_depth.empty(); }
     };
     void run();
-    /// Before the first tick: pictures at all levels of the newest instant, which nobody sees.
+    /// Before the first tick: renders the newest instant at all levels, so that drivers compile.
     void warm_up();
-    /// Asks hands and plans; true if a picture is due.
-    bool look(double time_s, MonotonicTime now);
-    /// Of now.
-    PictureJob wanted_picture() const;
-    /// Whether a picture of now would differ from the one that is shown.
-    bool is_picture_due() const;
-    /// The picture that is shown has the depth for it.
-    bool can_reproject() const;
-    /// Of the last pictures; 0 before there are some.
-    double usual_make_ms() const;
-    bool are_pictures_long() const;
-    /// False where the picture that is due waits to be handed over, and where pictures take long
-    /// and it would differ from the last one by a short way of the camera alone, which a
-    /// reprojection shows as well: the time is for instants.
-    bool is_worth_rendering();
-    /// False where pictures that take longer than their ticks have had their share of the time: the
-    /// rest is for the instants beside them.
-    bool has_picture_time(MonotonicTime now);
-    /// What an operator asked for comes to light by a new picture alone: instants wait for that.
-    bool is_input_waiting_for_rendering() const;
-    /// While a jump is waited for: what has become ready since the look is shown at the next tick,
-    /// not a tick later. True if something has.
-    bool take_up_sought();
+
+    /// Takes a step of camera and time; true if a new frame is due.
+    bool take_step(double time_s, MonotonicTime now);
+    void take_time(CameraStep& step, double time_s, const std::optional<PastFrameSets::Span>& span);
+    void update_state(const std::optional<PastFrameSets::Span>& span, MonotonicTime now);
     void request_instant(MonotonicTime now);
-    /// Until the middle of the time for which an instant that is wished for now will be shown.
+    /// Time until the middle of the period in which an instant that is requested now is shown.
     double shown_in_s() const;
+
+    /// The frame to render now.
+    PictureJob wanted_picture() const;
+    /// Whether a frame rendered now would differ from the one on screen.
+    bool is_picture_due() const;
+    /// Whether rendering pays. It does not if the due frame is waiting to be handed over. If frames
+    /// are long, it does not either where a reprojection shows the small motion of the camera as
+    /// well; the time is then left to instants.
+    bool is_worth_rendering();
+    /// Whether the time budget allows a frame. Long frames leave the rest of the time to instants.
+    bool has_picture_time(MonotonicTime now);
+    /// Whether operator input waits that only a newly rendered frame can show.
+    bool is_input_waiting_for_rendering() const;
+    bool are_pictures_long() const { return frames_.can_reproject() && timing_.are_frames_long(); }
+    /// After a jump in time, takes over an instant that became ready since the step, so that the
+    /// next tick shows it. True if there was one.
+    bool take_sought_instant();
     void begin_picture();
-    /// What the maker and the reprojector finished waits to be handed over.
-    void take_finished();
-    /// Handed over or not yet; null before the first.
-    const std::shared_ptr<const MadePicture>& newest_rendered() const {
-        return rendered_ ? rendered_ : shown_;
-    }
-    /// Carries the newest picture on to the camera, if that has left it.
+    /// Starts to reproject the newest frame if the camera has moved on.
     void begin_reprojection();
-    /// Of the past, that time stands at; nothing: there is none.
-    std::optional<std::uint64_t> past_pulse() const;
+    /// Renders the best frame of an instant and a camera that stand still.
     void refine_held_instant(MonotonicTime now);
-    /// The better picture of it, if that is ready.
+
+    /// Collects finished frames and reprojections.
+    void take_finished();
     void take_still(MonotonicTime now);
-    /// Compiles where it is asked for the first time.
-    Renderer& renderer_of(const SynthesiserEntry& synthesiser);
-    void begin_next_synthesiser();
-    void follow_preview();
-    void follow_synthesiser();
-    /// The reprojection to hand over; null if what was rendered is as new, or is shown.
-    std::shared_ptr<const MadePicture> newest_carried();
-    /// `due`: the first of the ticks that have passed.
+    /// Takes the reprojection to hand over; null if a rendered frame is as new.
+    std::shared_ptr<const MadePicture> take_reprojection();
+    /// Hands a frame to the sinks for all ticks that have passed, of which the first was due at
+    /// `due`.
     void hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due);
     void give_to_sinks(const MadePicture& shown, std::uint64_t ticks, MonotonicTime due);
-    /// Of the tick that was due then, so many ticks after the one for which time was looked at.
-    PictureSound::Tick sound_tick(MonotonicTime due, std::uint64_t later) const;
-    void note_sound_delay(const ReadyInstant& instant);
+    /// Records a newly rendered frame.
     void note(const MadePicture& made, MonotonicTime now);
+    /// Records the time from the last change to the frame at best quality.
     void note_rest(const MadePicture& made, MonotonicTime now);
+    void follow_preview();
+    void follow_synthesiser();
+
     const Transport& transport() const { return replay_.transport(); }
-    /// How long before a tick its picture is to be begun.
-    std::chrono::nanoseconds lead() const;
-    /// The same of its reprojection.
-    std::chrono::nanoseconds reprojection_lead() const;
+    /// Pulse of the playback position; empty if there is none.
+    std::optional<std::uint64_t> past_pulse() const;
+    std::chrono::nanoseconds reprojection_lead() const {
+        return timing_.lead_of(reprojector_.longest_ms());
+    }
+    std::chrono::nanoseconds lead() const {
+        return timing_.lead(frames_.can_reproject(), reprojection_lead());
+    }
 
     Settings settings_;
     InstantThread& instants_;
@@ -195,42 +173,34 @@ class Programme {
     PictureSinks sinks_;
     std::function<bool(std::uint64_t, double)> is_over_;
 
-    // Of the programme's thread.
+    // Used on the programme's thread only.
     Governor governor_;
     Replay replay_;
-    std::optional<double> last_look_s_;
-    std::uint64_t look_ = 0;                     ///< so many
-    std::map<std::string, Renderer> renderers_;  ///< by synthesiser
-    Renderer* renderer_ = nullptr;               ///< in use
-    Renderer* next_ = nullptr;                   ///< takes over when it is ready; null: none
+    RenderTiming timing_;
+    SynthesiserSwitch synthesisers_;
+    StillRefiner still_;
     Preview preview_;
-    std::optional<OrbitView> preview_view_;
-    OrbitView view_;
-    CameraState camera_, camera_before_;  ///< of the last look and the one before
-    CameraForecast forecast_;
-    InputLatency operator_input_;
-    SeekWatch seek_;
-    std::shared_ptr<const ReadyInstant> instant_;
-    std::optional<PictureJob> begun_, begun_still_;
-    std::shared_ptr<const MadePicture> rendered_;  ///< not handed over yet; null: none
-    std::shared_ptr<const MadePicture> shown_;     ///< the last one that was rendered
-    std::shared_ptr<const MadePicture> handed_;    ///< the same, or a reprojection of it
     Reprojector reprojector_;
-    std::shared_ptr<const MadePicture> carried_;  ///< by it, not handed over yet; null: none
-    MonotonicTime changed_{};                     ///< camera or time, last
-    MonotonicTime rest_noted_{};  ///< of the rest since then the best picture was shown
-    std::optional<MonotonicTime> first_picture_, last_new_;
-    std::uint64_t sink_ticks_ = 0, seen_prepared_ = 0, latency_of_ = 0, sound_of_ = 0;
-    bool source_map_ = false;
-    int moments_a_pulse_ = 1;     ///< as InstantWish
-    std::deque<double> make_ms_;  ///< of the last pictures
-    TimeBudget picture_time_;      ///< beside instants
+    ProgrammeSound sound_;
+    InputLatency input_latency_;  ///< its measurements are guarded by mutex_
+    SeekWatch seek_;              ///< its measurements are guarded by mutex_
+    CameraTrack camera_;
+    Frames frames_;
+    std::shared_ptr<const ReadyInstant> instant_;
+    std::optional<PictureJob> begun_;  ///< the last frame that was started
+    std::uint64_t step_ = 0;           ///< number of the present step
+    std::optional<double> last_step_s_;
+    MonotonicTime changed_{};     ///< last change of camera or time
+    MonotonicTime rest_noted_{};  ///< the change whose best frame was recorded
+    std::uint64_t sink_ticks_ = 0;
+    std::uint64_t noted_instant_ = 0;  ///< number of the last instant that the governor has seen
+    int moments_a_pulse_ = 1;          ///< see InstantRequest
+    bool source_map_;
 
+    ProgrammeRecorder recorder_;  ///< thread-safe
     mutable std::mutex mutex_;
+    // Guarded by mutex_.
     ProgrammeState state_;
-    ProgrammeStats stats_;
-    PercentileRecorder reprojected_way_, late_ms_, interval_ms_, latency_ms_, rest_ms_, render_ms_,
-        readback_ms_, preview_ms_;
     std::exception_ptr failure_;
     bool is_ended_ = false;
     std::atomic<bool> is_stopping_ = false;

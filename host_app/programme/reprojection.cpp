@@ -10,15 +10,16 @@
 namespace vantage {
 namespace {
 
-constexpr int steps = 4;
-/// Squared, in px: a step after which no other is worth it, and the last one to what was found.
-constexpr float close = 0.01f, found = 1;
-/// Around a cell, within which what stands before others is looked for.
-constexpr int before_cells = 9;
-/// Of a picture, that are looked up at a time.
+constexpr int max_steps = 4;
+/// Squared lengths of the last step, in px, below which the iteration ends and below which its
+/// result counts as found.
+constexpr float converged = 0.01f, found = 1;
+/// Neighbourhood, in cells, that is searched for a nearer surface.
+constexpr int foreground_cells = 9;
+/// Rows that are looked up at a time.
 constexpr int band_rows = 16;
 
-/// Of a grid, clamped at its borders.
+/// Interpolates in a grid, clamped at its borders.
 float bilinear(const cv::Mat1f& grid, float x, float y) {
     x = std::clamp(x, 0.0f, static_cast<float>(grid.cols - 1));
     y = std::clamp(y, 0.0f, static_cast<float>(grid.rows - 1));
@@ -31,7 +32,8 @@ float bilinear(const cv::Mat1f& grid, float x, float y) {
            down * ((1 - across) * below[left] + across * below[right]);
 }
 
-/// Which two cells of a grid, along one of its sides, a pixel lies between, and how near to which.
+/// For each pixel along one side of a picture: the two neighbouring cells of a grid and their
+/// weights.
 class GridMix {
   public:
     GridMix(int cells, int pixels) : between_(static_cast<std::size_t>(pixels)) {
@@ -59,27 +61,28 @@ class GridMix {
     std::vector<Between> between_;
 };
 
-/// Looks up where in a first camera's picture a second camera's pixels are.
+/// Computes for pixels of a second camera their place in the first camera's frame.
 class SourceSearch {
   public:
     SourceSearch(const CameraState& from, const CameraState& to, const cv::Mat1f& inverse_depth,
                  cv::Size size)
         : px_per_cell_(static_cast<float>(size.width) / static_cast<float>(inverse_depth.cols),
                        static_cast<float>(size.height) / static_cast<float>(inverse_depth.rows)) {
-        // A performer's outline goes with the performer, and what is stretched is the set beside
-        // it.
+        // The outline of a performer moves with the performer, and the background beside it is
+        // stretched.
         cv::dilate(inverse_depth, nearest_, cv::Mat());
-        cv::dilate(nearest_, before_, cv::Mat::ones(before_cells, before_cells, CV_8U));
+        cv::dilate(nearest_, before_, cv::Mat::ones(foreground_cells, foreground_cells, CV_8U));
         const Pose to_from = to.world_from_camera.inverse() * from.world_from_camera;
         const Eigen::Matrix3d K = to.K(size.width, size.height);
         turn_ = (K * to_from.linear() * from.K(size.width, size.height).inverse()).cast<float>();
         shift_ = (K * to_from.translation()).cast<float>();
     }
 
-    /// In px, to the source of a cell's middle; nothing: it was behind the first camera.
+    /// Offset in px to the source of the centre of a cell; empty: behind the first camera.
     std::optional<Eigen::Vector2f> offset(int column, int row) const {
         const Eigen::Vector2f target = in_px(Eigen::Vector2i(column, row).cast<float>());
-        // Where what stands before a wall moves over it both are found: it is looked for first.
+        // Where a performer moves in front of a wall both are solutions, so the nearer is tried
+        // first.
         std::optional<Eigen::Vector2f> source;
         if (const auto miss = missed(target, target, before_(row, column)))
             source = found_from(target, target + *miss, true);
@@ -92,19 +95,19 @@ class SourceSearch {
     Eigen::Vector2f in_px(const Eigen::Vector2f& cell) const {
         return ((cell.array() + 0.5f) * px_per_cell_.array() - 0.5f).matrix();
     }
-    /// By how far the second camera sees a pixel of the first one's picture, with this inverse
-    /// depth, aside from the target; nothing: it does not see it.
+    /// Distance in the second camera's frame from the target to a pixel of the first one's frame
+    /// with inverse depth `w`. Empty if the second camera does not see it.
     std::optional<Eigen::Vector2f> missed(const Eigen::Vector2f& target,
                                           const Eigen::Vector2f& source, float w) const {
         const Eigen::Vector3f seen = turn_ * source.homogeneous() + w * shift_;
         if (!(seen.z() > 0)) return std::nullopt;
         return target - seen.hnormalized();
     }
-    /// Steps from there; nothing: they lead nowhere, or, if they `must_end`, end at no source.
+    /// Iterates from a start. Empty if a step fails, or if `must_end` and it does not converge.
     std::optional<Eigen::Vector2f> found_from(const Eigen::Vector2f& target, Eigen::Vector2f source,
                                               bool must_end) const {
         float left = found;
-        for (int step = 0; step < steps && left > close; ++step) {
+        for (int step = 0; step < max_steps && left > converged; ++step) {
             const Eigen::Array2f cell = (source.array() + 0.5f) / px_per_cell_.array() - 0.5f;
             const auto miss = missed(target, source, bilinear(nearest_, cell.x(), cell.y()));
             if (!miss) return std::nullopt;
@@ -115,7 +118,7 @@ class SourceSearch {
         return source;
     }
 
-    cv::Mat1f nearest_, before_;  ///< inverse depth, in a cell and its neighbours, and further off
+    cv::Mat1f nearest_, before_;  ///< largest inverse depth near a cell, and in its neighbourhood
     Eigen::Vector2f px_per_cell_;
     /// The second camera sees a pixel s of the first picture, with inverse depth w, at
     /// turn * (s, 1) + w * shift.
@@ -129,12 +132,12 @@ std::optional<Reprojection> Reprojection::between(const CameraState& from, const
                                                   const cv::Mat1f& inverse_depth, cv::Size size) {
     if (inverse_depth.empty()) return std::nullopt;
     const SourceSearch search(from, to, inverse_depth, size);
-    const auto furthest_px = static_cast<float>(furthest * size.width);
+    const auto max_way_px = static_cast<float>(max_way * size.width);
     cv::Mat2f offsets(inverse_depth.size());
     for (int row = 0; row < offsets.rows; ++row)
         for (int column = 0; column < offsets.cols; ++column) {
             const std::optional<Eigen::Vector2f> offset = search.offset(column, row);
-            if (!offset || !(offset->norm() <= furthest_px)) return std::nullopt;
+            if (!offset || !(offset->norm() <= max_way_px)) return std::nullopt;
             offsets(row, column) = {offset->x(), offset->y()};
         }
     return Reprojection(std::move(offsets), size);
@@ -153,7 +156,7 @@ ColourImage Reprojection::apply(const ColourImage& picture, ColourImage carried)
     if (picture.size() != size_) cv::resize(picture, resampled, size_, 0, 0, cv::INTER_CUBIC);
     carried.create(size_);
     const GridMix across(offsets_.cols, size_.width), down(offsets_.rows, size_.height);
-    // All positions at once would be twice as large as the picture.
+    // The positions of all pixels at once would take twice the memory of the frame.
     cv::Mat2f positions(band_rows, size_.width), row(1, offsets_.cols);
     for (int top = 0; top < size_.height; top += band_rows) {
         const cv::Range rows(top, std::min(top + band_rows, size_.height));

@@ -7,32 +7,33 @@
 
 namespace vantage {
 
-/// Carries a picture on to where the camera went since it was rendered: every pixel is looked up
-/// where its surface was seen, which a few fixed-point steps over the picture's depth find (Bowles
-/// et al., Iterative Image Warping, 2012). What the first camera did not see is stretched over: for
-/// the way of a few ticks.
+/// Reprojects a frame to a camera that has moved since it was rendered. Every pixel is looked up at
+/// the place where the first camera saw its surface, which fixed-point steps over the depth compute
+/// (Bowles et al., Iterative Image Warping, 2012). Surfaces that the first camera did not see are
+/// stretched over, so this suits the way of a few ticks.
 class Reprojection {
   public:
-    /// Of the picture's width, that surfaces may have gone: further away stretched edges show.
-    static constexpr double furthest = 0.15;
+    /// Largest shift of a surface, as a share of the picture's width; beyond it stretched edges
+    /// become visible.
+    static constexpr double max_way = 0.15;
 
-    /// `inverse_depth` in 1/m, of the first camera's picture, on a grid of any number of cells.
-    /// Nothing if the way between the cameras is too long for that, or there is no depth.
+    /// Prepares a reprojection. `inverse_depth` is that of the first camera's frame, in 1/m, on a
+    /// grid of any size. Empty if the shift is too large or there is no depth.
     static std::optional<Reprojection> between(const CameraState& from, const CameraState& to,
                                                const cv::Mat1f& inverse_depth, cv::Size size);
 
-    /// About how far surfaces go between two cameras, as a share of the picture's width.
+    /// Estimated shift of surfaces between two cameras, as a share of the picture's width.
     static double way(const CameraState& from, const CameraState& to);
 
-    /// The picture is of the first camera; one of another size is resampled to this first.
-    /// `carried`: memory for the second camera's, where that has the size.
+    /// Reprojects the first camera's frame, which is resampled first if it has another size. The
+    /// result uses the memory of `carried` if its size fits.
     ColourImage apply(const ColourImage& picture, ColourImage carried = {}) const;
 
   private:
     Reprojection(cv::Mat2f offsets, cv::Size size) : offsets_(std::move(offsets)), size_(size) {}
 
-    cv::Mat2f offsets_;  ///< of the grid: how far a pixel of the second camera is from its place in
-                         ///< the first one's picture, in px of a picture of `size_`
+    cv::Mat2f offsets_;  ///< from a pixel of the second camera to its place in the first one's
+                         ///< frame, on the grid, in px of a frame of `size_`
     cv::Size size_;
 };
 

@@ -10,8 +10,8 @@
 namespace vantage {
 namespace {
 
-/// By how much a picture that took long counts less with every one after it.
-constexpr double forgetting = 0.998;
+/// Factor by which the longest time decays with every frame.
+constexpr double decay = 0.998;
 
 }  // namespace
 
@@ -32,10 +32,10 @@ bool Reprojector::is_idle() const {
 }
 
 void Reprojector::start(std::shared_ptr<const MadePicture> rendered, const CameraState& camera,
-                        std::uint64_t look) {
+                        std::uint64_t step) {
     {
         const std::lock_guard lock(mutex_);
-        work_ = Work{std::move(rendered), camera, look, MonotonicClock::now()};
+        work_ = Work{std::move(rendered), camera, step, MonotonicClock::now()};
     }
     woken_.notify_all();
 }
@@ -50,14 +50,14 @@ double Reprojector::longest_ms() const {
     return longest_ms_;
 }
 
-std::shared_ptr<const MadePicture> Reprojector::carried_on(const Work& work) {
+std::shared_ptr<const MadePicture> Reprojector::reprojected(const Work& work) {
     const MadePicture& rendered = *work.rendered;
     const std::optional<Reprojection> way =
         Reprojection::between(rendered.job.camera, work.camera, rendered.inverse_depth, size_);
     if (!way) return nullptr;
     auto carried = std::make_shared<MadePicture>(rendered);
     carried->job.camera = work.camera;
-    carried->job.look = work.look;
+    carried->job.step = work.step;
     carried->picture = way->apply(rendered.picture, pictures_.take<ColourImage>(size_));
     if (carried->sources) carried->sources->picture = way->apply(rendered.sources->picture);
     carried->rendered = work.rendered;
@@ -72,9 +72,9 @@ void Reprojector::run() {
         if (is_stopping_) return;
         const Work work = *work_;
         lock.unlock();
-        std::shared_ptr<const MadePicture> carried = carried_on(work);
+        std::shared_ptr<const MadePicture> carried = reprojected(work);
         lock.lock();
-        longest_ms_ = std::max(ms_since(work.started), forgetting * longest_ms_);
+        longest_ms_ = std::max(ms_since(work.started), decay * longest_ms_);
         finished_ = std::move(carried);
         work_.reset();
     }

@@ -11,37 +11,38 @@
 
 namespace vantage {
 
-/// Carries rendered pictures on to newer cameras (Reprojection), one at a time, on a thread of its
-/// own, so that the programme's clock waits for none.
+/// Reprojects rendered frames to newer cameras (see Reprojection), one at a time, on its own
+/// thread, so that the programme's clock never waits.
 class Reprojector {
   public:
-    /// Of pictures of this size, or of smaller ones, which are enlarged to it.
+    /// Results have this size; smaller frames are enlarged.
     explicit Reprojector(cv::Size size);
     ~Reprojector();
     Reprojector(const Reprojector&) = delete;
     Reprojector& operator=(const Reprojector&) = delete;
 
     bool is_idle() const;
-    /// To the camera of this look. Precondition: is_idle().
+    /// Starts to reproject a frame to the camera of a step. Precondition: is_idle().
     void start(std::shared_ptr<const MadePicture> rendered, const CameraState& camera,
-               std::uint64_t look);
-    /// Null if none was finished since the last call; those whose way was too long never are.
+               std::uint64_t step);
+    /// The reprojection that was finished since the last call. Null if there is none, or if the way
+    /// was too long.
     std::shared_ptr<const MadePicture> take_finished();
-    /// That the last ones took from start() on.
+    /// Longest time from start() to the result, of the last frames.
     double longest_ms() const;
 
   private:
     struct Work {
         std::shared_ptr<const MadePicture> rendered;
         CameraState camera;
-        std::uint64_t look;
+        std::uint64_t step;
         MonotonicTime started;
     };
     void run();
-    std::shared_ptr<const MadePicture> carried_on(const Work& work);
+    std::shared_ptr<const MadePicture> reprojected(const Work& work);
 
     cv::Size size_;
-    PicturePool pictures_;  ///< of the thread
+    PicturePool pictures_;  ///< used on the thread only
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::optional<Work> work_;

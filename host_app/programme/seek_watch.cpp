@@ -23,7 +23,7 @@ void SeekWatch::saw(const ReadyInstant& instant, std::optional<std::uint64_t> st
     const std::uint64_t shown = instant.set->trigger_index;
     if (shown < std::min(seek_->pulse, wanted) || shown > std::max(seek_->pulse, wanted)) return;
     const double all_ms = to_ms(now - seek_->since);
-    // What was done of it before the jump is not counted.
+    // Work on the instant before the jump does not count.
     const double begun_ms = to_ms(instant.taken_up - seek_->since);
     const double taken_up_ms = std::clamp(begun_ms, 0.0, all_ms);
     const double fetched_ms = std::clamp(begun_ms + instant.fetch_ms, 0.0, all_ms);

@@ -9,28 +9,28 @@
 
 namespace vantage {
 
-/// Where the time goes between a jump in time and its picture.
+/// Parts of the time between a jump in time and the frame of its target.
 template <class Time>
 struct SeekSteps {
     Time wait;     ///< for the instant that was being prepared
-    Time fetch;    ///< the set: read, decoded
-    Time prepare;  ///< its instant
-    Time picture;  ///< rendering, and the waits for its turn and for the tick
+    Time fetch;    ///< reading and decoding the frame set
+    Time prepare;  ///< preparing its instant
+    Time picture;  ///< rendering, and the waits for render priority and for the tick
 };
 
-/// Jumps in time, each until the picture of where it led is handed over.
+/// Measures jumps in time, each until the frame of its target is handed over. Not thread-safe.
 class SeekWatch {
   public:
-    /// Whether time has jumped since it was followed last; `jumps` so far.
+    /// Whether there was a jump since follow(); `jumps` is the number so far.
     bool has_jumped(std::uint64_t jumps) const { return jumps != jumps_; }
-    /// `stands_at`: the pulse that time stands at, if it is in the past and there is one; `shown`:
-    /// that of the last picture.
+    /// Starts to measure a new jump. `stands_at` is the pulse of the playback position, empty
+    /// unless in the past; `shown` is the pulse on screen.
     void follow(std::uint64_t jumps, std::optional<std::uint64_t> stands_at,
                 std::optional<std::uint64_t> shown, MonotonicTime now);
-    /// A jump is waited for.
+    /// Whether the frame of a jump is still awaited.
     bool is_on() const { return seek_.has_value(); }
-    /// A picture of this instant is handed over while time, which goes on meanwhile, stands at
-    /// `stands_at`.
+    /// Records that a frame of this instant is handed over. `stands_at` is the pulse of the present
+    /// playback position, which may have moved on.
     void saw(const ReadyInstant& instant, std::optional<std::uint64_t> stands_at,
              MonotonicTime now);
 
@@ -40,7 +40,7 @@ class SeekWatch {
   private:
     struct Seek {
         MonotonicTime since;
-        std::uint64_t pulse;  ///< that it led to
+        std::uint64_t pulse;  ///< target
     };
     std::optional<Seek> seek_;
     std::uint64_t jumps_ = 0;

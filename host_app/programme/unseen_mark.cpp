@@ -9,18 +9,18 @@
 namespace vantage {
 namespace {
 
-/// Distances are measured on a grid, so that they cost next to nothing.
+/// Distances are measured on a coarse grid, which is fast.
 constexpr int cells_a_row = 80;
 constexpr float first_cells = cells_a_row / 20.0f, last_cells = cells_a_row / 10.0f;
 constexpr int stripes_a_row = 60;
 const cv::Vec3f dark(26, 28, 32), light(44, 47, 53);
 
 bool is_unseen(const cv::Vec4b& pixel) {
-    constexpr unsigned char least_seen = 128;
-    return pixel[3] < least_seen && pixel[3] != remembered_alpha;
+    constexpr unsigned char min_seen = 128;
+    return pixel[3] < min_seen && pixel[3] != remembered_alpha;
 }
 
-/// In cells: how far from all that is seen; 0 where something is.
+/// Distances to the nearest pixel that was seen, in cells.
 cv::Mat1f distances_to_seen(const ColourImage& picture, int cell_px) {
     cv::Mat1b unseen((picture.rows + cell_px - 1) / cell_px,
                      (picture.cols + cell_px - 1) / cell_px);

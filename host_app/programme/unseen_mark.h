@@ -4,10 +4,9 @@
 
 namespace vantage {
 
-/// Marks in a rendered picture (alpha as of ViewRenderer::render) what neither was seen nor lies
-/// near anything that was: such pixels turn dark and hatched, from a twentieth of the picture's
-/// width away from all that was seen on, wholly so from a tenth. Smaller holes keep their filling,
-/// which is likely there; a smear over half a picture is no picture of anything.
+/// Marks large areas of a rendered frame that no rig saw, with dark hatching. It starts at 1/20 of
+/// the frame's width from the nearest pixel that was seen and is opaque from 1/10 on. Smaller holes
+/// keep their inpainted content, which is plausible there. Alpha is that of ViewRenderer::render().
 void mark_unseen(ColourImage& picture);
 
 }  // namespace vantage

@@ -54,17 +54,17 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
             : cv::Size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
     const Texture& texture = render(instant, camera, size, level, false);
     check_gl("rendering the virtual view");
-    // The way back is under way before this thread waits for the picture.
+    // The readback is queued before this thread waits for the frame.
     const Fence drawn = Fence::insert();
     readback_.begin(texture);
     if (const Texture* depth_m = renderer_->depth_m();
         depth_m && inverse_depth && !format_.stereoscopy)
         coarse_depth_.begin(*depth_m);
-    drawn.wait("a picture was waited for");
+    drawn.wait("waiting for a frame");
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take(size == full ? pictures_.take<ColourImage>(full) : small_);
     if (coarse_depth_.is_begun()) *inverse_depth = coarse_depth_.take();
-    require_context("a picture was read back");
+    require_context("reading back a frame");
     mark_unseen(picture);
     if (size != full) {
         small_ = std::exchange(picture, pictures_.take<ColourImage>(full));

@@ -15,33 +15,34 @@
 
 namespace vantage {
 
-/// The programme's picture: one camera, or the eyes of a 3D display.
+/// Size of the programme's frames, and the eyes of a 3D display.
 struct PictureFormat {
     int width_px = 1280, height_px = 720;
-    /// Eyes that converge, where this does not say, at the focus.
+    /// Empty: one eye. By default the eyes converge at the focus.
     std::optional<Stereoscopy> stereoscopy = {};
 };
 
-/// The view of a camera in a picture of this size.
+/// The view of a camera in a frame of this size.
 VirtualView view_of(const CameraState& camera, cv::Size size);
 
-/// The source map of a picture, for people and in numbers.
+/// The source map of a frame: as a picture, as shares, and its legend.
 struct SourceMap {
     ColourImage picture;
-    SourceShares shares;  ///< of two eyes, the right one's
+    SourceShares shares;  ///< with two eyes, of the right one
     std::vector<SourceMapOverlay::Key> legend;
 };
 
-/// Renders whole pictures of instants and reads them back, on the context that was current at
-/// construction.
+/// Renders frames of instants and reads them back. The context that was current at construction
+/// must be current at every call.
 class ViewPainter {
   public:
     ViewPainter(const SynthesiserEntry& synthesiser, const PictureFormat& format,
                 const ShaderLibrary& shaders);
 
-    /// Of the format's size, whatever size is rendered at this level. Waits for the GPU. With
-    /// `sources` also the source map, and with `inverse_depth` what CoarseDepth has of the picture
-    /// (of one eye only), if the synthesiser can tell; else that stays as it is.
+    /// Renders a frame and waits for the GPU. Levels that render a smaller size are enlarged to the
+    /// size of the format. Fills `sources` with the source map and `inverse_depth` with the grid of
+    /// CoarseDepth (with one eye only), unless they are null or the synthesiser does not provide
+    /// them.
     ColourImage paint(const Instant& instant, const CameraState& camera, const RenderLevel& level,
                       std::optional<SourceMap>* sources = nullptr,
                       cv::Mat1f* inverse_depth = nullptr);
@@ -55,11 +56,11 @@ class ViewPainter {
     std::unique_ptr<ViewRenderer> renderer_;
     SourceMapOverlay overlay_;
     EyeMosaic mosaic_;
-    const Texture* last_eye_ = nullptr;  ///< of the last render(), without its map
-    std::string lacking_;                ///< for the last picture
+    const Texture* last_eye_ = nullptr;  ///< result of the last render(), without the source map
+    std::string lacking_;                ///< reported limit of the last frame; empty: none
     Readback readback_;
     PicturePool pictures_;
-    ColourImage small_;  ///< as it was rendered, where that is not the format's size
+    ColourImage small_;  ///< memory for frames that are rendered smaller
     CoarseDepth coarse_depth_;
     double readback_ms_ = 0;
 };

@@ -28,7 +28,7 @@ std::uint64_t pulse_of_seconds(const std::string& words, const PastFrameSets::Sp
     const double from = static_cast<double>(std::signbit(seconds) ? past.newest : past.oldest);
     const double there = from + seconds * pulse_rate_hz;
     if (there < static_cast<double>(past.oldest) || there > static_cast<double>(past.newest))
-        fail("{} s is not in the past that there is, which has {:.1f} s", words,
+        fail("{} s is outside the past, which has {:.1f} s; give a time within it", words,
              static_cast<double>(past.newest - past.oldest) / pulse_rate_hz);
     return static_cast<std::uint64_t>(std::llround(there));
 }
@@ -44,8 +44,7 @@ std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span&
         return with_colons(clock.of_pulse(pulse, tai_offset_s));
     };
     if (wanted.size() == letters_to_the_second || wanted.size() == letters_to_the_frame) {
-        // Seconds are passed in half ones, so that none is missed; within one every frame is looked
-        // at.
+        // The search goes by half seconds, so that no second is missed, and then by frames.
         const auto second = static_cast<std::uint64_t>(std::ceil(pulse_rate_hz));
         const std::string_view to_the_second =
             std::string_view(wanted).substr(0, letters_to_the_second);
@@ -60,7 +59,7 @@ std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span&
             if (at == past.newest) break;
         }
     }
-    fail("{} is not in the past that there is, from {} to {}", words,
+    fail("{} is outside the past, which goes from {} to {}; give a time within it", words,
          clock.of_pulse(past.oldest, tai_offset_s), clock.of_pulse(past.newest, tai_offset_s));
 }
 

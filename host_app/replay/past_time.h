@@ -7,10 +7,11 @@
 
 namespace vantage {
 
-/// The pulse that a person names by its time in what there is of the past: "20:15:07:12", the
-/// house's time code (without frames the first of the second; drop-frame code with any mark),
-/// "12.5", seconds after its beginning, "-3", before its end. `tai_offset_s`: as TimecodeClock's.
-/// Throws Error if the words are none of these, or the time is not in it.
+/// Parses a time in the past that an operator typed, and returns its pulse. Accepted are the time
+/// code of the stage, "20:15:07:12", which without frames means the first frame of that second;
+/// seconds from the start, "12.5"; and seconds before the end, "-3". The separator before the frames
+/// of a drop-frame time code may be any. `tai_offset_s` is that of TimecodeClock. Throws Error if the
+/// text is none of these or the time is outside the past.
 std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span& past,
                             double pulse_rate_hz, int tai_offset_s);
 

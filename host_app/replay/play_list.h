@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// The order in which clips are played, which may be changed while it is: what plays plays on.
-/// Edits are of the entry that is selected.
+/// The play list: clips in the order in which they play. Edits apply to the selected entry and do
+/// not interrupt the entry that is playing. Places count from 0.
 class PlayList {
   public:
     PlayList() = default;
@@ -18,32 +18,31 @@ class PlayList {
     }
 
     const std::vector<PlayEntry>& entries() const { return entries_; }
-    /// Places from 0 on; nothing: there is no entry, or none plays.
+    /// Empty: there is no entry, or none is playing.
     std::optional<std::size_t> selected() const { return selected_; }
     std::optional<std::size_t> playing() const { return playing_; }
 
-    /// False: there is no such place.
+    /// False if there is no such place.
     bool select(std::size_t place);
-    /// Further down, or up, as far as the ends.
+    /// Moves the selection down (positive) or up, to the ends at most.
     void select_by(int places);
-    /// Behind the selected entry, and is selected then. False: the list is full.
+    /// Inserts a clip after the selected entry and selects it. False if the list is full.
     bool insert(int clip);
     void set_speed(std::optional<double> speed);
-    /// By one place down or up; at the ends it stays.
+    /// Swaps the selected entry with one further down or up; it stays selected.
     void move(int places);
-    /// The selected entry and the one at `place`, each where the other was; it stays
-    /// selected. False: there is none.
+    /// Swaps the selected entry with the one at `place`; it stays selected. False if there is none.
     bool swap(std::size_t place);
-    /// The selected entry; the next one is selected then. True: it was the one that plays, and the
-    /// one that stands there now, if any, should.
+    /// Removes the selected entry and selects the next one. True if the entry was playing; then the
+    /// one that takes its place, if any, is to play.
     bool remove();
-    /// All entries of a clip. True: the one that plays was among them.
+    /// Removes all entries of a clip. True if the one that is playing was among them.
     bool remove_clip(int clip);
     std::size_t count_of(int clip) const;
 
     void play(std::size_t place) { playing_ = place; }
     void stop() { playing_.reset(); }
-    /// Behind the one that plays; nothing: that is the last, and it does not loop.
+    /// The place after `after`; empty at the end of a list that does not loop.
     std::optional<std::size_t> next(std::size_t after, bool loops) const;
 
   private:

@@ -50,7 +50,7 @@ void Replay::edit(const Change& change) {
     if (book != *book_) book_ = std::make_shared<const ClipBook>(std::move(book));
 }
 
-void Replay::say(std::string notice) {
+void Replay::notify(std::string notice) {
     notice_ = std::move(notice);
     ++notices_;
 }
@@ -58,7 +58,7 @@ void Replay::say(std::string notice) {
 bool Replay::confirms(std::string question) {
     const bool is_again = question == question_ && time_s_ < question_until_s_;
     question_ = is_again ? std::string() : std::move(question);
-    question_until_s_ = time_s_ + asks_for_s;
+    question_until_s_ = time_s_ + confirm_within_s;
     return is_again;
 }
 
@@ -95,7 +95,7 @@ ReplayState Replay::state() const {
     const double speed = time.speed > 0 ? time.speed : wanted;
     const double out = as_pulse(time.out.value_or(book_->clips.at(clip_).out));
     state.clip_left_s = std::max(0.0, out - *time.pulse) / (speed * book_->pulse_rate_hz);
-    // What stands behind its last pulse has been shown to its end.
+    // After an overrun the last pulse was shown to its end.
     if (transport_.overrun_s()) state.clip_left_s = 0;
     if (!state.playing) return state;
     state.list_left_s = state.clip_left_s;
@@ -104,18 +104,36 @@ ReplayState Replay::state() const {
     return state;
 }
 
-void Replay::take(const TransportInput& input, std::uint64_t shown_pulse, const Span& span) {
-    if (input.to_live || input.to_pulse || input.at_pulse) leave_piece();
-    TransportInput operator_input = input;
-    operator_input.pulses = input.pulses * (fast_jog_ ? fast_jog_times : 1) + input.shuttle_pulses;
-    operator_input.shuttle_pulses = 0;
-    operator_input.calls.clear();
-    const bool was_playing = plays();
-    transport_.take(operator_input, shown_pulse, span);
+void Replay::note_start(bool was_playing) {
     if (plays() && !was_playing)
         last_cue_ = Cue{mode(), *transport_.pulse(), clip_, list_.playing().value_or(0)};
+}
+
+void Replay::take(const TransportInput& input, std::uint64_t shown_pulse, const Span& span) {
+    if (input.to_pulse || input.at_pulse) leave_piece();
+    TransportInput scaled = input;
+    scaled.pulses = input.pulses * (fast_jog_ ? fast_jog_factor : 1) + input.shuttle_pulses;
+    const bool was_playing = plays();
+    transport_.take(scaled, shown_pulse, span);
+    note_start(was_playing);
     if (clip_ != 0 && !transport_.pulse()) hold_lost();
-    for (const ReplayCall& call : input.calls) obey(call, shown_pulse, span);
+    for (const TimeCommand& each : input.commands) {
+        if (const auto* transport = std::get_if<TransportCommand>(&each))
+            obey_transport(*transport, shown_pulse, span);
+        else
+            obey(std::get<ReplayCall>(each), shown_pulse, span);
+    }
+}
+
+void Replay::obey_transport(const TransportCommand& command, std::uint64_t shown_pulse,
+                            const Span& span) {
+    if (std::holds_alternative<command::ToLive>(command)) leave_piece();
+    TransportCommand scaled = command;
+    if (auto* step = std::get_if<command::StepFrames>(&scaled))
+        step->frames *= fast_jog_ ? fast_jog_factor : 1;
+    const bool was_playing = plays();
+    transport_.obey(scaled, shown_pulse, span);
+    note_start(was_playing);
 }
 
 void Replay::obey(const ReplayCall& call, std::uint64_t shown_pulse, const Span& span) {
@@ -169,11 +187,11 @@ void Replay::obey_clip(const ReplayCall& call, std::uint64_t shown_pulse, const 
         if (book_->clips.contains(call.number))
             hand_ = call.number;
         else
-            say(fmt::format("there is no clip {}", call.number));
+            notify(fmt::format("there is no clip {}", call.number));
         return;
     }
     if (!book_->clips.contains(hand_))
-        return say("no clip is in hand: make one of what is between the marks");
+        return notify("no clip is selected; set both marks and make one");
     switch (call.action) {
         case ReplayAction::trim_clip:
             return trim_clip();
@@ -206,24 +224,24 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
     switch (call.action) {
         case ReplayAction::add_entry:
             if (!book_->clips.contains(hand_))
-                return say("no clip is in hand that the play list could take");
+                return notify("no clip is selected; select one to add it to the play list");
             if (!list_.insert(hand_))
-                return say(
-                    fmt::format("the play list is full: {} entries are the most", most_entries));
+                return notify(
+                    fmt::format("the play list is full with {} entries; remove one first", most_entries));
             break;
         case ReplayAction::loop_list:
             edit([](ClipBook& book) { book.list_loops = !book.list_loops; });
             return;
         default:
             if (list_.entries().empty())
-                return say("the play list is empty: add the clip in hand to it");
+                return notify("the play list is empty; add the selected clip first");
             switch (call.action) {
                 case ReplayAction::play_list:
                     return play_list(span);
                 case ReplayAction::next_entry:
-                    if (!list_.playing()) return say("the play list does not play");
+                    if (!list_.playing()) return notify("the play list is not playing");
                     if (!enter_entry(list_.next(*list_.playing(), book_->list_loops), span))
-                        say("that is the last entry of the play list");
+                        notify("this is the last entry of the play list");
                     return;
                 case ReplayAction::remove_entry:
                     return remove_entry(span);
@@ -234,7 +252,7 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
                                               ? list_.swap(place)
                                               : list_.select(place);
                     if (!is_there)
-                        return say(fmt::format("the play list has {} entries, and no entry {}",
+                        return notify(fmt::format("the play list has only {} entries, so there is no entry {}",
                                                list_.entries().size(), call.number));
                     break;
                 }
@@ -256,13 +274,13 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
 }
 
 void Replay::to_last_cue(const Span& span) {
-    if (!last_cue_) return say("nothing was played yet that could be gone back to");
+    if (!last_cue_) return notify("nothing was played yet, so there is no start of playback to go to");
     const Cue cue = *last_cue_;
     if (!span || cue.pulse < as_pulse(span->oldest))
-        return say("where the last playback began has left the replay buffer");
+        return notify("the start of the last playback has left the replay buffer");
     if (cue.mode == ReplayMode::clip || cue.mode == ReplayMode::list) {
         const bool is_of_list = cue.mode == ReplayMode::list;
-        // The list may be another one meanwhile: its entry is gone back to where it still is that.
+        // The list may have changed; the entry counts only if it still has the same clip.
         const bool has_entry = is_of_list && cue.entry < list_.entries().size() &&
                                list_.entries()[cue.entry].clip == cue.clip;
         const auto clip = book_->clips.find(cue.clip);
@@ -283,24 +301,23 @@ void Replay::to_last_cue(const Span& span) {
 }
 
 void Replay::toggle_programme_speed(std::uint64_t shown_pulse, const Span& span) {
-    if (!span) return say("there is no past that could be played");
+    if (!span) return notify("there is no past to play");
     const bool was_playing = plays();
     const bool is_at_it = was_playing && transport_.state().speed == book_->programme_speed;
     transport_.play(is_at_it ? 1 : book_->programme_speed, shown_pulse, *span);
-    if (!was_playing)
-        last_cue_ = Cue{mode(), *transport_.pulse(), clip_, list_.playing().value_or(0)};
+    note_start(was_playing);
 }
 
 void Replay::make_clip(std::uint64_t shown_pulse) {
     const TransportState& time = transport_.state();
-    if (!time.in) return say("a clip begins at the in mark: mark in first");
+    if (!time.in) return notify("a clip starts at the in mark; set the in mark first");
     const std::uint64_t out = time.out.value_or(
         time.pulse && time.speed == 0 ? static_cast<std::uint64_t>(*time.pulse) : shown_pulse);
-    if (out <= *time.in) return say("a clip ends before the out mark: mark out after the in mark");
+    if (out <= *time.in) return notify("a clip ends at the out mark; set the out mark after the in mark");
     int number = 1;
     while (book_->clips.contains(number)) ++number;
     if (number > most_clips)
-        return say(fmt::format("there are {} clips, and no room for more: delete one", most_clips));
+        return notify(fmt::format("there are already {} clips, the maximum; delete one first", most_clips));
     Clip clip{.in = *time.in, .out = out};
     if (plays() && time.speed == book_->programme_speed) clip.speed = book_->programme_speed;
     edit([&](ClipBook& book) { book.clips.emplace(number, clip); });
@@ -310,9 +327,9 @@ void Replay::make_clip(std::uint64_t shown_pulse) {
 void Replay::trim_clip() {
     const TransportState& time = transport_.state();
     if (clip_ != 0 && clip_ != hand_)
-        return say(
-            fmt::format("the marks are those of clip {}, and clip {} is in hand", clip_, hand_));
-    if (!time.in || !time.out) return say("a clip is trimmed to the marks: mark in and out first");
+        return notify(
+            fmt::format("the marks belong to clip {}, but clip {} is selected", clip_, hand_));
+    if (!time.in || !time.out) return notify("a clip is trimmed to the marks; set both marks first");
     edit([&](ClipBook& book) {
         held_clip(book)->in = *time.in;
         held_clip(book)->out = *time.out;
@@ -330,9 +347,9 @@ void Replay::delete_clip(const Span& span) {
     const int number = hand_;
     const std::string clip = words_of(number, book_->clips.at(number));
     const std::size_t entries = list_.count_of(number);
-    std::string what = clip_ == number && plays() ? ", which plays" : "";
-    if (entries > 0) what += ", which the play list has " + counted_times(entries);
-    if (!confirms(fmt::format("again to delete {}{}", clip, what))) return;
+    std::string what = clip_ == number && plays() ? ", which is playing" : "";
+    if (entries > 0) what += ", which is in the play list " + counted_times(entries);
+    if (!confirms(fmt::format("give the command again to delete {}{}", clip, what))) return;
     const bool was_playing = list_.remove_clip(number);
     if (clip_ == number && !was_playing) leave_piece();
     const auto next = std::next(book_->clips.find(number));
@@ -347,11 +364,11 @@ bool Replay::enter_clip(int number, double speed, bool plays, const Span& span, 
     const ClipPresence presence = presence_of(clip, span);
     const char* past = transport_.is_of_take() ? "the take" : "the replay buffer";
     if (presence == ClipPresence::gone) {
-        say(fmt::format("{} is not in {}", words_of(number, clip), past));
+        notify(fmt::format("{} is not in {}", words_of(number, clip), past));
         return false;
     }
     if (presence == ClipPresence::part)
-        say(fmt::format("of {} a part is not in {}", words_of(number, clip), past));
+        notify(fmt::format("a part of {} is not in {}", words_of(number, clip), past));
     const double rate_hz = book_->pulse_rate_hz, guard = clip.guard_s * rate_hz;
     const double in = as_pulse(clip.in), last = as_pulse(clip.out) - 1;
     transport_.enter({clip.in, clip.out, std::max(0.0, in - guard), last + guard},
@@ -359,7 +376,7 @@ bool Replay::enter_clip(int number, double speed, bool plays, const Span& span, 
                      *span);
     clip_ = number;
     is_list_over_ = false;
-    is_told_of_loss_ = presence == ClipPresence::part;
+    is_loss_reported_ = presence == ClipPresence::part;
     if (clip.shot != 0) shot_ = clip.shot;
     return true;
 }
@@ -391,7 +408,7 @@ void Replay::play_list(const Span& span) {
 void Replay::remove_entry(const Span& span) {
     const bool is_playing = list_.playing() && list_.playing() == list_.selected();
     if (is_playing && plays() &&
-        !confirms(fmt::format("again to take out entry {}, which plays", *list_.playing() + 1)))
+        !confirms(fmt::format("give the command again to remove entry {}, which is playing", *list_.playing() + 1)))
         return;
     if (list_.remove()) replace_playing(span);
     edit([](ClipBook&) {});
@@ -432,7 +449,7 @@ void Replay::hold_lost() {
     const std::string lost = words_of(clip_, book_->clips.at(clip_));
     leave_piece();
     transport_.hold_what_is_shown();
-    say(fmt::format("{} has left the replay buffer: its last picture is held", lost));
+    notify(fmt::format("{} has left the replay buffer; its last picture is held", lost));
 }
 
 void Replay::follow_piece(const PastFrameSets::Span& span) {
@@ -445,9 +462,9 @@ void Replay::follow_piece(const PastFrameSets::Span& span) {
         is_list_over_ = true;
     }
     if (is_gone && plays()) return hold_lost();
-    if (!is_told_of_loss_ && clip.in < span.oldest) {
-        is_told_of_loss_ = true;
-        say(fmt::format("the beginning of {} leaves the replay buffer", words_of(clip_, clip)));
+    if (!is_loss_reported_ && clip.in < span.oldest) {
+        is_loss_reported_ = true;
+        notify(fmt::format("the beginning of {} has left the replay buffer", words_of(clip_, clip)));
     }
 }
 

@@ -7,12 +7,12 @@
 namespace vantage {
 namespace {
 
-/// As on the shuttle of a replay machine.
+/// The speeds that the shuttle of a replay machine has.
 constexpr std::array speeds{-2.0, -1.0, -0.75, -0.5, -0.33, -0.25, -0.1, 0.0,
                             0.1,  0.25, 0.33,  0.5,  0.75,  1.0,   2.0};
 
-/// A flight that leads further than so many pulses in a tick leads to elsewhere.
-constexpr double longest_lead = 25;
+/// A move that sets the time may go by so many pulses in a tick; more counts as a jump.
+constexpr double max_lead_pulses = 25;
 
 }  // namespace
 
@@ -80,59 +80,85 @@ void Transport::hold_what_is_shown() {
 
 void Transport::take(const TransportInput& input, std::uint64_t shown_pulse,
                      const std::optional<PastFrameSets::Span>& span) {
-    if (input.is_any()) {
+    const bool moves = input.moves_time();
+    if (moves) {
         is_at_end_ = false;
         overrun_s_.reset();
     }
-    if (input.toggle_hold) toggle_hold();
-    if (input.to_live) to_live();
-    if (input.toggle_loop) state_.loops = !state_.loops;
-    if (input.clear_marks) mark(std::nullopt, std::nullopt);
-    // Where time stands its picture may be on its way yet, and what is meant is that.
-    const std::uint64_t here = state_.pulse && state_.speed == 0 && !state_.is_held
-                                   ? static_cast<std::uint64_t>(*state_.pulse)
-                                   : shown_pulse;
-    if (input.mark_in) {
-        state_.in = here;
-        if (state_.out && *state_.out <= here) state_.out.reset();
-    }
-    if (input.mark_out) {
-        state_.out = here;
-        if (state_.in && *state_.in >= here) state_.in.reset();
-    }
     is_led_ = is_of_take_ && input.at_pulse && span;
     if (!span) return;
-    // What stands keeps its picture when the buffer lets go of it.
-    if (!is_of_take_ && !input.is_any() && state_.pulse && state_.speed == 0 &&
-        shown_pulse < span->oldest && as_pulse(shown_pulse) <= *state_.pulse)
+    // A position that stands keeps its picture when the replay buffer drops the frame set.
+    if (!is_of_take_ && !moves && state_.pulse && state_.speed == 0 && shown_pulse < span->oldest &&
+        as_pulse(shown_pulse) <= *state_.pulse)
         hold_what_is_shown();
     if (is_led_) {
         lead(*input.at_pulse, *span);
         return;
     }
-    if (input.cue) {
-        state_.speed = 0;
-        go_to(as_pulse(state_.in.value_or(span->oldest)), *span);
-    }
     if (input.to_pulse) {
         state_.speed = 0;
         go_to(*input.to_pulse, *span);
     }
-    if (input.pulses != 0) {
-        state_.speed = 0;
-        go_to(state_.pulse.value_or(as_pulse(shown_pulse)) + input.pulses, *span);
-    }
-    if (input.speed_steps != 0) {
-        if (!state_.pulse) go_to(as_pulse(shown_pulse), *span);
-        change_speed(input.speed_steps);
-    }
+    step(input.pulses, shown_pulse, *span);
+}
+
+void Transport::step(double pulses, std::uint64_t shown_pulse, const PastFrameSets::Span& span) {
+    if (pulses == 0) return;
+    state_.speed = 0;
+    go_to(state_.pulse.value_or(as_pulse(shown_pulse)) + pulses, span);
+}
+
+std::uint64_t Transport::pulse_to_mark(std::uint64_t shown_pulse) const {
+    // The picture of a position that stands may still be on its way; the mark is for the position.
+    return state_.pulse && state_.speed == 0 && !state_.is_held
+               ? static_cast<std::uint64_t>(*state_.pulse)
+               : shown_pulse;
+}
+
+void Transport::obey(const TransportCommand& command, std::uint64_t shown_pulse,
+                     const std::optional<PastFrameSets::Span>& span) {
+    struct Execution {
+        Transport& transport;
+        std::uint64_t shown_pulse;
+        const std::optional<PastFrameSets::Span>& span;
+        TransportState& state = transport.state_;
+
+        void operator()(const command::ToggleHold&) const { transport.toggle_hold(); }
+        void operator()(const command::ToLive&) const { transport.to_live(); }
+        void operator()(const command::ToggleLoop&) const { state.loops = !state.loops; }
+        void operator()(const command::ClearMarks&) const {
+            transport.mark(std::nullopt, std::nullopt);
+        }
+        void operator()(const command::MarkIn&) const {
+            state.in = transport.pulse_to_mark(shown_pulse);
+            if (state.out && *state.out <= *state.in) state.out.reset();
+        }
+        void operator()(const command::MarkOut&) const {
+            state.out = transport.pulse_to_mark(shown_pulse);
+            if (state.in && *state.in >= *state.out) state.in.reset();
+        }
+        void operator()(const command::CueIn&) const {
+            if (!span) return;
+            state.speed = 0;
+            transport.go_to(as_pulse(state.in.value_or(span->oldest)), *span);
+        }
+        void operator()(const command::StepFrames& step) const {
+            if (span) transport.step(step.frames, shown_pulse, *span);
+        }
+        void operator()(const command::ChangeSpeed& change) const {
+            if (!span) return;
+            if (!state.pulse) transport.go_to(as_pulse(shown_pulse), *span);
+            transport.change_speed(change.steps);
+        }
+    };
+    std::visit(Execution{*this, shown_pulse, span}, command);
 }
 
 void Transport::lead(double pulse, const PastFrameSets::Span& span) {
     const double there = std::clamp(pulse, as_pulse(span.oldest), as_pulse(span.newest));
     const double way = there - state_.pulse.value_or(there);
     is_led_on_ = way != 0;
-    if (std::abs(way) > longest_lead) ++jumps_;
+    if (std::abs(way) > max_lead_pulses) ++jumps_;
     state_.pulse = there;
 }
 
@@ -194,8 +220,8 @@ void Transport::advance(double dt_s, double pulse_rate_hz,
     const double now = before + state_.speed * dt_s * pulse_rate_hz;
     const double in = state_.in ? std::max(oldest, as_pulse(*state_.in)) : oldest;
     const double last = state_.out ? std::min(newest, as_pulse(*state_.out) - 1) : newest;
-    // A whole pulse is shown for a whole period. A loop is also entered from beyond its end, as
-    // when its out mark is set where the programme is.
+    // Every pulse is shown for a whole period. A loop is also entered from beyond its end, as when
+    // the out mark is set at the present position.
     if (state_.speed > 0 && now >= last + 1 && (before < last + 1 || state_.loops)) {
         if (!is_of_take_ && !state_.loops && !piece_ && last == newest) {
             to_live();

@@ -8,105 +8,112 @@
 
 namespace vantage {
 
-/// As the place in time that it has there.
+/// A pulse index as a playback position.
 inline double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
 
-/// A part of the past that is played for itself: its marks, and how far beyond them hands may go.
+/// Part of the past that plays on its own, as a clip: its marks, and the range that the operator can
+/// reach around them.
 struct TransportPiece {
-    std::uint64_t in = 0, out = 0;  ///< `out` is the first that is left out
-    double least = 0, most = 0;     ///< pulses
+    std::uint64_t in = 0, out = 0;  ///< `out` is the first pulse that is left out
+    double least = 0, most = 0;     ///< range in pulses
 };
 
-/// How it stands, for the desk.
+/// Status of the transport.
 struct TransportState {
     bool is_held = false;
-    std::optional<double> pulse;  ///< nothing: live
+    std::optional<double> pulse;  ///< playback position; empty: live
     double speed = 0;
-    std::optional<std::uint64_t> in, out;  ///< `out` is the first that is left out
+    std::optional<std::uint64_t> in, out;  ///< marks; `out` is the first pulse that is left out
     bool loops = false;
 };
 
-/// Where in time the programme is: live, held on the instant that is shown, or at a pulse of the
-/// past, standing or playing at a speed from -2 to 2. The past is the replay buffer's, or a take's,
-/// which has no live. Recording and what arrives go on whatever it says.
+/// The transport of the programme, as of a replay machine: live, held on the frame set on screen, or
+/// at a position of the past that stands or plays at a speed from -2 to 2. The past is the replay
+/// buffer, or a take, which has no live. The transport affects neither recording nor reception.
+/// Positions are pulse numbers. Not thread-safe.
 class Transport {
   public:
     Transport() = default;
-    /// In a take: at the pulse, playing.
+    /// In a take: plays from a pulse on.
     static Transport of_take(double pulse, double speed);
 
-    /// What hands want, of the pulse that is shown.
+    /// Executes all of the input except its commands. `shown_pulse` is the pulse on screen.
     void take(const TransportInput& input, std::uint64_t shown_pulse,
               const std::optional<PastFrameSets::Span>& span);
-    /// Time goes by. At the out mark, or the end of what there is, it stops, or begins again at the
-    /// in mark where it loops; playing that comes up to the newest pulse of a stage is live again.
+    void obey(const TransportCommand& command, std::uint64_t shown_pulse,
+              const std::optional<PastFrameSets::Span>& span);
+    /// Plays on by dt_s. At the out mark or at the end of the past it stops, or starts again at the
+    /// in mark if it loops. On a stage, playing up to the newest pulse returns to live.
     void advance(double dt_s, double pulse_rate_hz, const std::optional<PastFrameSets::Span>& span);
 
-    /// To a pulse of the piece, whose marks stand in place of those there were; it `plays` from
-    /// there or will at this speed. The piece does not loop at first.
+    /// Goes to a pulse of a piece. The marks of the piece replace the present ones, and the loop is
+    /// switched off. It plays at `speed` if `plays`, and otherwise stands and will play at `speed`.
     void enter(const TransportPiece& piece, double pulse, double speed, bool plays,
                const PastFrameSets::Span& span);
-    /// The marks of before the first enter() are back; where the programme is stays.
+    /// Restores the marks from before the first enter(); the position stays.
     void leave();
-    /// There, and stand.
+    /// Goes to a pulse and stops there.
     void stand_at(double pulse, const PastFrameSets::Span& span);
-    /// At this speed from now on; from live from the pulse that is shown.
+    /// Plays at a speed; from live it starts at the pulse on screen.
     void play(double speed, std::uint64_t shown_pulse, const PastFrameSets::Span& span);
-    /// Of what plays.
+    /// Changes the speed of playback.
     void set_speed(double speed) { state_.speed = last_speed_ = speed; }
-    /// The instant that is shown, though the past may not have it any more.
+    /// Holds the frame set on screen, even if the replay buffer has dropped it.
     void hold_what_is_shown();
 
-    /// From `in` to before `out`.
+    /// Sets both marks.
     void mark(std::optional<std::uint64_t> in, std::optional<std::uint64_t> out);
     void set_loop(bool loops) { state_.loops = loops; }
 
     bool is_of_take() const { return is_of_take_; }
     bool is_live() const { return !state_.pulse && !state_.is_held; }
     bool is_held() const { return state_.is_held; }
-    /// What is shown changes by itself.
+    /// Whether the frame set on screen changes without input.
     bool is_moving() const {
         return is_live() || (is_led_ ? is_led_on_ : state_.pulse && state_.speed != 0);
     }
-    /// What is shown goes on as it was, or a flight leads it, whichever way that is.
+    /// Whether time passes at normal speed, or a move sets it.
     bool is_at_normal_speed() const {
         return is_live() || (is_moving() && (is_led_ || (state_.speed == 1 && !state_.is_held)));
     }
-    /// It played to an end and stopped there.
+    /// Whether it played to an end and stopped there.
     bool is_at_end() const { return is_at_end_; }
-    /// It played over the out mark, or the end, and this much further in its time.
+    /// Time by which playback passed the out mark or the end; empty: it did not.
     std::optional<double> overrun_s() const { return overrun_s_; }
-    /// In the past: the pulse.
+    /// Position in the past; empty: live or held.
     std::optional<double> pulse() const { return state_.pulse; }
     const TransportState& state() const { return state_; }
-    /// How often it went somewhere else than time does: a jog, a cue, a loop's end.
+    /// Number of jumps in time so far: by a jog, a cue, or the end of a loop.
     std::uint64_t jumps() const { return jumps_; }
 
   private:
-    /// How far hands may go.
+    /// Range that the operator can reach.
     struct Reach {
         double least, most;
     };
-    Reach reach(const PastFrameSets::Span& span) const;
-    void lead(double pulse, const PastFrameSets::Span& span);
-    void toggle_hold();
-    void to_live();
-    void go_to(double pulse, const PastFrameSets::Span& span);
-    void change_speed(int steps);
-    void arrive(double at, double again_at);
-
-    /// What was before a piece was entered.
+    /// Marks and loop from before a piece was entered.
     struct Before {
         std::optional<std::uint64_t> in, out;
         bool loops = false;
     };
+    Reach reach(const PastFrameSets::Span& span) const;
+    /// Follows a move that sets the time.
+    void lead(double pulse, const PastFrameSets::Span& span);
+    void toggle_hold();
+    void to_live();
+    void step(double pulses, std::uint64_t shown_pulse, const PastFrameSets::Span& span);
+    /// Pulse at which a mark is set.
+    std::uint64_t pulse_to_mark(std::uint64_t shown_pulse) const;
+    void go_to(double pulse, const PastFrameSets::Span& span);
+    void change_speed(int steps);
+    void arrive(double at, double again_at);
 
     TransportState state_;
     std::optional<TransportPiece> piece_;
-    Before before_;  ///< of the piece
+    Before before_;
     std::optional<double> overrun_s_;
     bool is_of_take_ = false, is_at_end_ = false;
-    bool is_led_ = false, is_led_on_ = false;  ///< by a flight; and it went on since the last tick
+    bool is_led_ = false, is_led_on_ = false;  ///< by a move; and it moved since the last tick
     double last_speed_ = 1;
     std::uint64_t jumps_ = 0;
 };

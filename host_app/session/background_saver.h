@@ -9,28 +9,28 @@
 
 namespace vantage {
 
-/// Saves what a session has learnt of its set, on a thread of its own: neither programme nor
-/// session waits for the file. One at a time.
+/// Saves the learnt background to a file on a thread of its own, one file at a time, so that
+/// neither programme nor session waits. Used on the session's thread.
 class BackgroundSaver {
   public:
-    /// With a `path` sets are saved there, the second as PATH-2; without one where the program was
-    /// started, named for the time. The show must outlive it. Throws Error for a path that cannot
-    /// be written.
+    /// Saves to `path`, the second time to PATH-2, or without a path to the working folder under
+    /// the name of the time. The show must outlive this object. Throws Error if the path exists or
+    /// cannot be written.
     BackgroundSaver(LiveShow& show, std::filesystem::path path);
 
-    /// Begins to save; what is wrong with that shows in the log and state.
+    /// Starts to save. Failures are logged and kept in state().
     void save();
-    /// Waits for what is being saved.
+    /// Waits until the file is written.
     void finish();
 
     struct State {
-        std::string path;     ///< of the last that was saved; empty: none
-        std::string failure;  ///< of the last; empty: none
+        std::string path;     ///< the last file that was saved; empty: none
+        std::string failure;  ///< of the last attempt; empty: none
     };
     State state() const;
 
   private:
-    void write(std::future<Background> set, const std::filesystem::path& path);
+    void write(std::future<Background> background, const std::filesystem::path& path);
 
     LiveShow& show_;
     std::filesystem::path path_;

@@ -6,19 +6,20 @@
 namespace vantage {
 namespace {
 
+/// Period of the time code's lamp: more often it would only load the ports.
 constexpr std::chrono::milliseconds timecode_period{250};
 
 }  // namespace
 
 ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
     if (urls.empty()) return;
-    desk_.emplace(urls, ControlBench{show.controls().operator_input(), show.controls().tracked(), tally_,
-                                     lamps_, ltc_});
+    ports_.emplace(urls, ControlBench{show.controls().operator_input(), show.controls().tracked(),
+                                      tally_, lamps_, ltc_});
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                              const std::string& saved_background, MonotonicTime now) {
-    if (!desk_) return;
+    if (!ports_) return;
     const ProgrammeState state = show.state();
     const FlightControls::Lines lines = show.controls().lines();
     ShowLamps& lamps = shown_;
@@ -30,9 +31,10 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.mark_out = state.time.out.has_value();
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
-    lamps.set = -1;
-    for (const RigBackgroundState& set : show.instant_stats().sets)
-        lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
+    lamps.background = -1;
+    for (const RigBackgroundState& background : show.instant_stats().backgrounds)
+        lamps.background =
+            lamps.background < 0 ? background.known : std::min(lamps.background, background.known);
     lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
@@ -70,7 +72,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
 }
 
 void ControlRoom::show_replay(const ProgrammeState& state) {
-    // As people read it, and not more often than that changes.
+    // Tenths, so that the lamps change no more often than they can be read.
     const auto tenths = [](const std::optional<double>& seconds) {
         return seconds ? std::round(10 * *seconds) / 10 : -1;
     };
@@ -104,11 +106,11 @@ void ControlRoom::show_replay(const ProgrammeState& state) {
 }
 
 std::vector<PortState> ControlRoom::ports() const {
-    return desk_ ? desk_->states() : std::vector<PortState>();
+    return ports_ ? ports_->states() : std::vector<PortState>();
 }
 
 std::vector<PortState> ControlRoom::close() {
-    if (desk_) desk_->close();
+    if (ports_) ports_->close();
     return ports();
 }
 

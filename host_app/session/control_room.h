@@ -11,20 +11,21 @@
 
 namespace vantage {
 
-/// The ports of a show by which others steer it, and what they are shown.
+/// The control ports of a show, and the tally, lamps and time code that are exchanged with them.
+/// Used on the session's thread.
 class ControlRoom {
   public:
-    /// Throws Error as ControlDesk. The show must outlive it.
+    /// Opens the ports. Throws Error as ControlPorts does. The show must outlive this object.
     ControlRoom(const std::vector<std::string>& urls, LiveShow& show);
 
-    /// To be called often, from the session's thread. `take`: nothing: none can be recorded.
+    /// Updates the lamps. Call it often. `take` is nothing if no take can be recorded.
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                     const std::string& saved_background, MonotonicTime now);
     Tally::State tally() const { return tally_.state(); }
     LtcBoard::State ltc() const { return ltc_.state(); }
-    /// What the ports have counted so far.
+    /// The ports' counters so far.
     std::vector<PortState> ports() const;
-    /// Ends the ports; what they counted.
+    /// Closes the ports and returns their final counters.
     std::vector<PortState> close();
 
   private:
@@ -36,7 +37,7 @@ class ControlRoom {
     std::optional<SetTimecode> timecodes_;
     ShowLamps shown_;
     MonotonicTime timecode_shown_{};
-    std::optional<ControlPorts> desk_;
+    std::optional<ControlPorts> ports_;
 };
 
 }  // namespace vantage

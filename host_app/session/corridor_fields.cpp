@@ -10,6 +10,7 @@ constexpr int sectors = 36, rings = 6;
 constexpr std::size_t fields_at_once = 45;
 
 bool is_like(const OrbitView& a, const OrbitView& b) {
+    // Smaller changes are not visible in the map.
     constexpr double near_m = 0.05, near_rad = 0.03;
     return (a.pivot_m - b.pivot_m).norm() < near_m &&
            std::abs(a.elevation_rad - b.elevation_rad) < near_rad &&
@@ -26,7 +27,7 @@ void CorridorFields::begin(const std::shared_ptr<const Corridor>& corridor, cons
     coming_.clear();
     const double width_rad = 2 * std::numbers::pi / sectors;
     const double ring_m = reach_m / rings;
-    // Where the pivot itself is, nobody flies.
+    // The innermost ring is the pivot itself, where no camera flies.
     for (int ring = 1; ring < rings; ++ring)
         for (int sector = 0; sector < sectors; ++sector)
             coming_.push_back({sector * width_rad, width_rad, ring * ring_m, (ring + 1) * ring_m});

@@ -10,13 +10,13 @@
 
 namespace vantage {
 
-/// The corridor from above: fields around the camera's pivot, each with what the rigs would cover
-/// if the camera stood in its middle. A few fields are worked out at a time, so that nobody waits
-/// for all of them.
+/// The map of the corridor from above: fields around the camera's pivot, each with the coverage
+/// that a camera in its middle would have. A few fields are computed per call, so that the desk
+/// never waits for the whole map.
 class CorridorFields {
   public:
-    /// Works on, where corridor, pivot, elevation or lens are other than before. `reach_m`: how far
-    /// from the pivot fields go.
+    /// Computes some more fields, and starts again if corridor, pivot, elevation or field of view
+    /// have changed. `reach_m` is the radius of the map.
     void follow(const std::shared_ptr<const Corridor>& corridor, const OrbitView& view,
                 double reach_m);
 
@@ -29,7 +29,7 @@ class CorridorFields {
                double reach_m);
 
     std::shared_ptr<const Corridor> corridor_;
-    OrbitView view_, shown_;  ///< of what is worked out, and of what is shown
+    OrbitView view_, shown_;  ///< of the map that is computed, and of the finished one
     std::size_t next_ = 0;
     std::vector<DeskPlan::Field> fields_, coming_;
 };

@@ -15,12 +15,12 @@
 namespace vantage {
 namespace {
 
-/// Before the stage is framed by the rigs that are there.
-constexpr std::chrono::seconds patience_with_rigs{3};
-/// Between two lines that say which frames are waited for.
+/// How long the framing of the stage waits for missing rigs: rigs of one stage start together.
+constexpr std::chrono::seconds framing_patience{3};
+/// Period of the log lines about missing rigs.
 constexpr std::chrono::seconds waiting_report_period{10};
 
-/// The states of the rigs that are not in the set; of all, without one.
+/// Lists the states of the rigs that are not in the frame set, or of all rigs without one.
 std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set) {
     std::string text;
     for (const RigStatus& rig : status.rigs) {
@@ -42,16 +42,16 @@ void name_assumed_places(const FrameSet& set) {
     for (const FrameSet::Slot& slot : set.slots)
         if (slot.frame && slot.frame->place_is_assumed)
             log_warning(
-                "rig {} has no stage calibration: it is taken to stand level, {:.1f} m above the "
-                "floor; vantage-calib stage finds where it stands",
+                "rig {} has no stage calibration; it is assumed to be level and {:.1f} m above the "
+                "floor; run vantage-calib stage to measure its position",
                 slot.rig, slot.frame->world_from_camera.translation().y());
 }
 
 Percentiles worst(const ReceiverStatus& status, Percentiles RigStatus::*times) {
-    Percentiles most;
+    Percentiles slowest;
     for (const RigStatus& rig : status.rigs)
-        if ((rig.*times).count > 0 && (rig.*times).p95 >= most.p95) most = rig.*times;
-    return most;
+        if ((rig.*times).count > 0 && (rig.*times).p95 >= slowest.p95) slowest = rig.*times;
+    return slowest;
 }
 
 std::string checked_renderer(ContextGroup& contexts) {
@@ -62,7 +62,7 @@ std::string checked_renderer(ContextGroup& contexts) {
     return info.renderer;
 }
 
-/// The pulse at which a take begins.
+/// Returns the first pulse of a take.
 std::optional<double> begin_of(const PastFrameSets* take) {
     if (!take) return std::nullopt;
     const std::optional<PastFrameSets::Span> span = take->span();
@@ -101,7 +101,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .compensate_gains = settings.compensate_gains,
                  .colours = settings.colours,
                  .take = settings.take,
-                 .set = settings.set},
+                 .background = settings.background},
                 std::move(feed), contexts_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
@@ -131,11 +131,11 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         return ready ? ready->set.get() : nullptr;
     };
-    log_info("waiting for the first pictures of {}", counted(status().rigs.size(), "rig"));
-    MonotonicTime said = MonotonicClock::now();
+    log_info("waiting for the first frames of {}", counted(status().rigs.size(), "rig"));
+    MonotonicTime reported = MonotonicClock::now();
     while (MonotonicClock::now() < deadline) {
         if (stop.wait_for(std::chrono::milliseconds(20))) {
-            log_info("interrupted while waiting for the rigs, before anything was flown: {}",
+            log_info("interrupted while waiting for the rigs, before the first picture: {}",
                      states_of_missing(status(), newest_frame_set()));
             return false;
         }
@@ -147,16 +147,16 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
             std::all_of(now.rigs.begin(), now.rigs.end(),
                         [](const RigStatus& rig) { return !rig.refused.empty(); }))
             fail("every rig refuses this host: {}", states_of_missing(now, newest_frame_set()));
-        if (MonotonicClock::now() - said >= waiting_report_period) {
+        if (MonotonicClock::now() - reported >= waiting_report_period) {
             log_info("still waiting for frames: {}", states_of_missing(now, newest_frame_set()));
-            said = MonotonicClock::now();
+            reported = MonotonicClock::now();
         }
     }
     const double limit_s = std::chrono::duration<double>(limit).count();
     if (!instants_.newest())
-        fail("no frame of any rig came within {:g} s; are the rigs running? ({})", limit_s,
+        fail("no rig sent a frame within {:g} s; check that the rigs are running ({})", limit_s,
              states_of_missing(status(), nullptr));
-    log_warning("after {:g} s these rigs are missing: {}", limit_s,
+    log_warning("continuing without rigs that sent no frame within {:g} s: {}", limit_s,
                 states_of_missing(status(), newest_frame_set()));
     return true;
 }
@@ -173,7 +173,7 @@ void LiveShow::start() {
 }
 
 void LiveShow::finish() {
-    // Before the outputs are ended, which takes its time.
+    // Ending the outputs takes time, in which the signal may change.
     last_signal_ = signal();
     programme_.stop();
     outputs_.finish();
@@ -186,7 +186,7 @@ std::optional<StageFraming> LiveShow::framing() {
     const MonotonicTime now = MonotonicClock::now();
     if (!framing_since_) framing_since_ = now;
     if (ready->set->present() < static_cast<int>(ready->set->slots.size()) &&
-        now - *framing_since_ < patience_with_rigs)
+        now - *framing_since_ < framing_patience)
         return std::nullopt;
     std::vector<FramedRig> rigs;
     for (const FrameSet::Slot& slot : ready->set->slots) {
@@ -196,7 +196,7 @@ std::optional<StageFraming> LiveShow::framing() {
                         surface_samples(depth_view_of(frame)).median_depth_m});
     }
     std::optional<StageFraming> framing = frame_stage(rigs);
-    // Once, since nobody asks again after the answer.
+    // This happens once: the framing is not requested again.
     if (framing) {
         name_assumed_places(*ready->set);
         stage_corridor_.begin(framing->extent);
@@ -207,7 +207,7 @@ std::optional<StageFraming> LiveShow::framing() {
 std::shared_ptr<const Corridor> LiveShow::corridor_now() {
     if (const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         ready && (ready->is_live || settings_.take))
-        stage_corridor_.look(*ready->set);
+        stage_corridor_.update(*ready->set);
     return stage_corridor_.now();
 }
 
@@ -217,7 +217,7 @@ std::optional<OrbitView> LiveShow::rig_view(int number) const {
     if (!ready || index >= ready->set->slots.size() || !ready->set->slots[index].frame)
         return std::nullopt;
     const RigFrame& frame = *ready->set->slots[index].frame;
-    // The point on the rig's axis that is nearest to the camera's pivot.
+    // The pivot is the point on the rig's axis that is nearest to the camera's pivot.
     const Eigen::Vector3d eye = frame.world_from_camera.translation();
     const Eigen::Vector3d axis = frame.world_from_camera.linear().col(2);
     const double distance_m = std::max(0.5, axis.dot(state().view.pivot_m - eye));
@@ -257,18 +257,19 @@ LiveReport LiveShow::report() const {
     report.frame_sets_closed = status.sets;
     report.frame_sets_complete = status.complete_frame_sets;
     report.frame_sets_dropped = status.frame_sets_dropped;
-    report.frame_sets_superseded = instants.superseded.sets;
+    report.frame_sets_replaced = instants.replaced.sets;
     const auto count_of = [](const RigCounts& counts, const std::string& rig) {
         const auto found = counts.find(rig);
         return found == counts.end() ? 0 : found->second;
     };
     for (const RigStatus& rig : status.rigs) {
         RigAccount account{rig, count_of(instants.frames, rig.rig),
-                           count_of(instants.superseded.frames, rig.rig)};
-        if (const auto gain_compensation = instants.gain_compensation.find(rig.rig); gain_compensation != instants.gain_compensation.end())
+                           count_of(instants.replaced.frames, rig.rig)};
+        if (const auto gain_compensation = instants.gain_compensation.find(rig.rig);
+            gain_compensation != instants.gain_compensation.end())
             account.gain_compensation = gain_compensation->second;
-        for (const RigBackgroundState& set : instants.sets)
-            if (set.rig == rig.rig) account.set = set;
+        for (const RigBackgroundState& background : instants.backgrounds)
+            if (background.rig == rig.rig) account.background = background;
         report.rigs.push_back(std::move(account));
     }
     report.network_ms = worst(status, &RigStatus::network_ms);

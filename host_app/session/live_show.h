@@ -19,59 +19,63 @@
 
 namespace vantage {
 
+/// The settings of a LiveShow.
 struct LiveSettings {
     PictureFormat format;
-    double rate_hz = 30;           ///< of the output
-    double pulse_rate_hz = 30;     ///< of the stage
-    std::size_t replay_bytes = 0;  ///< of frames kept to go back to; 0: none
+    double rate_hz = 30;           ///< frames per second of the programme
+    double pulse_rate_hz = 30;     ///< pulses per second of the stage
+    std::size_t replay_bytes = 0;  ///< size of the replay buffer; 0: none
     std::string synthesiser = default_synthesiser;
     QualityRequest quality;
-    bool source_map = false;                ///< shown at first
-    std::vector<std::string> outputs = {};  ///< URLs and files (see OutputUrl)
-    std::string encoder = {};               ///< of the outputs; empty: chosen by trying
-    bool overwrites = false;                ///< a film that is there may be replaced
-    std::filesystem::path contact_sheet;    ///< empty: none
-    bool free_flight = false;               ///< hands may leave the corridor
-    bool compensate_gains = true;                  ///< the rigs' colours, by a ColourHarmoniser
-    std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
-    SyncProof sync_proof = {};                             ///< of a live stage
-    std::shared_ptr<const Background> set = nullptr;        ///< that rigs begin with; null: none
-    std::shared_ptr<const PastFrameSets> take = nullptr;        ///< that is played; null: a live stage
-    Replay replay = {};                                    ///< at first
-    bool ends_with_take = false;                           ///< where it is played to its end
-    std::shared_ptr<PictureSound> sound = nullptr;         ///< of the programme; null: none
+    bool source_map = false;                                 ///< shown from the start
+    std::vector<std::string> outputs = {};                   ///< URLs and files (see OutputUrl)
+    std::string encoder = {};                                ///< empty: the first that works
+    bool overwrites = false;                                 ///< films may replace existing files
+    std::filesystem::path contact_sheet;                     ///< empty: none
+    bool free_flight = false;                                ///< the camera may leave the corridor
+    bool compensate_gains = true;                            ///< equalise the rigs' colours
+    std::map<std::string, ColourCorrection> colours = {};    ///< by rig; others are not corrected
+    SyncProof sync_proof = {};                               ///< of a live stage
+    std::shared_ptr<const Background> background = nullptr;  ///< to start with; null: none
+    std::shared_ptr<const PastFrameSets> take = nullptr;     ///< to play; null: a live stage
+    Replay replay = {};                                      ///< state at the start
+    bool ends_with_take = false;                             ///< ends when the take has been played
+    std::shared_ptr<PictureSound> sound = nullptr;           ///< null: none
 };
 
-/// The outputs that these settings ask for.
+/// Extracts the settings of the outputs.
 OutputSupervisor::Settings output_settings(const LiveSettings& settings);
 
-/// Puts a live session together: frame sets, instants, programme, outputs and hands; and keeps the
-/// books of all of them. All work is done on threads and OpenGL contexts of its own.
+/// A show from frame sets to outputs: it owns the instants, the flight controls, the programme and
+/// the outputs, and collects their stats. Its work runs on its own threads and OpenGL contexts; its
+/// methods are called from the session's thread.
 class LiveShow {
   public:
-    /// Throws Error if the synthesiser is unknown, or cannot tell what the source map is to show,
-    /// or there can be no stereoscopic picture of this width, or an output cannot be.
-    /// Without a deck no wheel flies; else it must outlive the show.
-    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed, JogDevices* deck);
+    /// Throws Error if the synthesiser is unknown or has no source map though one is requested, if
+    /// the width does not suit the stereoscopic layout, or if an output cannot be opened. `deck` is
+    /// null without jog wheels and must outlive the show otherwise.
+    LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
+             JogDevices* deck);
 
-    /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
-    /// there and says which are missing. Throws Error, with every rig's state, if none came, and at
-    /// once if all rigs refuse this host. False: the program was asked to stop meanwhile.
+    /// Waits for an instant with all rigs. After `limit` it continues with the rigs that are
+    /// present and logs the missing ones. Throws Error, with every rig's state, if no rig sent a
+    /// frame, and immediately if all rigs refuse this host. Returns false if the program is told to
+    /// stop.
     bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
 
-    /// Of a take: until its first instant is ready. False: the program was asked to stop meanwhile.
+    /// Waits for the first instant of a take. Returns false if the program is told to stop.
     bool wait_for_first_frame_set(StopSignal& stop);
 
-    /// Another output. Before start().
+    /// Adds an output. Call it before start().
     void add(std::unique_ptr<PictureSink> sink) { programme_.add(std::move(sink)); }
     /// Starts the programme's clock.
     void start();
-    /// Whether the plan is at its end. Throws what ended the programme.
+    /// Returns whether the plan has ended. Rethrows the error that ended the programme.
     bool is_over() const { return programme_.is_over(); }
-    /// Ends the programme, closes the books, ends the outputs.
+    /// Stops the programme, ends the outputs and freezes the stats.
     void finish();
 
-    /// Precondition: finish().
+    /// Returns the state and the stats so far, or the final ones after finish().
     LiveReport report() const;
 
     const LiveSettings& settings() const { return settings_; }
@@ -79,24 +83,24 @@ class LiveShow {
     const OutputSupervisor& outputs() const { return outputs_; }
     FlightControls& controls() { return controls_; }
     const FlightControls& controls() const { return controls_; }
-    /// Null until the stage is known.
+    /// The corridor; null until the stage is known.
     std::shared_ptr<const Corridor> corridor() const { return stage_corridor_.now(); }
-    /// Where the rigs stand; nothing until the stage is known.
+    /// The positions of the rigs; nothing until the stage is known.
     std::optional<StagePlaces> places() const { return stage_corridor_.places(); }
     ProgrammeState state() const { return programme_.state(); }
     ProgrammeStats stats() const { return programme_.stats(); }
     InstantThread::Stats instant_stats() const { return instants_.stats(); }
     ReceiverStatus status() const { return instants_.status(); }
-    /// Of now; after finish(), as it was when that began.
+    /// The present signal, or the one when finish() was called.
     SignalState signal() const { return last_signal_.value_or(signal_of(status(), state())); }
     std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
-    /// As InstantThread's.
+    // See InstantThread.
     void learn_background_anew() { instants_.learn_background_anew(); }
     std::future<Background> background() { return instants_.background(); }
 
   private:
     std::optional<OrbitView> rig_view(int number) const;
-    /// Once an instant is ready.
+    /// Frames the stage once enough rigs are present.
     std::optional<StageFraming> framing();
     std::shared_ptr<const Corridor> corridor_now();
     SignalState signal_of(const ReceiverStatus& status, const ProgrammeState& state) const;
@@ -110,7 +114,7 @@ class LiveShow {
     FlightControls controls_;
     OutputSupervisor outputs_;
     Programme programme_;
-    std::optional<MonotonicTime> framing_since_;  ///< of the programme's thread
+    std::optional<MonotonicTime> framing_since_;  ///< used on the programme's thread
     std::optional<ReceiverStatus> last_status_;
     std::optional<SignalState> last_signal_;
 };

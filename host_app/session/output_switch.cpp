@@ -3,31 +3,33 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::seconds asks_for{3};
-/// Of output 1.
-constexpr int first_key = 5;
+/// How long a question is shown.
+constexpr std::chrono::seconds question_duration{3};
+/// The function key of output 1.
+constexpr int first_output_key = 5;
 
 }  // namespace
 
 void OutputSwitch::press(int number, MonotonicTime now) {
     const auto at = static_cast<std::size_t>(number - 1);
-    const std::vector<OutputState> states = desk_.states();
+    const std::vector<OutputState> states = outputs_.states();
     if (number < 1 || at >= states.size()) {
-        asked_ = {number, fmt::format("there is no output {}: --output adds one", number),
-                  now + asks_for};
+        asked_ = {number, fmt::format("There is no output {}; add it with --output", number),
+                  now + question_duration};
         return;
     }
-    const bool runs = desk_.is_wanted(at);
+    const bool runs = outputs_.is_wanted(at);
     const bool is_second = asked_ && asked_->number == number && now < asked_->until;
     asked_.reset();
     if (!runs)
-        desk_.start(at);
+        outputs_.start(at);
     else if (is_second)
-        desk_.stop(at);
+        outputs_.stop(at);
     else
         asked_ = {number,
-                  fmt::format("F{} again to end {}", first_key + number - 1, states[at].name),
-                  now + asks_for};
+                  fmt::format("Press F{} again to stop {}", first_output_key + number - 1,
+                              states[at].name),
+                  now + question_duration};
 }
 
 std::string OutputSwitch::question(MonotonicTime now) const {

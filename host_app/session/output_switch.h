@@ -8,15 +8,15 @@
 
 namespace vantage {
 
-/// An operator's keys for outputs: one that is off is begun at once, one that runs is ended by the
-/// second press within three seconds.
+/// The operator's keys for outputs: a press starts an output that is off, and a second press within
+/// three seconds stops one that runs. Used on the session's thread.
 class OutputSwitch {
   public:
-    explicit OutputSwitch(OutputSupervisor& desk) : desk_(desk) {}
+    explicit OutputSwitch(OutputSupervisor& outputs) : outputs_(outputs) {}
 
-    /// `number`: from 1 on; of one that there is not question() says so.
+    /// Takes a press for an output, from 1 on. If there is no such output, question() says so.
     void press(int number, MonotonicTime now);
-    /// What the operator is asked or told; empty: nothing.
+    /// The question or the message for the operator; empty: none.
     std::string question(MonotonicTime now) const;
 
   private:
@@ -25,7 +25,7 @@ class OutputSwitch {
         std::string words;
         MonotonicTime until;
     };
-    OutputSupervisor& desk_;
+    OutputSupervisor& outputs_;
     std::optional<Asked> asked_;
 };
 

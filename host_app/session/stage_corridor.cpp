@@ -5,6 +5,7 @@
 namespace vantage {
 namespace {
 
+/// Time without frames after which a rig is away: shorter gaps would make the corridor flicker.
 constexpr std::chrono::seconds away_after{2};
 
 CorridorRig rig_of(const RigFrame& frame) {
@@ -20,9 +21,9 @@ bool is_same(const CorridorRig& a, const CorridorRig& b) {
 
 }  // namespace
 
-void StageCorridor::look(const FrameSet& set) {
-    if (!extent_ || set.complete == looked_at_) return;
-    looked_at_ = set.complete;
+void StageCorridor::update(const FrameSet& set) {
+    if (!extent_ || set.complete == updated_) return;
+    updated_ = set.complete;
     bool changed = false;
     for (const FrameSet::Slot& slot : set.slots) {
         const auto known = rigs_.find(slot.rig);

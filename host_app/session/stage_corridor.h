@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// Where the stage's rigs stand, for a plan of it.
+/// The positions of the stage's rigs.
 struct StagePlaces {
     struct Rig {
         std::string name;
@@ -23,19 +23,20 @@ struct StagePlaces {
     StageExtent extent;
 };
 
-/// The corridor of the rigs that give frames now. A rig that has given none for two seconds is
-/// away, unless this host asked it for none; it belongs to the corridor again with its next frame.
+/// The corridor of the rigs that send frames now. A rig is away after two seconds without a frame,
+/// unless this host requested none of it; it returns with its next frame.
 class StageCorridor {
   public:
-    /// `aspect`: height by width of the programme's picture.
+    /// `aspect` is height divided by width of the programme's picture.
     explicit StageCorridor(double aspect) : aspect_(aspect) {}
 
-    /// Before the first look; sets are looked at in the order of time, each once or more.
+    /// Sets the extent of the stage. Without it update() does nothing.
     void begin(const StageExtent& extent) { extent_ = extent; }
-    void look(const FrameSet& set);
-    /// From any thread; null before the first look after begin().
+    /// Takes a frame set; frame sets come in the order of time, and may repeat.
+    void update(const FrameSet& set);
+    /// The corridor; null before the first update(). From any thread.
     std::shared_ptr<const Corridor> now() const;
-    /// From any thread; nothing before there is a corridor. Changes with it.
+    /// The rigs of that corridor; nothing without one. From any thread.
     std::optional<StagePlaces> places() const;
 
   private:
@@ -47,7 +48,7 @@ class StageCorridor {
     double aspect_;
     std::optional<StageExtent> extent_;
     std::map<std::string, Rig> rigs_;
-    std::optional<MonotonicTime> looked_at_;
+    std::optional<MonotonicTime> updated_;  ///< time of the last frame set
     mutable std::mutex mutex_;
     std::shared_ptr<const Corridor> now_;
     std::optional<StagePlaces> places_;

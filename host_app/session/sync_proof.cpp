@@ -11,10 +11,10 @@
 namespace vantage {
 namespace {
 
-/// Cables, cards and settings change meanwhile.
-constexpr int old_after_days = 30;
-/// 5 mm of something that moves at 10 m/s.
-constexpr double most_apart_ms = 0.5;
+/// Age from which a measurement is doubtful: cables, cards and settings change.
+constexpr int max_age_days = 30;
+/// Largest skew between sensors: an object at 10 m/s moves 5 mm in it.
+constexpr double max_skew_ms = 0.5;
 
 bool has_strays(const SyncRecord& record) {
     return std::any_of(record.sensors.begin(), record.sensors.end(),
@@ -35,19 +35,18 @@ SyncProof sync_proof_of(const std::filesystem::path& stage_file) {
 }
 
 std::string sync_words(const SyncProof& proof, std::chrono::system_clock::time_point now) {
-    if (!proof.fault.empty()) return "its proof cannot be read: " + proof.fault;
-    if (!proof.record) return "not proven by light (vantage-calib sync)";
+    if (!proof.fault.empty()) return "the measurement cannot be read: " + proof.fault;
+    if (!proof.record) return "not measured (run vantage-calib sync)";
     const std::optional<int> days = days_since(proof.record->date, now);
-    return fmt::format("proven by light {}, {:.2f} ms{}",
-                       days ? fmt::format("{} d ago", *days) : "at an unknown time",
-                       proof.record->worst_ms(),
-                       has_strays(*proof.record) ? ", and pictures strayed" : "");
+    return fmt::format(
+        "measured {}, {:.2f} ms{}", days ? fmt::format("{} d ago", *days) : "at an unknown time",
+        proof.record->worst_ms(), has_strays(*proof.record) ? ", some frames at wrong pulses" : "");
 }
 
 bool is_doubtful(const SyncProof& proof, std::chrono::system_clock::time_point now) {
     if (!proof.record || has_strays(*proof.record)) return true;
-    return proof.record->worst_ms() > most_apart_ms ||
-           days_since(proof.record->date, now).value_or(old_after_days + 1) > old_after_days;
+    return proof.record->worst_ms() > max_skew_ms ||
+           days_since(proof.record->date, now).value_or(max_age_days + 1) > max_age_days;
 }
 
 nlohmann::ordered_json to_json(const SyncProof& proof, std::chrono::system_clock::time_point now) {

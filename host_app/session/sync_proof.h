@@ -11,21 +11,22 @@
 
 namespace vantage {
 
-/// What light last said of a stage's sensors (vantage-calib sync), as it is kept beside its file.
+/// The last synchronisation measurement of a stage (vantage-calib sync), which is kept beside the
+/// stage file.
 struct SyncProof {
-    std::optional<SyncRecord> record;  ///< nothing: there is none that can be read
-    std::string fault;                 ///< why one that is there cannot be read
+    std::optional<SyncRecord> record;  ///< nothing: not measured, or not readable
+    std::string fault;                 ///< why an existing record cannot be read
 };
 
-/// Throws nothing: a stage without a proof goes on air all the same.
+/// Reads the record of a stage. It throws nothing, since a stage can be shown without one.
 SyncProof sync_proof_of(const std::filesystem::path& stage_file);
 
-/// "proven by light 3 d ago, 0.05 ms", or that it never was, or cannot be read.
+/// Formats the result, such as "measured 3 d ago, 0.05 ms", or that there is none.
 std::string sync_words(const SyncProof& proof, std::chrono::system_clock::time_point now);
-/// It never was proven, or long ago, or was found wrong.
+/// Whether the synchronisation was never measured, not for 30 days, or is wrong.
 bool is_doubtful(const SyncProof& proof, std::chrono::system_clock::time_point now);
 
-/// For machines; null where there is none.
+/// Formats the record for JSON; null if there is none.
 nlohmann::ordered_json to_json(const SyncProof& proof, std::chrono::system_clock::time_point now);
 
 }  // namespace vantage

@@ -2,7 +2,7 @@
 
 #include "common/config/stage_config.h"
 #include "common/take/take_reader.h"
-#include "host_app/flight/flight_habits.h"
+#include "host_app/flight/flight_plan.h"
 
 namespace vantage {
 

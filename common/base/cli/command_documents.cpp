@@ -106,13 +106,15 @@ std::string bash_completion(const CLI::App& program) {
         if (!words.empty()) places += fmt::format("{}'{}'", places.empty() ? "" : " | ", words);
         std::vector<std::string> commands, options;
         for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
-        for (const CLI::Option* option : options_of(app))
+        for (const CLI::Option* option : options_of(app)) {
+            if (option->get_group().empty()) continue;  // hidden, such as the old name of another
             for (const std::string& option_name : option->get_lnames()) {
                 options.push_back("--" + option_name);
                 if (const std::vector<std::string> values = words_of(*option); !values.empty())
                     values_of_options += fmt::format("    '{} --{}') values='{}' ;;\n", words,
                                                      option_name, fmt::join(values, " "));
             }
+        }
         words_of_places += fmt::format("    '{}') commands='{}' options='{}' ;;\n", words,
                                        fmt::join(commands, " "), fmt::join(options, " "));
     });

@@ -1,6 +1,7 @@
 #include "host_app/commands/demo/demo_stage.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -19,7 +20,7 @@
 namespace vantage {
 namespace {
 
-/// One that nobody listens on now.
+/// Returns a TCP port of the loopback interface that is free now.
 int free_port() {
     const UniqueFd socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_in address{};
@@ -29,7 +30,7 @@ int free_port() {
     auto* plain = reinterpret_cast<sockaddr*>(&address);
     if (!socket || ::bind(socket.get(), plain, size) != 0 ||
         ::getsockname(socket.get(), plain, &size) != 0)
-        fail("no port of this computer is free for a rig: {}", std::strerror(errno));
+        fail("cannot find a free port for a rig: {}", std::strerror(errno));
     return ntohs(address.sin_port);
 }
 
@@ -50,12 +51,13 @@ DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& m
 }
 
 double software_rate_hz(int rigs, double match_ms) {
-    // Measured on two slow cores: at this the host leaves hardly any instant out.
+    // Matching time per second at which the host skips hardly any instant on two slow cores
+    // (measured).
     constexpr double rigs_ms_a_second = 220;
-    // The stage's loop is a whole number of such periods.
-    constexpr double step_hz = 0.5, fewest_hz = 2;
-    const double held_hz = rigs_ms_a_second / (rigs * match_ms);
-    return std::clamp(std::floor(held_hz / step_hz) * step_hz, fewest_hz,
+    // The stage's loop of 24 s is a whole number of periods at multiples of 0.5 Hz.
+    constexpr double step_hz = 0.5, min_hz = 2;
+    const double rate_hz = rigs_ms_a_second / (rigs * match_ms);
+    return std::clamp(std::floor(rate_hz / step_hz) * step_hz, min_hz,
                       software_demo_size().rate_hz);
 }
 
@@ -78,7 +80,7 @@ DemoStage::DemoStage(std::filesystem::path folder, std::filesystem::path kept)
     for (const auto& entry : std::filesystem::directory_iterator(folder_))
         if (const auto kind = entry.path().extension(); kind == ".key" || kind == ".toml")
             std::filesystem::remove(entry.path());
-    // The secret halves never leave this folder.
+    // Secret keys never leave this folder.
     const CurveKeys host = generate_curve_keys();
     write_key_file(folder_ / "host.key", host);
     write_text_atomically(folder_ / "authorized_hosts", host.public_key + '\n');
@@ -90,7 +92,7 @@ void DemoStage::add_rig(const std::string& name, toml::table parts) {
     const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", free_port());
     parts.insert("version", 1);
     parts.insert("name", name);
-    // Its pictures may be small, and go no further than this computer.
+    // The network is the loopback interface, so the JPEG quality can be high.
     parts.insert("stream", toml::table{{"bind", endpoint},
                                        {"jpeg_quality", 85},
                                        {"chroma", "4:4:4"},
@@ -117,6 +119,14 @@ void DemoStage::write(const DemoSize& size) const {
                                     {"view", toml::table{{"width_px", size.picture[0]},
                                                          {"height_px", size.picture[1]}}},
                                     {"rigs", rigs_}});
+}
+
+std::string demo_move(std::string_view name) {
+    const auto moves = demo_moves();
+    const auto found = std::find_if(moves.begin(), moves.end(),
+                                    [&](const EmbeddedText& move) { return move.name == name; });
+    assert(found != moves.end());
+    return std::string(found->text);
 }
 
 }  // namespace vantage

@@ -4,54 +4,64 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <toml++/toml.h>
 
+#include "common/base/files/embedded_text.h"
+
 namespace vantage {
 
-/// What the demo plays on this computer, rigs and host.
+/// The size of the demo's rigs and of its programme.
 struct DemoSize {
-    double rate_hz = 25;
+    double rate_hz = 25;  ///< pulses per second
     int latency_budget_ms = 200;
-    std::string rate = "50", preset = "balanced";  ///< rate: of the programme
+    std::string rate = "50", preset = "balanced";  ///< rate: frames per second of the programme
     std::array<int, 2> picture = {1920, 1080}, rig = {960, 720};
     int disparities = 96;
-    /// The processor draws everything; the rigs draw the stage's loop before they begin.
+    /// The processor renders everything; the rigs render the stage's loop before they start.
     bool is_software = false;
 };
 
-/// Of every second that a GPU has, what the rigs' matching may take: the rest is the host's.
+/// GPU time per second that the rigs' matching may take: half, the rest is the host's.
 inline constexpr double matching_ms_a_second = 500;
 
-/// For a processor that draws everything, at the most pulses a second that the demo asks of one.
+/// Returns the size for a software renderer, at the highest rate that the demo uses there.
 DemoSize software_demo_size();
 
-/// The pulses a second at which that processor has time for the host beside so many rigs. Beyond
-/// them the host leaves instants out, and those that it shows are later. `match_ms`: what a pair
-/// takes.
+/// Returns the pulses per second that a software renderer keeps up with besides this many rigs.
+/// Above that the host skips instants and shows others later. `match_ms` is the time for one pair.
 double software_rate_hz(int rigs, double match_ms);
 
-/// The largest size for a GPU of which so many rigs' matching leaves half of its time to the host;
-/// the smallest where none does. `match_ms`: what a rig of that size takes for a pair.
+/// Returns the largest size at which the matching of this many rigs leaves half of the GPU's time
+/// to the host, or the smallest size. `match_ms` returns the time for one pair of that size.
 DemoSize gpu_demo_size(int rigs, const std::function<double(const DemoSize&)>& match_ms);
 
-/// Files of a stage whose rigs are processes of this computer: keys that are new at every start,
-/// a configuration a rig, the host's.
+/// Returns the flight files in hw_config/moves, which are embedded in the program.
+std::span<const EmbeddedText> demo_moves();
+
+/// Returns the flight file of this name: demo.toml and sweep.toml fly around the demo's stage,
+/// pair.toml flies 2 m before a single pair with a field of view of 30 degrees. Precondition: it
+/// exists.
+std::string demo_move(std::string_view name);
+
+/// The files of a stage whose rigs are processes on this computer: the host's and each rig's
+/// configuration, and keys that are new at every start.
 class DemoStage {
   public:
-    /// Makes the folder, and deletes keys and configurations that an earlier demo left there.
-    /// `kept`: folder for the rigs' own takes; empty: they keep none. Throws Error where it cannot
-    /// be written.
+    /// Creates the folder and deletes keys and configurations of an earlier demo in it. `kept` is
+    /// the folder for the rigs' own takes; empty: none. Throws Error if it cannot be written.
     DemoStage(std::filesystem::path folder, std::filesystem::path kept);
 
-    /// `parts`: [source] and what else differs from rig to rig.
+    /// Adds a rig. `parts` are [source] and the other tables of its configuration.
     void add_rig(const std::string& name, toml::table parts);
-    /// Writes the host's part, once all rigs are there.
+    /// Writes the stage file. Call it after the last add_rig().
     void write(const DemoSize& size) const;
 
-    /// A file of the folder.
+    /// Writes a file into the folder.
     void write(const std::string& name, const toml::table& table) const;
 
     const std::filesystem::path& folder() const { return folder_; }

@@ -1,5 +1,3 @@
-#include "host_app/commands/rigs/rigs_bugreport.h"
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -21,8 +19,8 @@
 #include "common/base/log.h"
 #include "common/base/time/time.h"
 #include "common/wire/limits.h"
-#include "host_app/commands/rigs/rigs_status.h"
-#include "host_app/session/options/help_words.h"
+#include "host_app/commands/rigs/rigs_commands.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/session/sync_proof.h"
 
 namespace vantage {
@@ -37,12 +35,12 @@ struct ReportOptions {
     bool json = false;
 };
 
-/// The archive's files until they are packed, with nothing secret in them.
+/// A temporary folder with the files of the archive, with secrets removed.
 class ReportFolder {
   public:
     ReportFolder() {
         std::string pattern = (fs::temp_directory_path() / "vantage-report-XXXXXX").string();
-        if (!::mkdtemp(pattern.data())) fail("no folder can be made in {}", pattern);
+        if (!::mkdtemp(pattern.data())) fail("cannot create the folder {}", pattern);
         above_ = pattern;
         make_folder(folder() / "rigs");
     }
@@ -56,7 +54,7 @@ class ReportFolder {
     void add(const std::string& name, std::string_view text) const {
         write_text_atomically(folder() / name, without_secrets(text));
     }
-    /// A file as it stands; one that is not there is left out.
+    /// Adds a copy of a file; a missing file is left out.
     void add_file(const fs::path& file) const {
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) return;
@@ -66,7 +64,7 @@ class ReportFolder {
             add(file.filename().string() + ".fault", error.what());
         }
     }
-    /// What a program writes; why not, where it cannot be run.
+    /// Adds the output of a program, or why it cannot be run.
     void add_output(const std::string& name, const fs::path& program,
                     const std::vector<std::string>& arguments) const {
         const fs::path raw = above_ / "raw";
@@ -94,7 +92,7 @@ class ReportFolder {
         if (!failed) return;
         std::error_code ignored;
         fs::remove(part, ignored);
-        fail("{} cannot be written: {}", archive.string(), read_text_file(log, max_report_bytes));
+        fail("cannot write {}: {}", archive.string(), read_text_file(log, max_report_bytes));
     }
 
   private:
@@ -104,7 +102,8 @@ class ReportFolder {
     fs::path above_;
 };
 
-/// Asks every rig, and waits until each has answered, is known not to, or the time is up.
+/// Requests a report of every rig and waits until each has answered or cannot, or until the time is
+/// up.
 ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolder& folder) {
     StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
     StopSignal stop;
@@ -136,7 +135,7 @@ ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolde
             folder.add(
                 "rigs/" + name + ".txt",
                 trouble_of(status.rigs[i]).empty()
-                    ? fmt::format("it gave no report in {:g} s, or is too old for one\n", wait_s)
+                    ? fmt::format("no report within {:g} s; its version may be too old\n", wait_s)
                     : trouble_of(status.rigs[i]) + '\n');
     }
     return status;
@@ -176,8 +175,8 @@ void run(const ReportOptions& options) {
                   << '\n';
     else
         std::cout << fmt::format(
-            "{} written: {} of {} rigs answered. Keys, passphrases and the like are left out; look "
-            "through it before you send it.\n",
+            "wrote {}: {} of {} rigs answered. Keys and passphrases are removed; read it before "
+            "you send it.\n",
             options.output.string(), answered, status.rigs.size());
 }
 
@@ -187,15 +186,15 @@ void add_rigs_bugreport(CLI::App& rigs) {
     auto options = std::make_shared<ReportOptions>();
     CLI::App* report = rigs.add_subcommand(
         "bugreport",
-        "One archive for whoever is to help: versions, configuration, status, logs and probes of "
-        "this host and all rigs that answer, without keys and passphrases");
+        "Collect versions, configuration, status, logs and probes of this host and its rigs in an "
+        "archive for support, without keys and passphrases");
     report->add_option("--stage", options->stage, stage_file_help)->required();
-    report->add_option("-o,--output", options->output, "The archive (.tar.gz)")
+    report->add_option("-o,--output", options->output, "Write this archive (.tar.gz)")
         ->capture_default_str();
-    report->add_option("--wait", options->wait_s, "Seconds to wait for rigs")
+    report->add_option("--wait", options->wait_s, "Wait at most this many seconds for the rigs")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
-    report->add_flag("--json", options->json, "Print what was written as JSON");
+    report->add_flag("--json", options->json, "Print the result as JSON");
     report->callback([options] { run(*options); });
 }
 

@@ -1,5 +1,3 @@
-#include "host_app/commands/rigs/rigs_plan.h"
-
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -18,8 +16,9 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/codec/colour_codec.h"
 #include "common/wire/frame_codec.h"
+#include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/pipeline/rig_demand.h"
-#include "host_app/session/options/help_words.h"
+#include "host_app/session/options/common_options.h"
 
 namespace vantage {
 namespace {
@@ -31,13 +30,13 @@ struct PlanOptions {
     bool start = false, json = false;
 };
 
-/// Qualities that are tried where it does not fit as it is.
+/// JPEG qualities that are tried if the stage does not fit the network.
 constexpr int ladder[] = {90, 85, 80, 75, 70, 65, 60, 50, 40};
-/// Likewise sizes, of width and height, at a usual quality.
+/// Scales of width and height that are tried, at a usual quality.
 constexpr double smaller_by[] = {0.75, 0.5};
 constexpr int usual_quality = 85;
 
-/// Sums of what came, by rig.
+/// Sums the sizes of the received frames by rig. From any thread.
 class Scales {
   public:
     explicit Scales(const StageConfig& stage) {
@@ -51,7 +50,7 @@ class Scales {
         weight.other_bytes +=
             static_cast<double>(frame.packed->bytes() - frame.packed->colour.size());
     }
-    /// The rigs that nothing came of.
+    /// Returns the rigs without a frame.
     std::vector<std::string> silent() const {
         const std::lock_guard lock(mutex_);
         std::vector<std::string> silent;
@@ -74,8 +73,8 @@ class Scales {
     std::vector<RigWeight> weights_;
 };
 
-/// A rig's latest picture, packed anew at every quality and size with the chroma that it sends;
-/// what is sent without loss has that of a rig that is not told any.
+/// Encodes a rig's latest picture at every quality and size, with the rig's own chroma subsampling;
+/// for a lossless rig with the default subsampling.
 void weigh(const RigFrame& frame, RigWeight& weight) {
     const bool is_jpeg = decode_frame_head(frame.packed->header).colour == FrameHead::Colour::jpeg;
     const Chroma chroma = is_jpeg ? JpegDecoder().chroma_of(frame.packed->colour) : Chroma::quarter;
@@ -112,17 +111,16 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         if (end ? now >= *end : now >= give_up) break;
         const std::optional<FrameSet> set = receiver.next(std::chrono::milliseconds(100));
         if (!set) continue;
-        // A rig that starts later than the others is weighed as long as they are.
+        // The measurement starts when every rig has sent a frame.
         if (!end && scales.silent().empty()) end = MonotonicClock::now() + from_s(options.seconds);
         for (std::size_t i = 0; i < set->slots.size(); ++i)
             if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
                 latest[i] = set->slots[i].frame;
     }
     if (const std::vector<std::string> silent = scales.silent(); !silent.empty())
-        fail("nothing came of {}: {}; vantage rigs status says how the rigs are",
-             fmt::join(silent, ", "),
-             options.start ? "a rig that sends nothing cannot be weighed"
-                           : "rigs film once a host runs the stage, or this is told --start");
+        fail("{} sent no frames{}; vantage rigs status shows why", fmt::join(silent, ", "),
+             options.start ? ""
+                           : "; rigs capture only while a host runs the stage, or with --start");
     return {scales.means(), std::move(latest)};
 }
 
@@ -132,13 +130,13 @@ std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
         return fmt::format("pictures of {:.0f} % of the width and the height",
                            percent * proposal.scale);
     if (proposal.rigs > 0)
-        return fmt::format("{} rigs at a time, as a programme asks for that records no take",
+        return fmt::format("{} rigs at a time, as a programme requests without a take",
                            proposal.rigs);
     std::string text;
     if (proposal.jpeg_quality) text = fmt::format("jpeg_quality = {}", *proposal.jpeg_quality);
     if (proposal.rate_divisor > 1)
         text +=
-            fmt::format("{}{:.4g} pictures a second, every {}{} pulse", text.empty() ? "" : " and ",
+            fmt::format("{}{:.4g} frames per second, every {}{} pulse", text.empty() ? "" : " and ",
                         rate_hz / proposal.rate_divisor, proposal.rate_divisor,
                         proposal.rate_divisor == 2   ? "nd"
                         : proposal.rate_divisor == 3 ? "rd"
@@ -151,7 +149,7 @@ void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, doub
     std::size_t width = 4;
     for (const RigWeight& weight : weights) width = std::max(width, weight.rig.size());
     std::cout << fmt::format("{:{}}  {:>9}  {:>8}  {:>8}  {:>22}\n", "", width, "colour kB",
-                             "other kB", "Mbit/s", "of what is planned for");
+                             "other kB", "Mbit/s", "of the planned share");
     for (std::size_t i = 0; i < weights.size(); ++i)
         std::cout << fmt::format("{:{}}  {:9.1f}  {:8.1f}  {:8.1f}  {:20.0f} %\n", weights[i].rig,
                                  width, weights[i].colour_bytes / bytes_a_kb,
@@ -161,7 +159,7 @@ void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, doub
                              budget.host_mbit_s, percent * budget.host_share);
     if (budget.fits()) return;
     for (const LinkBudget::Proposal& proposal : budget.proposals)
-        std::cout << fmt::format("it would fit with {}: {:.0f} Mbit/s at the host\n",
+        std::cout << fmt::format("proposal: {}: {:.0f} Mbit/s at the host\n",
                                  words_of(proposal, rate_hz), proposal.host_mbit_s);
 }
 
@@ -215,7 +213,7 @@ void plan(const PlanOptions& options) {
         full +=
             fmt::format("{}the host needs {:.0f} Mbit/s of a link of {:g}",
                         full.empty() ? "" : "; ", budget.host_mbit_s, options.limits.host_mbit_s);
-    fail("{}, of which four fifths are planned for", full);
+    fail("{}, of which 80 % may be used", full);
 }
 
 }  // namespace
@@ -224,32 +222,32 @@ void add_rigs_plan(CLI::App& rigs) {
     auto options = std::make_shared<PlanOptions>();
     CLI::App* plans = rigs.add_subcommand(
         "plan",
-        "Weighs what every rig sends and says whether the network carries it; ends with 1 if not, "
-        "and says what would fit");
+        "Measure what every rig sends and check whether the network carries it; exit with 1 and "
+        "proposals if not");
     plans->add_option("--stage", options->stage, stage_file_help)->required();
     plans
         ->add_option("--rig-link", options->limits.rig_mbit_s,
-                     "Mbit/s of each rig's network interface")
+                     "Set the speed of each rig's network interface in Mbit/s")
         ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
     plans
         ->add_option("--host-link", options->limits.host_mbit_s,
-                     "Mbit/s of the host's network interface")
+                     "Set the speed of the host's network interface in Mbit/s")
         ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
-    plans
-        ->add_option("--rate", options->rate_hz,
-                     "Pictures a second to plan for (default: the stage's)")
+    plans->add_option("--rate", options->rate_hz, "Plan for this frame rate (default: the stage's)")
         ->check(CLI::Range(0.01, 1000.0));
-    plans->add_option("--seconds", options->seconds, "How long frames are weighed")
+    plans->add_option("--seconds", options->seconds, "Measure for this many seconds")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
-    plans->add_option("--wait", options->wait_s, "Seconds to wait for the first frames")
+    plans
+        ->add_option("--wait", options->wait_s,
+                     "Wait at most this many seconds for the first frames")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     plans->add_flag("--start", options->start,
-                    "Start the stage's pulses: no other host runs it now");
-    plans->add_flag("--json", options->json, "Print it as JSON");
+                    "Start the stage's pulses; use it only if no other host runs the stage");
+    plans->add_flag("--json", options->json, "Print the result as JSON");
     plans->callback([options] { plan(*options); });
 }
 

@@ -1,21 +1,22 @@
-#include "host_app/commands/rigs/rigs_status.h"
-
 #include <algorithm>
 #include <chrono>
 
 #include "common/base/time/time.h"
 #include "common/wire/status_report.h"
+#include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/rig_silence.h"
+#include "host_app/session/report/rig_words.h"
 
 namespace vantage {
 
-ReceiverStatus look_at(const StageConfig& stage, double wait_s, LookUntil until, StopSignal& stop) {
+ReceiverStatus gather_status(const StageConfig& stage, double wait_s, StatusCondition condition,
+                             StopSignal& stop) {
     StageReceiver receiver(stage, StageReceiver::Purpose::report);
     const auto has_answered = [&](const RigStatus& rig) {
-        if (until == LookUntil::all_send && rig.connected)
+        if (condition == StatusCondition::all_send && rig.connected)
             return rig.health.published_hz > 0 || waits_for_a_host(rig) || !trouble_of(rig).empty();
-        return rig.connected || (until != LookUntil::all_connected && !rig.refused.empty());
+        return rig.connected ||
+               (condition != StatusCondition::all_connected && !rig.refused.empty());
     };
     const MonotonicTime end = MonotonicClock::now() + from_s(wait_s);
     while (MonotonicClock::now() < end && !stop.wait_for(StopSignal::look_period)) {

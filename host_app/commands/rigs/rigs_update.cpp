@@ -1,5 +1,3 @@
-#include "host_app/commands/rigs/rigs_update.h"
-
 #include <array>
 #include <charconv>
 #include <iostream>
@@ -12,8 +10,8 @@
 #include "common/base/cli/version.h"
 #include "common/base/error.h"
 #include "common/config/endpoint.h"
-#include "host_app/commands/rigs/rigs_status.h"
-#include "host_app/session/options/help_words.h"
+#include "host_app/commands/rigs/rigs_commands.h"
+#include "host_app/session/options/common_options.h"
 
 namespace vantage {
 namespace {
@@ -24,7 +22,7 @@ struct UpdateOptions {
     bool json = false;
 };
 
-/// Its numbers: 0.2.0 is {0, 2, 0}.
+/// Parses a version: 0.2.0 is {0, 2, 0}.
 std::array<int, 3> numbers_of(std::string_view text) {
     std::array<int, 3> numbers{};
     const char* at = text.data();
@@ -37,17 +35,17 @@ std::array<int, 3> numbers_of(std::string_view text) {
     return numbers;
 }
 
-/// How a rig's version stands to this host's; empty: it is the same.
+/// Compares a rig's version with this host's; empty if they are equal.
 std::string difference(const RigStatus& rig) {
     const std::string& its = rig.health.program_version;
-    if (!rig.connected) return "not known: " + trouble_of(rig);
-    if (its.empty()) return "older than this host, too old to say its version";
+    if (!rig.connected) return "unknown: " + trouble_of(rig);
+    if (its.empty()) return "older than this host, too old to report its version";
     if (its == version()) return "";
     return numbers_of(its) > numbers_of(version()) ? "newer than this host"
                                                    : "older than this host";
 }
 
-/// What to type for a rig at another computer, in this order.
+/// Returns the commands that update a rig, in order.
 std::vector<std::string> mend(const StageConfig::Rig& rig) {
     const std::string host = parse_endpoint(rig.endpoint, "endpoint").host;
     return {fmt::format("ssh {} sudo apt-get update", host),
@@ -57,7 +55,8 @@ std::vector<std::string> mend(const StageConfig::Rig& rig) {
 void run(const UpdateOptions& options) {
     const StageConfig stage = load_stage_config(options.stage);
     StopSignal stop;
-    const ReceiverStatus status = look_at(stage, options.wait_s, LookUntil::all_answered, stop);
+    const ReceiverStatus status =
+        gather_status(stage, options.wait_s, StatusCondition::all_answered, stop);
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
     std::string text = fmt::format("this host: {}\n", version());
     std::size_t others = 0, unknown = 0;
@@ -66,7 +65,7 @@ void run(const UpdateOptions& options) {
         const std::string apart = difference(rig);
         nlohmann::ordered_json entry{{"name", rig.rig}, {"version", rig.health.program_version}};
         text += fmt::format("{}: {}{}\n", rig.rig, rig.health.program_version,
-                            apart.empty()                        ? ", as this host"
+                            apart.empty()                        ? ", the same as this host"
                             : rig.health.program_version.empty() ? apart
                                                                  : ", " + apart);
         entry["same"] = apart.empty();
@@ -86,12 +85,12 @@ void run(const UpdateOptions& options) {
         std::cout << text;
     if (others > 0)
         fail(
-            "{} of {} rigs run another version than this host: update one, look at it (vantage "
-            "rigs status), then the next{}",
+            "{} of {} rigs run another version than this host; update one, check it (vantage rigs "
+            "status), then the next{}",
             others, status.rigs.size(),
             unknown > 0 ? fmt::format("; {} more did not answer", unknown) : "");
     if (unknown > 0)
-        fail("{} of {} rigs did not answer: see vantage rigs status", unknown, status.rigs.size());
+        fail("{} of {} rigs did not answer; see vantage rigs status", unknown, status.rigs.size());
 }
 
 }  // namespace
@@ -100,12 +99,14 @@ void add_rigs_update(CLI::App& rigs) {
     auto options = std::make_shared<UpdateOptions>();
     CLI::App* update = rigs.add_subcommand(
         "update",
-        "Which versions the rigs run, and what to type to bring them to this host's; ends with 1 "
-        "if any differs");
+        "List the rigs' versions and the commands that update them to this host's; exit with 1 if "
+        "any differs");
     update->add_option("--stage", options->stage, stage_file_help)->required();
-    update->add_option("--wait", options->wait_s, "Seconds to wait for rigs (default 3)")
+    update
+        ->add_option("--wait", options->wait_s,
+                     "Wait at most this many seconds for the rigs (default: 3)")
         ->check(CLI::Range(0.1, 3600.0));
-    update->add_flag("--json", options->json, "Print it as JSON");
+    update->add_flag("--json", options->json, "Print the result as JSON");
     update->callback([options] { run(*options); });
 }
 

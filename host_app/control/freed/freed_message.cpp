@@ -10,13 +10,13 @@ namespace vantage {
 namespace {
 
 constexpr double deg = 180 / std::numbers::pi;
-constexpr double steps_a_degree = 32768, steps_a_mm = 64, mm = 1000, per_thousand = 1000;
+constexpr double steps_per_degree = 32768, steps_per_mm = 64, mm = 1000, per_thousand = 1000;
 constexpr std::byte type_d1{0xd1};
 
-/// 24 bits, the highest first; what does not fit stays at the limit.
-void put_24_bits(std::byte* at, double value, double most = (1 << 23) - 1) {
+/// Writes 24 bits, the most significant byte first; values are clamped.
+void put_24_bits(std::byte* at, double value, double limit = (1 << 23) - 1) {
     const auto bits = static_cast<std::uint32_t>(
-        static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most))));
+        static_cast<std::int32_t>(std::lround(std::clamp(value, -limit, limit))));
     at[0] = static_cast<std::byte>(bits >> 16 & 0xff);
     at[1] = static_cast<std::byte>(bits >> 8 & 0xff);
     at[2] = static_cast<std::byte>(bits & 0xff);
@@ -47,15 +47,15 @@ std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera) {
     std::array<std::byte, freed_bytes> bytes{};
     bytes[0] = type_d1;
     bytes[1] = std::byte{camera.id};
-    put_24_bits(&bytes[2], turn.pan_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[5], turn.tilt_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[8], turn.roll_rad * deg * steps_a_degree);
-    put_24_bits(&bytes[11], at.x() * mm * steps_a_mm);
-    put_24_bits(&bytes[14], -at.z() * mm * steps_a_mm);
-    put_24_bits(&bytes[17], at.y() * mm * steps_a_mm);
-    constexpr double most_of_lens = (1 << 24) - 1;
-    put_24_bits(&bytes[20], camera.zoom, most_of_lens);
-    put_24_bits(&bytes[23], camera.focus, most_of_lens);
+    put_24_bits(&bytes[2], turn.pan_rad * deg * steps_per_degree);
+    put_24_bits(&bytes[5], turn.tilt_rad * deg * steps_per_degree);
+    put_24_bits(&bytes[8], turn.roll_rad * deg * steps_per_degree);
+    put_24_bits(&bytes[11], at.x() * mm * steps_per_mm);
+    put_24_bits(&bytes[14], -at.z() * mm * steps_per_mm);
+    put_24_bits(&bytes[17], at.y() * mm * steps_per_mm);
+    constexpr double max_lens = (1 << 24) - 1;
+    put_24_bits(&bytes[20], camera.zoom, max_lens);
+    put_24_bits(&bytes[23], camera.focus, max_lens);
     bytes.back() = checksum_of(bytes);
     return bytes;
 }
@@ -65,10 +65,10 @@ std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
         message.back() != checksum_of(message))
         return std::nullopt;
     const auto angle_rad = [&](int at) {
-        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_a_degree / deg;
+        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_per_degree / deg;
     };
     const auto metres = [&](int at) {
-        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_a_mm / mm;
+        return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_per_mm / mm;
     };
     const PanTiltRoll turn{angle_rad(2), angle_rad(5), angle_rad(8)};
     constexpr double zenith_rad = std::numbers::pi / 2;
@@ -84,8 +84,8 @@ std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
 
 FreedCamera freed_camera(const CameraState& camera, std::uint8_t id) {
     const auto lens = [](double value) {
-        constexpr double most = (1 << 24) - 1;
-        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, most)));
+        constexpr double max_lens = (1 << 24) - 1;
+        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, max_lens)));
     };
     return {id, camera.world_from_camera, lens(camera.field_of_view_rad * deg * per_thousand),
             lens(camera.focus_m * mm)};

@@ -8,10 +8,10 @@
 
 namespace vantage {
 
-/// The commands and the lamps of a document, docs/control.md or docs/replay_commands.md, as it has
-/// them.
+/// The tables of commands and lamps in docs/control.md and docs/replay_commands.md, as Markdown.
 std::string command_table(ControlPage page);
 std::string lamp_table(ControlPage page);
+/// Both tables for `vantage control --json`.
 nlohmann::ordered_json control_json();
 
 }  // namespace vantage

@@ -6,27 +6,27 @@
 #include <fmt/format.h>
 
 #include "common/gl/context/limits.h"
-#include "host_app/desk/feed/desk_figures.h"
-#include "host_app/desk/feed/desk_replay.h"
-#include "host_app/desk/feed/desk_wheel.h"
+#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/feed/desk_values.h"
 #include "host_app/desk/feed/stage_points.h"
-#include "host_app/desk/panels/shot_places.h"
 #include "host_app/session/report/live_report.h"
 #include "host_app/session/report/rig_words.h"
 
 namespace vantage {
 namespace {
 
+/// Period of the numbers and the rigs' pictures: faster changes could not be read.
 constexpr std::chrono::milliseconds refresh_period{250};
 constexpr std::size_t latency_samples = 240;
-/// Of the camera's path that the plan shows.
+/// Length of the camera's path in the plan, and the smallest step that adds a point to it.
 constexpr std::chrono::seconds path_length{10};
-constexpr double least_path_step_m = 0.02;
-/// Of the planned move, for its line.
+constexpr double min_path_step_m = 0.02;
+/// Segments of the planned move's line.
 constexpr int move_steps = 96;
-/// For what replay could not do.
-constexpr std::chrono::seconds notice_stands{5};
-constexpr double corridor_reach = 1.3;  ///< of the farthest rig's distance from the pivot
+/// How long a notice of replay is shown.
+constexpr std::chrono::seconds notice_duration{5};
+/// Radius of the corridor's map, in distances of the farthest rig from the pivot.
+constexpr double corridor_reach = 1.3;
 
 RigState state_in(const FrameSet* set, const RigStatus& status) {
     if (!status.refused.empty()) return RigState::refused;
@@ -87,7 +87,7 @@ DeskSound desk_sound(const SoundState& sound) {
 
 DeskOutput desk_output(const OutputState& output) {
     constexpr double bits_a_megabit = 1e6;
-    // Of a film's place the folders have no room.
+    // The panel has no room for a film's folder.
     return {output.film.empty()
                 ? output.name
                 : fmt::format("film {}", std::filesystem::path(output.film).filename().string()),
@@ -100,7 +100,7 @@ DeskOutput desk_output(const OutputState& output) {
             output.failure};
 }
 
-/// Of the moment that is shown; nothing: it is held, or of the past.
+/// The age of the picture; nothing while the picture is held or from the past.
 std::optional<double> live_age_s(const ProgrammeState& programme) {
     if (!programme.picture || programme.time.pulse || programme.time.is_held) return std::nullopt;
     const ReadyInstant& instant = *programme.picture->job.instant;
@@ -145,9 +145,9 @@ DeskRig DeskFeed::rig_of(const RigAccount& account, const FrameSet* set, Monoton
     rig.clock = short_clock_words(status);
     rig.calibration = calibration_words(status.health, std::chrono::system_clock::now());
     rig.worries = worries_of(status);
-    if (account.set) {
-        rig.background_known = account.set->known;
-        if (!account.set->misfit.empty()) rig.worries.push_back(account.set->misfit);
+    if (account.background) {
+        rig.background_known = account.background->known;
+        if (!account.background->misfit.empty()) rig.worries.push_back(account.background->misfit);
     }
     return rig;
 }
@@ -156,7 +156,8 @@ std::optional<DeskSources> DeskFeed::sources_of(const ProgrammeState& programme)
     if (!programme.source_map) return std::nullopt;
     DeskSources sources;
     if (!programme.picture || !programme.picture->sources) {
-        sources.remark = fmt::format("The synthesiser {} cannot tell.", programme.synthesiser);
+        sources.remark =
+            fmt::format("The synthesiser {} has no source map.", programme.synthesiser);
         return sources;
     }
     const SourceMap& map = *programme.picture->sources;
@@ -167,9 +168,9 @@ std::optional<DeskSources> DeskFeed::sources_of(const ProgrammeState& programme)
                                 share == map.shares.rigs.end() ? 0.0 : share->second});
     }
     const auto* filled = source_map_inpainted_colour;
-    sources.rows.push_back({"filled", {filled[0], filled[1], filled[2]}, map.shares.filled});
+    sources.rows.push_back({"inpainted", {filled[0], filled[1], filled[2]}, map.shares.filled});
     const auto* known = source_map_remembered_colour;
-    sources.rows.push_back({"remembered", {known[0], known[1], known[2]}, map.shares.remembered});
+    sources.rows.push_back({"background", {known[0], known[1], known[2]}, map.shares.remembered});
     return sources;
 }
 
@@ -183,7 +184,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
         rig_rates_[rig.status.rig].add(rig.status.received, now);
     if (set) rig_pictures_.take(*set);
     for (const RigAccount& rig : report.rigs)
-        if (rig.set) rig_pictures_.take_mask(rig.status.rig, rig.set->matte);
+        if (rig.background) rig_pictures_.take_mask(rig.status.rig, rig.background->matte);
 
     state_.rigs.clear();
     for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set, now));
@@ -203,7 +204,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     state_.repeated = report.programme.repeated;
     state_.age_s = live_age_s(programme);
     state_.signal = report.signal;
-    // What is not live is not from an exposure to a picture.
+    // A picture that is not live has no latency.
     const bool is_live = report.signal == SignalState::live;
     state_.latency_ms = latencies_ms_.empty() || !is_live ? 0 : latencies_ms_.back();
     state_.latencies_ms.assign(latencies_ms_.begin(), latencies_ms_.end());
@@ -239,7 +240,7 @@ void DeskFeed::follow_plan(const LiveShow& show, const ProgrammeState& programme
                            MonotonicTime now) {
     const Eigen::Vector3d eye_m = programme.view.eye_m();
     while (!path_.empty() && now - path_.front().time > path_length) path_.pop_front();
-    if (path_.empty() || (path_.back().eye_m - eye_m).norm() > least_path_step_m)
+    if (path_.empty() || (path_.back().eye_m - eye_m).norm() > min_path_step_m)
         path_.push_back({now, eye_m});
     const std::optional<StagePlaces> places = show.places();
     if (!places) return;
@@ -279,7 +280,7 @@ void DeskFeed::follow_shots(const LiveShow& show, const ProgrammeState& programm
         DeskShot shot;
         if (const std::optional<Shot>& own = kept[number - 1]) {
             const bool is_named = own->name != fmt::format("shot {}", number);
-            shot = {is_named ? own->name : "kept", shot_pictures_.of(number), true};
+            shot = {is_named ? own->name : "stored", shot_pictures_.of(number), true};
         } else if (number <= state_.rigs.size()) {
             const DeskRig& rig = state_.rigs[number - 1];
             shot = {rig.name, rig.colour, false};
@@ -296,7 +297,7 @@ void DeskFeed::follow_replay(const ProgrammeState& programme, const FrameSet* se
     state_.replay =
         desk_replay(programme, clip_pictures_, set ? tai_offset_s_of(*set).value_or(0) : 0);
     if (std::exchange(notices_, replay.notices) != replay.notices) noticed_ = now;
-    state_.notice = notices_ > 0 && now - noticed_ < notice_stands ? replay.notice : "";
+    state_.notice = notices_ > 0 && now - noticed_ < notice_duration ? replay.notice : "";
 }
 
 void DeskFeed::follow_preview(const FlightControls::Lines& lines, const ProgrammeState& programme) {
@@ -362,7 +363,7 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     state_.wheel = lines.wheel;
     state_.wheel_map = desk_wheel(show.controls().wheels().view(now));
     state_.has_unsaved_wheel = !show.controls().wheels().unsaved().empty();
-    // Rigs that give no pictures cover nothing.
+    // Without a signal there is no coverage.
     const bool is_covered = state_.signal != SignalState::no_signal;
     state_.coverage = is_covered ? lines.corridor.now : std::nullopt;
     follow_preview(lines, programme);
@@ -370,6 +371,18 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     follow_plan(show, programme, now);
     follow_shots(show, programme, now);
     return state_;
+}
+
+const Texture* ShownPicture::follow(const std::shared_ptr<const MadePicture>& newest) {
+    if (newest == uploaded_) return uploaded_ ? &*texture_ : nullptr;
+    uploaded_ = newest;
+    if (!uploaded_) return nullptr;
+    const ColourImage& shown =
+        uploaded_->sources ? uploaded_->sources->picture : uploaded_->picture;
+    if (!texture_ || texture_->size() != shown.size())
+        texture_.emplace(TextureFormat::rgba8, shown.cols, shown.rows, Filter::linear);
+    texture_->upload(shown);
+    return &*texture_;
 }
 
 }  // namespace vantage

@@ -1,14 +1,34 @@
 #include "host_app/desk/feed/rig_pictures.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
 namespace vantage {
 namespace {
 
-/// Enough for a quarter of the width of a 1080-row desk.
-constexpr int most_width_px = 320;
+/// Share of the depths at either end that the range leaves out: wild pixels of the matcher.
+constexpr double end_share = 0.02;
+/// Share of the distance to the new range that each picture moves it by.
+constexpr double follow_share = 0.1;
+/// Smallest ratio of farthest to nearest depth, for a scene that is one wall.
+constexpr double min_ratio = 1.1;
+constexpr int colours = 256;
+
+std::vector<cv::Vec4b> cividis() {
+    cv::Mat1b ramp(1, colours);
+    for (int i = 0; i < colours; ++i) ramp(0, i) = static_cast<unsigned char>(i);
+    cv::Mat3b bgr;
+    cv::applyColorMap(ramp, bgr, cv::COLORMAP_CIVIDIS);
+    std::vector<cv::Vec4b> table;
+    for (const cv::Vec3b& c : bgr) table.emplace_back(c[2], c[1], c[0], 255);
+    return table;
+}
+
+/// Largest width of a rig's picture: a quarter of the width of a 1080-row desk needs no more.
+constexpr int max_rig_picture_width_px = 320;
 
 void show(std::optional<Texture>& texture, const ColourImage& picture) {
     if (!texture || texture->size() != picture.size())
@@ -16,13 +36,52 @@ void show(std::optional<Texture>& texture, const ColourImage& picture) {
     texture->upload(picture);
 }
 
-/// `reduction`: whole pixels of the source to one.
+/// Reduces a size by a whole factor, so that every pixel averages whole pixels of the source.
 cv::Size reduced(cv::Size size) {
-    const int reduction = std::max(1, (size.width + most_width_px - 1) / most_width_px);
+    const int reduction =
+        std::max(1, (size.width + max_rig_picture_width_px - 1) / max_rig_picture_width_px);
     return {std::max(1, size.width / reduction), std::max(1, size.height / reduction)};
 }
 
 }  // namespace
+
+DepthImage depth_of(const DisparityImage& disparity, const DisparityScale& scale) {
+    DepthImage depth(disparity.size());
+    std::transform(disparity.begin(), disparity.end(), depth.begin(),
+                   [&](std::uint16_t steps) { return scale.depth_m(steps); });
+    return depth;
+}
+
+void DepthRange::follow(const DepthImage& depth) {
+    std::vector<float> known;
+    for (const float m : depth)
+        if (m > 0) known.push_back(m);
+    if (known.empty()) return;
+    const auto at = [&](double share) {
+        const auto place = known.begin() + static_cast<std::ptrdiff_t>(
+                                               share * static_cast<double>(known.size() - 1));
+        std::nth_element(known.begin(), place, known.end());
+        return static_cast<double>(*place);
+    };
+    const double nearest = at(end_share), farthest = at(1 - end_share);
+    const double share = nearest_m > 0 ? follow_share : 1;
+    nearest_m += share * (nearest - nearest_m);
+    farthest_m += share * (farthest - farthest_m);
+}
+
+ColourImage depth_colours(const DepthImage& depth, const DepthRange& range) {
+    static const std::vector<cv::Vec4b> table = cividis();
+    ColourImage picture(depth.size(), cv::Vec4b(0, 0, 0, 255));
+    if (range.nearest_m <= 0) return picture;
+    const double farthest_m = std::max(range.farthest_m, min_ratio * range.nearest_m);
+    const double scale = (colours - 1) / std::log(farthest_m / range.nearest_m);
+    std::transform(depth.begin(), depth.end(), picture.begin(), [&](float m) {
+        if (m <= 0) return cv::Vec4b(0, 0, 0, 255);
+        const double nearness = scale * std::log(farthest_m / m);
+        return table[static_cast<std::size_t>(std::clamp(nearness, 0.0, colours - 1.0))];
+    });
+    return picture;
+}
 
 void RigPictures::take(const FrameSet& set) {
     for (const FrameSet::Slot& slot : set.slots) {
@@ -35,7 +94,7 @@ void RigPictures::take(const FrameSet& set) {
             show(pictures.colour, small);
         }
         if (!frame.disparity.empty()) {
-            // Not mixed: half of two surfaces is none.
+            // Nearest neighbour: a mean of two surfaces' disparities is no surface.
             DisparityImage small;
             cv::resize(frame.disparity, small, reduced(frame.disparity.size()), 0, 0,
                        cv::INTER_NEAREST);

@@ -7,9 +7,9 @@
 namespace vantage {
 
 void CommandPrompt::type(unsigned codepoint) {
-    constexpr std::size_t most_letters = 64;
+    constexpr std::size_t max_letters = 64;
     constexpr unsigned last_of_ascii = 126;
-    if (codepoint < ' ' || codepoint > last_of_ascii || typed_.size() >= most_letters) return;
+    if (codepoint < ' ' || codepoint > last_of_ascii || typed_.size() >= max_letters) return;
     typed_ += static_cast<char>(codepoint);
     fault_.clear();
 }

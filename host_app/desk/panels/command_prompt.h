@@ -1,25 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {
 
-/// A line in which any command of the table is typed with its argument, or a time alone.
+/// The command line of the desk: it takes any command of the table with its argument, or a time.
 class CommandPrompt {
   public:
     bool is_open() const { return is_open_; }
     void open() { is_open_ = true; }
     void close() { *this = CommandPrompt(); }
-    /// A letter, as a keyboard gives it. What no command has is left out.
+    /// Adds a character. Characters outside printable ASCII are ignored.
     void type(unsigned codepoint);
     void erase();
-    /// As much of a command's name as all have that begin so.
+    /// Completes the longest prefix that all commands beginning with the typed text share.
     void complete();
-    /// What was typed; it stays open. Nothing: there is none, and line() says why.
+    /// Parses the typed text; the prompt stays open. If it does not parse, returns nothing, and
+    /// line() shows the reason.
     std::optional<CommandCall> call();
-    /// For the desk.
+    /// The line as the desk shows it, with the reason of a refused command.
     std::string line() const;
 
   private:

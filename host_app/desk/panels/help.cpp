@@ -10,14 +10,14 @@
 namespace vantage {
 namespace {
 
-/// Without keys it is a heading.
+/// A line of the help; a line without keys is a heading.
 struct HelpRow {
     std::string keys, does;
 
     bool is_heading() const { return keys.empty(); }
 };
 
-/// Over the command of this name.
+/// The headings, each above the command of this name.
 constexpr std::pair<std::string_view, const char*> headings[] = {{"live", "Time"},
                                                                  {"make_clip", "Clips"},
                                                                  {"play_list", "Play list"},
@@ -27,13 +27,13 @@ constexpr std::pair<std::string_view, const char*> headings[] = {{"live", "Time"
                                                                  {"take", "Recording and outputs"}};
 
 std::vector<HelpRow> help_rows() {
-    std::vector<HelpRow> rows{{"", "By hand"},
+    std::vector<HelpRow> rows{{"", "Mouse and keyboard"},
                               {"left drag, arrow keys", "orbit around the pivot"},
-                              {"double click", "put the pivot on what is there"},
-                              {"right drag, A D Q E", "shift left, right, down, up"},
-                              {"wheel, W S", "nearer, farther"},
-                              {"Ctrl + wheel, + -", "narrower, wider field of view"},
-                              {"drag on the time line", "go through the past"}};
+                              {"double click", "put the pivot on the surface under the mouse"},
+                              {"right drag, A D Q E", "move left, right, down, up"},
+                              {"wheel, W S", "move nearer, farther"},
+                              {"Ctrl + wheel, + -", "narrow, widen the field of view"},
+                              {"drag on the time line", "move through the past"}};
     for (const ControlCommand& command : control_commands()) {
         for (const auto& [name, heading] : headings)
             if (name == command.name) rows.push_back({"", heading});
@@ -42,25 +42,25 @@ std::vector<HelpRow> help_rows() {
     }
     rows.insert(rows.end(),
                 {{"", "Desk"},
-                 {"Tab", "the picture alone, or the desk"},
-                 {"Shift + Tab", "the rigs' pictures and state, or none"},
-                 {"Ctrl + Shift + Tab", "the rigs in a window of their own, or here"},
-                 {"Ctrl + F1", "how the show went since its start, or camera and outputs"},
-                 {"Ctrl + Tab", "the stage from outside, or the plan of it"},
-                 {"Ctrl + arrows, + -", "around it from outside, nearer, farther"},
+                 {"Tab", "show the picture alone, or the desk"},
+                 {"Shift + Tab", "show or hide the rigs"},
+                 {"Ctrl + Shift + Tab", "move the rigs to a window of their own, or back"},
+                 {"Ctrl + F1", "show measurements since the start, or camera and outputs"},
+                 {"Ctrl + Tab", "show the stage in 3-D, or its plan"},
+                 {"Ctrl + arrows, + -", "turn the 3-D view, move nearer, farther"},
                  {"Enter", "type a command with its argument, or a time"},
-                 {"F1", "this help, page by page"},
-                 {"Esc", "end; asks first"}});
+                 {"F1", "show the pages of this help"},
+                 {"Esc", "quit, after a question"}});
     return rows;
 }
 
-/// Where a row stands, in columns that are filled one after the other.
+/// The place of a row. Columns are filled one after the other.
 struct Placed {
     std::size_t row, column;
-    float y;  ///< from the column's top
+    float y;  ///< from the top of the column
 };
 
-/// Their heights go with the columns' width, since long words are wrapped.
+/// Distributes the rows to columns. Long descriptions are wrapped to the width of a column.
 class HelpColumns {
   public:
     HelpColumns(const Pen& pen, const std::vector<HelpRow>& rows, float words_width, float height)
@@ -70,7 +70,7 @@ class HelpColumns {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const float gap = rows[i].is_heading() && y > 0 ? 0.4f * pen.em() : 0;
             const float row_height = height_of(rows[i]);
-            // A heading does not stand alone at the end.
+            // A heading is never the last row of a column.
             const float wanted =
                 row_height +
                 (rows[i].is_heading() && i + 1 < rows.size() ? height_of(rows[i + 1]) : 0);
@@ -109,7 +109,7 @@ int draw_help(const Pen& pen, float width_px, float height_px, int page) {
         widest = std::max(widest, pen.width_of(row.does) + em);
     }
     const float least_words = 17 * em;
-    // As many columns side by side as leave room for words, each no wider than the widest.
+    // One to three columns, each no wider than the longest row.
     const auto side_by_side = static_cast<std::size_t>(
         std::clamp((width_px - 2 * pad) / (keys_width + least_words + pad), 1.0f, 3.0f));
     const float column_width =
@@ -128,8 +128,8 @@ int draw_help(const Pen& pen, float width_px, float height_px, int page) {
     pen.outline(box, palette::line);
     pen.text(box.left + pad, box.top + pad, palette::text, "Keys and mouse", true);
     pen.text_right(box.right() - pad, box.top + pad, palette::dim,
-                   page < pages ? fmt::format("{} of {}   F1 goes on", page, pages)
-                                : std::string("F1 closes"));
+                   page < pages ? fmt::format("page {} of {}   F1: next", page, pages)
+                                : std::string("F1: close"));
     for (const Placed& placed : columns.placed()) {
         if (placed.column < first || placed.column >= first + side_by_side) continue;
         const HelpRow& row = rows[placed.row];

@@ -7,17 +7,17 @@
 namespace vantage {
 namespace {
 
-constexpr float caption_height = 1.5f;  ///< in ems
+constexpr float caption_height = 1.5f;  ///< ems
 constexpr float picture_aspect = 9.0f / 16;
 
-/// A picture under its name and a few words; returns where the picture is.
+/// Draws a picture below its name, coverage and remark; returns the picture's rectangle.
 DeskRect draw_monitor(const Pen& pen, const DeskRect& rect, const Texture* picture, float aspect,
                       std::string_view name, const ImVec4& colour,
                       const std::optional<Coverage>& coverage, std::string_view words) {
     const float em = pen.em(), height = caption_height * em;
     const DeskRect below{rect.left, rect.top + height, rect.width, rect.height - height};
     const float thick = std::max(1.0f, 0.12f * em);
-    // Right under its name, where a part is higher than the picture.
+    // At the top, if the part is higher than the picture.
     DeskRect place = below.shrunk(thick).fitted(aspect);
     place.top = below.top + thick;
     if (picture) pen.image(place, *picture);
@@ -29,7 +29,7 @@ DeskRect draw_monitor(const Pen& pen, const DeskRect& rect, const Texture* pictu
         const Mark mark = is_edge ? Mark::care : Mark::bad;
         x = pen.mark(x, y, mark);
         x = pen.text_until(rect.right(), x, y, colour_of(mark),
-                           fmt::format("the rigs cover {:.0f} %", 100 * coverage->share)) +
+                           fmt::format("coverage {:.0f} %", 100 * coverage->share)) +
             0.6f * em;
     }
     pen.text_until(rect.right(), x, y, palette::dim, words);
@@ -39,15 +39,15 @@ DeskRect draw_monitor(const Pen& pen, const DeskRect& rect, const Texture* pictu
 std::string programme_words(const DeskPreview& preview) {
     constexpr double percent = 100;
     if (preview.fly_progress)
-        return fmt::format("flies to the preview, {:.0f} %", percent * *preview.fly_progress);
+        return fmt::format("flying to the preview, {:.0f} %", percent * *preview.fly_progress);
     if (preview.programme_move)
         return fmt::format("on the planned move, {:.0f} %", percent * *preview.programme_move);
-    return fmt::format("cut ;   auto ' {:g} s", preview.fly_s);
+    return fmt::format("cut: ;   auto ({:g} s): '", preview.fly_s);
 }
 
 std::string preview_words(const DeskPreview& preview) {
-    const std::string rate = fmt::format("{:.1f}/s", preview.picture_rate_hz);
-    return preview.is_near_only ? rate + ", coarse away from the programme" : rate;
+    const std::string rate = fmt::format("{:.1f} fps", preview.picture_rate_hz);
+    return preview.is_near_only ? rate + ", coarse outside the programme's view" : rate;
 }
 
 }  // namespace

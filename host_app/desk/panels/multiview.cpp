@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "host_app/desk/air_verdict.h"
 #include "host_app/desk/panels/desk_parts.h"
-#include "host_app/desk/rig_verdict.h"
 
 namespace vantage {
 namespace {
 
-/// Of a set that counts as learnt.
+/// Share of the background from which it counts as learnt.
 constexpr double mostly_known = 0.8;
 
-/// A picture as large as fits into the rectangle's height; returns its width.
+/// Draws a picture as large as the rectangle allows; returns its width. An outdated picture is
+/// dimmed.
 float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture, bool is_of_now) {
     const float aspect =
         picture ? static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())
@@ -19,13 +20,12 @@ float draw_picture(const Pen& pen, const DeskRect& rect, const Texture* picture,
     const float width = std::min(rect.width, rect.height / aspect);
     const DeskRect place{rect.left, rect.top, width, width * aspect};
     if (picture) pen.image(place, *picture);
-    // What is not of now stays, as what it was.
     if (picture && !is_of_now) pen.fill(place, palette::veil);
     if (!picture) pen.outline(place, palette::line);
     return width;
 }
 
-/// "lost 15 rig, 1 host  ": where, and how many; empty: none.
+/// Formats the lost frames by place, such as "lost 15 rig, 1 host  "; empty if none were lost.
 std::string lost_words(const DeskRig& rig) {
     std::string words;
     const auto add = [&](std::uint64_t count, const char* place) {
@@ -37,7 +37,7 @@ std::string lost_words(const DeskRig& rig) {
     return words.empty() ? "" : fmt::format("lost {}  ", words);
 }
 
-/// Under depth and mask, the most important first.
+/// Draws the lines below depth and mask, the most important first.
 void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) {
     const Clipping clipping(pen, rect);
     float y = rect.top;
@@ -50,7 +50,7 @@ void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) 
     if (rig.background_known) {
         const bool is_learning = *rig.background_known < mostly_known;
         row(is_learning ? palette::warn : palette::dim,
-            fmt::format("set {:.0f} %", 100 * *rig.background_known));
+            fmt::format("background {:.0f} %", 100 * *rig.background_known));
     }
     if (rig.nearest_m > 0)
         row(palette::dim, fmt::format("{:.1f} to {:.1f} m", rig.nearest_m, rig.farthest_m));
@@ -63,19 +63,20 @@ void draw_small_print(const Pen& pen, const DeskRect& rect, const DeskRig& rig) 
 void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_of_take) {
     const float em = pen.em();
     pen.fill(cell, palette::panel);
-    const RigLook look = is_of_take && rig.state != RigState::present
-                             ? RigLook{"not in the take", Mark::care}
-                             : look_of(rig.state);
+    const RigStateLabel label = is_of_take && rig.state != RigState::present
+                                    ? RigStateLabel{"not in the take", Mark::care}
+                                    : label_of(rig.state);
     const float y = cell.top + 0.25f * em;
-    float x = pen.mark(cell.left + 0.4f * em, y, look.mark);
+    float x = pen.mark(cell.left + 0.4f * em, y, label.mark);
     const float right = cell.right() - 0.4f * em;
     x = pen.text_until(right, x, y, palette::text, rig.name, true) + 0.5f * em;
     if (rig.state != RigState::present)
-        x = pen.text_until(right, x, y, colour_of(look.mark), look.words, true) + 0.5f * em;
+        x = pen.text_until(right, x, y, colour_of(label.mark), label.words, true) + 0.5f * em;
     if (!is_of_take) {
-        const std::string numbers = fmt::format("{:.1f}/s  {:.0f} ms", rig.rate_hz, rig.latency_ms);
+        const std::string numbers =
+            fmt::format("{:.1f} fps  {:.0f} ms", rig.rate_hz, rig.latency_ms);
         const std::string lost = lost_words(rig);
-        // What was lost is told, where there is room for one of them.
+        // Lost frames take precedence if there is room for one of the two.
         if (x + pen.width_of(lost + numbers) <= right) {
             pen.text_right(right, y, palette::dim, numbers);
             pen.text_right(right - pen.width_of(numbers), y, palette::warn, lost);
@@ -86,13 +87,13 @@ void draw_rig(const Pen& pen, const DeskRect& cell, const DeskRig& rig, bool is_
     }
     const bool is_of_now = rig.state == RigState::present;
     const DeskRect pictures{cell.left, cell.top + 1.6f * em, cell.width, cell.height - 1.6f * em};
-    // A high cell has room beside it too.
-    constexpr float most_of_width = 0.66f;
+    // A high cell keeps a third of its width for depth and mask.
+    constexpr float max_width_share = 0.66f;
     DeskRect large = pictures;
-    large.width *= most_of_width;
+    large.width *= max_width_share;
     const float width = draw_picture(pen, large, rig.colour, is_of_now);
-    // Depth and mask side by side or, where that makes them larger, one over the other, with room
-    // for words under them.
+    // Depth and mask stand side by side, or one above the other if that makes them larger, with
+    // room for text below.
     constexpr float usual_aspect = 0.75f, lines_of_words = 3.6f;
     const float gap = 0.15f * em, left = cell.left + width + gap;
     const float room = cell.right() - left;

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// The side's words, from the top down; knows how far they have come.
+/// Writes lines of text from the top down.
 struct Column {
     const Pen& pen;
     float left, right, y;
@@ -33,7 +33,8 @@ struct Column {
     }
 };
 
-/// What the rigs cover of the picture and, outside the corridor, what the rest is lost to.
+/// Draws the share of the picture that the rigs cover and, outside the corridor, the reason of the
+/// loss.
 void draw_coverage(Column& column, const Coverage& coverage) {
     const CorridorPlace place = Corridor::place_of(coverage.share);
     if (place == CorridorPlace::inside)
@@ -55,19 +56,19 @@ void draw_camera(Column& column, const DeskState& state) {
         state.preview ? state.preview->coverage : state.coverage;
     column.heading(state.preview ? "CAMERA ON PREVIEW" : "CAMERA");
     column.row(palette::text,
-               fmt::format("{:.1f}\u00b0 around, {:.1f}\u00b0 up, {:.2f} m, {:.1f}\u00b0 wide",
+               fmt::format("az {:.1f}\u00b0  el {:.1f}\u00b0  {:.2f} m  FOV {:.1f}\u00b0",
                            view.azimuth_rad * deg, view.elevation_rad * deg, view.distance_m,
                            view.field_of_view_rad * deg));
-    column.row(palette::dim, fmt::format("pivot {:.2f}  {:.2f}  {:.2f} m{}{}", view.pivot_m.x(),
-                                         view.pivot_m.y(), view.pivot_m.z(),
-                                         state.follows_performer ? ", goes with a performer" : "",
-                                         state.holds_horizon ? "" : ", horizon free"));
+    column.row(palette::dim,
+               fmt::format("pivot {:.2f}  {:.2f}  {:.2f} m{}{}", view.pivot_m.x(), view.pivot_m.y(),
+                           view.pivot_m.z(), state.follows_performer ? ", follows a performer" : "",
+                           state.holds_horizon ? "" : ", horizon free"));
     if (coverage) draw_coverage(column, *coverage);
     if (state.move_progress) column.row(palette::dim, "on the planned move; steer to take over");
     if (!state.wheel.empty()) column.wrapped(palette::dim, state.wheel);
 }
 
-/// Entries around the one that plays, or the one that is selected: there is not room for many.
+/// Draws the entries around the one that plays, or around the selected one.
 void draw_play_list(Column& column, const DeskReplay& replay, DeskSpots* spots) {
     if (replay.entries.empty()) return;
     double all_s = 0;
@@ -121,7 +122,7 @@ void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
         column.row_of_two("Sound  " + sound.name, sound.is_on ? palette::good : palette::bad,
                           sound.is_on ? fmt::format("{:.0f} dB", sound.peak_dbfs) : sound.state);
         if (sound.missing_ms > 0)
-            column.row(palette::warn, fmt::format("{} ms of it were not there", sound.missing_ms));
+            column.row(palette::warn, fmt::format("{} ms of sound missing", sound.missing_ms));
         if (!sound.failure.empty()) column.wrapped(palette::bad, sound.failure);
     }
     constexpr int first_key = 5, last_key = 12;
@@ -139,7 +140,7 @@ void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
                                            : palette::dim,
                           value);
         if (output.left_out > 0)
-            column.row(palette::warn, fmt::format("{} pictures left out", output.left_out));
+            column.row(palette::warn, fmt::format("{} frames dropped", output.left_out));
         if (!output.failure.empty()) column.wrapped(palette::bad, output.failure);
         if (spots && key <= last_key)
             spots->outputs.push_back({{column.left, top, column.width(), column.y - top}, number});
@@ -148,14 +149,14 @@ void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
     if (!state.take) return;
     const DeskTake& take = *state.take;
     column.row_of_two(take.path, take.is_running ? palette::good : palette::dim,
-                      take.is_running ? fmt::format("{:.1f} MB a second", take.mb_s) : "ended");
+                      take.is_running ? fmt::format("{:.1f} MB/s", take.mb_s) : "ended");
     if (take.left_out > 0)
-        column.row(palette::warn, fmt::format("{} frames left out of the take", take.left_out));
+        column.row(palette::warn, fmt::format("{} frames not in the take", take.left_out));
     if (!take.failure.empty()) column.wrapped(palette::bad, take.failure);
 }
 
 void draw_sources(Column& column, const DeskSources& sources) {
-    column.heading("PIXELS BY RIG");
+    column.heading("SOURCE MAP");
     if (!sources.remark.empty()) return column.wrapped(palette::warn, sources.remark);
     const float em = column.pen.em(), left = column.left;
     for (const DeskSources::Row& row : sources.rows) {
@@ -177,14 +178,14 @@ void draw_worries(Column& column, const DeskState& state) {
                        "synchronisation: " + state.synchronisation);
 }
 
-/// One bar of all steps, as long as each takes, and their names under it.
-void draw_way(Column& column, const DeskState& state) {
+/// Draws the steps of a frame as a bar in proportion to their durations, with their names below.
+void draw_frame_timing(Column& column, const DeskState& state) {
     double all_ms = 0;
     for (const DeskStep& step : state.steps) all_ms += step.ms;
     if (all_ms <= 0) return;
     const Pen& pen = column.pen;
     const float em = pen.em();
-    column.heading("WAY OF A FRAME, ms");
+    column.heading("FRAME TIMING, ms");
     float x = column.left;
     for (const DeskStep& step : state.steps) {
         const float width = column.width() * static_cast<float>(step.ms / all_ms);
@@ -201,17 +202,16 @@ void draw_way(Column& column, const DeskState& state) {
         const DeskStep& step = state.steps[i];
         const float left = column.left + static_cast<float>(i / rows) * (width + gap);
         Column cell{pen, left, left + width, column.y + static_cast<float>(i % rows) * pen.line()};
-        // Milliseconds, as the heading says.
         cell.row_of_two(step.name, step.at_rig ? palette::good : palette::accent,
                         fmt::format("{:.1f}", step.ms));
     }
     column.y += static_cast<float>(rows) * pen.line();
     if (state.latencies_ms.empty()) return;
     const float worst = *std::max_element(state.latencies_ms.begin(), state.latencies_ms.end());
-    column.row_of_two("exposure to glass", palette::text,
+    column.row_of_two("exposure to display", palette::text,
                       state.latency_ms > 0
-                          ? fmt::format("{:.0f} ms, at worst {:.0f}", state.latency_ms, worst)
-                          : fmt::format("at worst {:.0f} ms", worst));
+                          ? fmt::format("{:.0f} ms, max {:.0f}", state.latency_ms, worst)
+                          : fmt::format("max {:.0f} ms", worst));
 }
 
 void draw_figures(Column& column, const DeskState& state) {
@@ -221,7 +221,8 @@ void draw_figures(Column& column, const DeskState& state) {
         column.row_of_two(figure.name, palette::text, figure.value);
 }
 
-/// Most important first: what has no room is cut off at the end. Returns where it ends.
+/// Draws the side panel's text, the most important first; the end is cut off if there is no room.
+/// Returns the y at which the text ends.
 float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, bool figures,
                  DeskSpots* spots) {
     const float pad = 0.6f * pen.em();
@@ -235,7 +236,7 @@ float draw_words(const Pen& pen, const DeskRect& rect, const DeskState& state, b
         if (state.sources) draw_sources(column, *state.sources);
     }
     draw_worries(column, state);
-    draw_way(column, state);
+    draw_frame_timing(column, state);
     return column.y + 0.4f * pen.em();
 }
 
@@ -246,7 +247,7 @@ void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
     if (rect.is_empty()) return;
     const float gap = 0.4f * pen.em();
     DeskRect plan = rect, words = rect;
-    // Beside one another where there is no height for both.
+    // A flat panel has the plan and the text side by side.
     constexpr float width_of_words = 20, share_of_words = 0.6f, flat = 1.4f;
     if (rect.width > flat * rect.height) {
         words.width = std::min(width_of_words * pen.em(), share_of_words * rect.width);
@@ -255,10 +256,10 @@ void draw_side(const Pen& pen, const DeskRect& rect, const DeskState& state,
     } else {
         const float words_height =
             draw_words(pen.dry(), {rect.left, 0, rect.width, 0}, state, switches.figures, nullptr);
-        // Who looks from outside wants to see something.
-        const float least_plan =
+        // The 3-D view needs half of the panel.
+        const float min_plan =
             switches.outside ? 0.5f * rect.height : std::min(11 * pen.em(), 0.45f * rect.height);
-        plan.height = std::max(least_plan, rect.height - words_height - gap);
+        plan.height = std::max(min_plan, rect.height - words_height - gap);
         words.top = plan.bottom() + gap;
         words.height = rect.bottom() - words.top;
     }

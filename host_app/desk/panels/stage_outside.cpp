@@ -1,3 +1,5 @@
+#include "host_app/desk/panels/stage_outside.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,17 +7,26 @@
 #include <vector>
 
 #include "host_app/desk/panels/desk_parts.h"
-#include "host_app/desk/panels/outside_view.h"
 
 namespace vantage {
 namespace {
 
-/// A camera's place, axes and half of its picture's width and height at a depth of 1.
+constexpr double near_plane_m = 0.1;
+constexpr double outside_field_of_view_rad = 0.8;  ///< along the shorter side
+
+double reach_m(const DeskPlan& plan) {
+    double reach = plan.extent.radius_m;
+    for (const DeskPlan::Rig& rig : plan.rigs)
+        reach = std::max(reach, (rig.eye_m - plan.extent.centre_m).norm());
+    return reach;
+}
+
+/// A camera's position, axes, and half of its picture's width and height at a depth of 1.
 struct Frustum {
     Eigen::Vector3d eye_m, right, up, forward;
     double half_width, half_height;
 
-    /// Of a corner of its picture (-1 or 1 along either axis) at a depth.
+    /// Returns a corner of the picture (-1 or 1 along either axis) at a depth.
     Eigen::Vector3d corner_m(double aside, double above, double depth_m) const {
         return eye_m + depth_m * (forward + aside * half_width * right + above * half_height * up);
     }
@@ -23,7 +34,7 @@ struct Frustum {
 
 Frustum frustum_of(const DeskPlan::Rig& rig) {
     Eigen::Vector3d right = rig.forward.cross(Eigen::Vector3d::UnitY());
-    // One that looks straight down has no side.
+    // For a camera that looks straight down any direction will do.
     right = right.norm() > 1e-3 ? Eigen::Vector3d(right.normalized()) : Eigen::Vector3d::UnitX();
     return {rig.eye_m,   right,          right.cross(rig.forward),
             rig.forward, rig.half_width, rig.half_height};
@@ -36,7 +47,7 @@ Frustum frustum_of(const OrbitView& view, float aspect) {
             pose.linear().col(2), half_width,           half_width * aspect};
 }
 
-/// Draws lines and words of the stage where the eye sees them.
+/// Draws lines and text at positions on the stage.
 class OutsidePen {
   public:
     OutsidePen(const Pen& pen, const OutsideMap& map) : pen_(pen), map_(map) {}
@@ -74,7 +85,7 @@ class OutsidePen {
     const OutsideMap& map_;
 };
 
-/// The farthest first: what is nearer lies over it.
+/// Draws the points from the farthest to the nearest, so that nearer ones cover them.
 void draw_points(const Pen& pen, const OutsideMap& map,
                  const std::vector<DeskPlan::Point>& points) {
     struct Seen {
@@ -107,8 +118,7 @@ void draw_floor(const OutsidePen& pen, const StageExtent& extent) {
     for (int part = 0; part < parts; ++part) pen.line(at(part), at(part + 1), palette::tick);
 }
 
-/// Where the camera could stand, at its elevation: what is covered is outlined, its end in the
-/// colour of care.
+/// Draws the corridor at the camera's elevation: covered fields, and its edge in the warning tint.
 void draw_corridor(const OutsidePen& pen, const OutsideMap& map, const DeskPlan& plan) {
     const double rise = std::sin(plan.corridor_elevation_rad);
     const double run = std::cos(plan.corridor_elevation_rad);
@@ -173,6 +183,44 @@ void draw_camera(const OutsidePen& pen, const OrbitView& view, float aspect, con
 }
 
 }  // namespace
+
+OutsideMap::OutsideMap(const DeskRect& rect, const DeskPlan& plan, const OutsideEye& eye)
+    : focal_px_(0.5 * std::min(rect.width, rect.height) /
+                std::tan(0.5 * outside_field_of_view_rad)),
+      middle_x_(rect.left + 0.5f * rect.width),
+      middle_y_(rect.top + 0.5f * rect.height) {
+    OrbitView view;
+    view.pivot_m = plan.extent.centre_m;
+    view.azimuth_rad = eye.azimuth_rad;
+    view.elevation_rad = eye.elevation_rad;
+    view.distance_m =
+        reach_m(plan) / std::sin(0.5 * outside_field_of_view_rad) * std::exp(-eye.nearness);
+    camera_from_world_ = view.world_from_camera().inverse();
+}
+
+OutsideMap::Place OutsideMap::place_of(const Eigen::Vector3d& in_camera) const {
+    const double scale = focal_px_ / in_camera.z();
+    return {middle_x_ + static_cast<float>(scale * in_camera.x()),
+            middle_y_ + static_cast<float>(scale * in_camera.y()), in_camera.z()};
+}
+
+std::optional<OutsideMap::Place> OutsideMap::at(const Eigen::Vector3d& point_m) const {
+    const Eigen::Vector3d in_camera = camera_from_world_ * point_m;
+    if (in_camera.z() < near_plane_m) return std::nullopt;
+    return place_of(in_camera);
+}
+
+std::optional<OutsideMap::Line> OutsideMap::line(const Eigen::Vector3d& from_m,
+                                                 const Eigen::Vector3d& to_m) const {
+    Eigen::Vector3d from = camera_from_world_ * from_m, to = camera_from_world_ * to_m;
+    if (from.z() < near_plane_m && to.z() < near_plane_m) return std::nullopt;
+    const auto cut = [](Eigen::Vector3d& behind, const Eigen::Vector3d& before) {
+        behind += (near_plane_m - behind.z()) / (before.z() - behind.z()) * (before - behind);
+    };
+    if (from.z() < near_plane_m) cut(from, to);
+    if (to.z() < near_plane_m) cut(to, from);
+    return Line{place_of(from), place_of(to)};
+}
 
 void draw_stage_outside(const Pen& pen, const DeskRect& rect, const DeskState& state,
                         const OutsideEye& eye) {

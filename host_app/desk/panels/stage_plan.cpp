@@ -6,13 +6,13 @@
 namespace vantage {
 namespace {
 
-/// From metres on the floor to the window: x to the right, z towards the lower edge.
+/// The map from metres on the floor to pixels: x to the right, z downwards.
 class PlanMap {
   public:
     PlanMap(const DeskRect& rect, const Eigen::Vector2d& least_m, const Eigen::Vector2d& most_m)
         : right_(rect.right()) {
         const Eigen::Vector2d span = (most_m - least_m).cwiseMax(1.0);
-        // In steps, so that the plan stands still while the camera flies.
+        // The scale has steps, so that the plan stands still while the camera flies.
         constexpr double step = 1.12;
         const double fits = std::min(rect.width / span.x(), rect.height / span.y());
         px_per_m_ = static_cast<float>(std::pow(step, std::floor(std::log(fits) / std::log(step))));
@@ -26,23 +26,23 @@ class PlanMap {
     }
     ImVec2 at(const Eigen::Vector3d& point_m) const { return at(point_m.x(), point_m.z()); }
     float px_per_m() const { return px_per_m_; }
-    float right() const { return right_; }  ///< where names end
+    float right() const { return right_; }  ///< limit for names
 
   private:
     float px_per_m_ = 1, left_ = 0, top_ = 0, right_;
 };
 
-/// A camera from above: where it is, where it looks, how wide.
+/// A camera from above: position, direction and width of its field.
 struct SeenCamera {
     Eigen::Vector3d eye_m;
     Eigen::Vector3d forward;
     double half_width;
 
-    /// Of its field's left (-1) or right (1) edge at a depth.
+    /// Returns a point of the field's left (-1) or right (1) edge at a depth.
     Eigen::Vector3d edge_m(double side, double depth_m) const {
         const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitY());
         const double length = right.norm();
-        // One that looks straight down has no side.
+        // The field of a camera that looks straight down has no width here.
         return eye_m +
                depth_m * (forward + (length > 1e-3 ? side * half_width / length : 0) * right);
     }
@@ -94,7 +94,7 @@ void draw_field(const Pen& pen, const PlanMap& map, const SeenCamera& camera, do
     pen.list().AddLine(eye, right, line);
 }
 
-/// A small body that shows where the camera looks.
+/// Draws a camera as a small arrow.
 void draw_body(const Pen& pen, const PlanMap& map, const SeenCamera& camera, const ImVec4& colour) {
     const double size_m = 0.45 * pen.em() / map.px_per_m();
     Eigen::Vector3d ahead = camera.forward;
@@ -117,7 +117,7 @@ void draw_rigs(const Pen& pen, const PlanMap& map, const DeskPlan& plan) {
     for (const DeskPlan::Rig& rig : plan.rigs) {
         const ImVec4& colour = rig.is_away ? palette::bad : palette::good;
         draw_body(pen, map, {rig.eye_m, rig.forward, rig.half_width}, colour);
-        // Behind its back, where neighbours that look the same way leave room.
+        // Behind the rig, where neighbours with the same direction leave room.
         const Eigen::Vector3d behind_m =
             rig.eye_m - 1.5 * pen.em() / map.px_per_m() *
                             Eigen::Vector3d(rig.forward.x(), 0, rig.forward.z()).normalized();
@@ -168,7 +168,7 @@ void draw_scale(const Pen& pen, const DeskRect& rect, const PlanMap& map) {
 
 void draw_unknown_stage(const Pen& pen, const DeskRect& rect) {
     pen.text(rect.left + 0.6f * pen.em(), rect.top + 0.5f * pen.em(), palette::dim,
-             "the stage is not known yet");
+             "waiting for the rigs' positions");
 }
 
 void draw_stage_plan(const Pen& pen, const DeskRect& rect, const DeskState& state) {

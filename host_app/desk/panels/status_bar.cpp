@@ -22,38 +22,35 @@ const ImVec4& colour_of(SignalState signal) {
     return palette::bad;
 }
 
-struct VerdictLook {
-    const char* words;
-    Mark mark;
-};
-VerdictLook look_of(AirVerdict::Level level) {
+RigStateLabel verdict_label(AirVerdict::Level level) {
     switch (level) {
         case AirVerdict::Level::ready:
             return {"READY FOR AIR", Mark::good};
-        case AirVerdict::Level::with_care:
-            return {"WITH CARE", Mark::care};
+        case AirVerdict::Level::caution:
+            return {"CAUTION", Mark::care};
         case AirVerdict::Level::not_ready:
             break;
     }
     return {"NOT FOR AIR", Mark::bad};
 }
 
-/// Returns where the next words may begin.
+/// Returns the x at which text may follow.
 float draw_verdict(const Pen& pen, float x, float y, float right, const DeskState& state) {
     const AirVerdict verdict = air_verdict(state);
-    const VerdictLook look = look_of(verdict.level);
-    const ImVec4& colour = vantage::colour_of(look.mark);
-    x = pen.mark(x, y, look.mark);
-    x = pen.text(x, y, colour, look.words, true) + 0.5f * pen.em();
+    const RigStateLabel label = verdict_label(verdict.level);
+    const ImVec4& colour = vantage::colour_of(label.mark);
+    x = pen.mark(x, y, label.mark);
+    x = pen.text(x, y, colour, label.words, true) + 0.5f * pen.em();
     if (!verdict.why.empty()) x = pen.text_until(right, x, y, colour, verdict.why);
     return x + 1.2f * pen.em();
 }
 
 float draw_time(const Pen& pen, float x, float y, float height, const DeskState& state) {
     if (state.behind_s)
-        x = pen.badge(x, y, height, fmt::format("{:.1f} s BACK", *state.behind_s), palette::accent);
+        x = pen.badge(x, y, height, fmt::format("{:.1f} s BEHIND", *state.behind_s),
+                      palette::accent);
     else if (state.is_of_take())
-        x = pen.badge(x, y, height, "FROM A TAKE", palette::accent);
+        x = pen.badge(x, y, height, "TAKE", palette::accent);
     else if (!state.waiting)
         x = pen.badge(x, y, height, title_of(state.signal), colour_of(state.signal));
     if (!state.time || !state.time->at) return x;
@@ -62,7 +59,7 @@ float draw_time(const Pen& pen, float x, float y, float height, const DeskState&
     return pen.badge(x, y, height, speed + (time.loops ? " LOOP" : ""), palette::accent);
 }
 
-/// What of clips and list plays, and for how long yet.
+/// Draws the clip or the entry that plays, with the time that is left.
 float draw_replay(const Pen& pen, float x, float y, float height, const DeskReplay& replay) {
     if (replay.fast_jog) x = pen.badge(x, y, height, "JOG 10x", palette::accent);
     if (replay.clip == 0 || !replay.clip_left_s) return x;
@@ -89,21 +86,21 @@ float draw_recordings(const Pen& pen, float x, float y, float height, const Desk
                      palette::bad);
 }
 
-/// What fits of it, from the right edge to the left.
+/// Draws picture size, quality, rates and latency, as far as there is room.
 void draw_numbers(const Pen& pen, float left, float right, float y, const DeskState& state) {
     const std::string latency =
         state.latency_ms > 0 ? fmt::format("   {:.0f} ms", state.latency_ms) : "";
     const std::string rate =
-        fmt::format("{:.1f} of {:.4g} pictures/s", state.picture_rate_hz, state.tick_rate_hz);
+        fmt::format("{:.1f} of {:.4g} fps", state.picture_rate_hz, state.tick_rate_hz);
     const std::string repeated =
         state.repeated > 0 ? fmt::format(", {} repeated", state.repeated) : "";
-    const std::string help = latency + "   F1 help";
+    const std::string help = latency + "   F1: help";
     const std::string quality =
         fmt::format("{}x{}   {}, level {}/{}   ", state.picture ? state.picture->width_px() : 0,
                     state.picture ? state.picture->height_px() : 0, state.synthesiser,
                     state.render_level, state.prepare_level);
     for (const std::string& words : {quality + rate + repeated + help, rate + repeated + help,
-                                     rate + help, std::string("F1 help")})
+                                     rate + help, std::string("F1: help")})
         if (left + pen.width_of(words) <= right) {
             pen.text_right(right, y, palette::dim, words);
             return;
@@ -134,7 +131,7 @@ void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state) {
         const std::string pulse = fmt::format("pulse {}", state.pulse);
         if (rect.width > 80 * pen.em()) x = pen.text(x, y, palette::dim, pulse) + pad;
     }
-    // What is typed, asked or could not be done goes before whatever stands there.
+    // A question, the command line or a notice covers the numbers.
     const std::string& words = !state.question.empty() ? state.question
                                : !state.typed.empty()  ? state.typed
                                                        : state.notice;

@@ -14,7 +14,7 @@ std::string clock_words(double seconds) {
     return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-/// Where the programme is, in words.
+/// Formats the programme's position.
 std::string place_words(const DeskTime& time) {
     if (!time.at) return "live";
     const double from_start_s = (*time.at - time.oldest) / time.rate_hz;
@@ -22,7 +22,7 @@ std::string place_words(const DeskTime& time) {
     return fmt::format("-{:.2f} s", std::max(0.0, (time.newest - *time.at) / time.rate_hz));
 }
 
-/// Seconds between two ticks with words.
+/// Returns the seconds between two labelled ticks.
 double tick_step_s(double duration_s, float width_in_ems) {
     constexpr std::array steps{0.1,  0.2,  0.5,  1.0,   2.0,   5.0,
                                10.0, 30.0, 60.0, 300.0, 600.0, 3600.0};
@@ -32,13 +32,13 @@ double tick_step_s(double duration_s, float width_in_ems) {
     return std::max(steps.back(), duration_s);
 }
 
-/// `y`: of their words.
+/// Draws the ticks, with labels at `y`.
 void draw_ticks(const Pen& pen, const DeskRect& bar, float y, const DeskTime& time) {
     const double duration_s = (time.newest - time.oldest) / time.rate_hz;
     if (duration_s <= 0) return;
     const double step_s = tick_step_s(duration_s, bar.width / pen.em());
     for (double s = 0; s <= duration_s + 1e-6; s += step_s) {
-        // Of a take from its beginning, of a stage from now back.
+        // A take counts from its beginning, a stage back from now.
         const double share = time.is_of_take ? s / duration_s : 1 - s / duration_s;
         const float x = bar.left + static_cast<float>(share) * bar.width;
         pen.fill({x - 0.5f, bar.top, 1, bar.height}, palette::tick);
@@ -51,7 +51,7 @@ void draw_ticks(const Pen& pen, const DeskRect& bar, float y, const DeskTime& ti
     }
 }
 
-/// The in mark opens to the right, the out mark to the left.
+/// Draws a mark as a bracket: the in mark opens to the right, the out mark to the left.
 void draw_mark(const Pen& pen, const DeskRect& bar, float x, bool is_in) {
     const float thick = std::max(2.0f, 0.16f * pen.em()), arm = 0.45f * pen.em();
     pen.fill({x - 0.5f * thick, bar.top, thick, bar.height}, palette::warn);
@@ -60,8 +60,7 @@ void draw_mark(const Pen& pen, const DeskRect& bar, float x, bool is_in) {
     pen.fill({left, bar.bottom() - thick, arm, thick}, palette::warn);
 }
 
-/// Along the upper edge, each as long as it is; the one in hand and the one that plays with their
-/// numbers.
+/// Draws the clips along the upper edge; the clip in hand and the playing one have their numbers.
 void draw_clips_of(const Pen& pen, const DeskRect& bar, const DeskTime& time,
                    const DeskReplay& replay) {
     const float height = 0.22f * bar.height;
@@ -73,7 +72,7 @@ void draw_clips_of(const Pen& pen, const DeskRect& bar, const DeskTime& time,
         const ImVec4& colour = clip.is_played    ? palette::on_air
                                : clip.is_in_hand ? palette::accent
                                                  : palette::dim;
-        // Neighbours are told apart by the gap.
+        // A gap of one pixel separates neighbours.
         pen.fill({from, bar.top, std::max(2.0f, to - from - 1), height}, colour);
         if (is_told)
             pen.text(from + 0.2f * pen.em(), bar.top + height, colour,
@@ -87,7 +86,7 @@ void draw_diamond(const Pen& pen, float x, float y, const ImVec4& colour) {
                              ImGui::GetColorU32(colour));
 }
 
-/// Of the flight, along the lower edge: diamonds.
+/// Draws the move's keyframes as diamonds along the lower edge.
 void draw_keyframes(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
     const float y = bar.bottom() - 0.3f * pen.em();
     for (const double pulse : time.keyframes) {
@@ -97,7 +96,7 @@ void draw_keyframes(const Pen& pen, const DeskRect& bar, const DeskTime& time) {
     }
 }
 
-/// The planned move from its start to its end, on a line of its own: it has a time of its own.
+/// Draws the planned move on a line of its own, since its time is not the stage's.
 void draw_move(const Pen& pen, float words_left, const DeskRect& line, const DeskState& state) {
     const DeskMove& move = *state.move;
     const float y = line.top + 0.5f * line.height;
@@ -149,7 +148,7 @@ void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state
                     DeskSpots& spots) {
     if (rect.is_empty()) return;
     const float em = pen.em();
-    // A move's line is taken off the bar.
+    // A move's line takes some of the bar's height.
     const DeskRect bar{rect.left + 6 * em, rect.top + 0.2f * em, rect.width - 11.5f * em,
                        (state.move ? 1.0f : 1.35f) * em};
     const float y = bar.top + 0.5f * (bar.height - em);
@@ -159,13 +158,13 @@ void draw_time_line(const Pen& pen, const DeskRect& rect, const DeskState& state
                   state);
     if (!state.time) {
         pen.fill(bar, palette::trough);
-        pen.text(bar.left + 0.5f * em, y, palette::dim, "no past is kept");
+        pen.text(bar.left + 0.5f * em, y, palette::dim, "no replay buffer");
         return;
     }
     const DeskTime& time = *state.time;
     pen.text(rect.left, y, time.at ? palette::accent : palette::text, place_words(time), true);
     draw_bar(pen, bar, words_y, time, state.replay);
-    // As high as the words under the bar, so that it is easily met.
+    // The clickable part includes the labels below the bar.
     spots.time = {{bar.left, rect.top, bar.width, rect.height}, time};
     if (time.is_of_take) return;
     const DeskRect live{bar.right() + 0.6f * em, bar.top, rect.right() - bar.right() - 0.6f * em,

@@ -12,14 +12,14 @@ namespace {
 using Kind = DeskWheel::Kind;
 
 constexpr float pi = std::numbers::pi_v<float>;
-/// Of a jog wheel's disc, for the eye.
+/// Detents of one turn of the drawn disc.
 constexpr float detents_a_turn = 24;
-/// The ring reaches so far either way, as a ShuttleXpress's does nearly.
+/// Angle of the drawn ring either way, about that of a ShuttleXpress.
 constexpr float ring_end_rad = 0.6f * pi;
 
-// In ems.
+// Lengths in ems.
 constexpr float box_width = 66, box_height = 35, pad = 1, title_height = 2.4f, foot_height = 4.2f;
-/// Where there is no wheel.
+/// Size of the message that no wheel is connected.
 constexpr float empty_width = 44, empty_height = 7;
 constexpr float figure_width = 23, list_width = 19;
 
@@ -28,7 +28,7 @@ const ImVec4& colour_of(const DeskWheel& wheel, std::size_t control) {
     return control == wheel.selected ? palette::accent : palette::line;
 }
 
-/// The control in hand if it is of this kind, else the first that is; nothing: there is none.
+/// Returns the selected control if it is of this kind, or the first control of the kind.
 std::optional<std::size_t> shown_of(const DeskWheel& wheel, Kind kind) {
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < wheel.controls.size(); ++i)
@@ -43,8 +43,8 @@ std::vector<std::size_t> buttons_of(const DeskWheel& wheel) {
     return buttons;
 }
 
-/// One figure of a wheel: buttons, in an arc over it where they are few, a spring-centred ring, and
-/// the disc in it that turns.
+/// Draws a wheel: its buttons in an arc above it, or in a grid if there are many, its
+/// spring-centred ring, and the disc in the ring.
 class Figure {
   public:
     Figure(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel, DeskSpots& spots)
@@ -80,7 +80,7 @@ class Figure {
         const float em = pen_.em(), thickness = 0.9f * em;
         const auto at = static_cast<float>(wheel_.controls[control].at);
         const auto arc = [&](float from, float to, const ImVec4& colour, float width) {
-            // ImGui counts from the right, clockwise.
+            // ImGui's angles start at the right and run clockwise.
             pen_.list().PathArcTo(centre_, radius_, from - 0.5f * pi, to - 0.5f * pi, 48);
             pen_.list().PathStroke(packed(colour), 0, width);
         };
@@ -114,7 +114,7 @@ class Figure {
         pen_.text_until(rect.right(), rect.left + 0.5f * (rect.width - width), y, colour, words,
                         is_strong);
     }
-    /// Its name, and below what it does.
+    /// Draws a control's name and below it its command.
     void label_of(std::size_t control, const DeskRect& rect) const {
         const bool is_in_hand = control == wheel_.selected;
         centred(rect, rect.top, is_in_hand ? palette::text : palette::dim,
@@ -159,13 +159,13 @@ class Figure {
     bool is_arc_ = true;
 };
 
-/// Rows of which the one in hand is in the middle, where there are more than fit.
+/// Returns the first visible row, so that the selected one is near the middle.
 std::size_t first_of(std::size_t count, std::size_t in_hand, std::size_t room) {
     if (count <= room) return 0;
     return std::min(in_hand > room / 2 ? in_hand - room / 2 : 0, count - room);
 }
 
-/// `draw_row(i, row)` of as many as there is room for.
+/// Calls `draw_row(i, row)` for each row that fits.
 template <class Draw>
 void draw_rows(const Pen& pen, const DeskRect& rect, std::size_t count, std::size_t in_hand,
                const Draw& draw_row) {
@@ -187,7 +187,6 @@ void draw_list(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel, Des
             const DeskWheel::Control& control = wheel.controls[i];
             const bool is_in_hand = i == wheel.selected;
             const float y = row.top + 0.2f * em;
-            // A shape beside the colour.
             if (control.is_held)
                 pen.list().AddCircleFilled({row.left + 0.5f * em, y + 0.55f * em}, 0.3f * em,
                                            packed(palette::good));
@@ -206,8 +205,7 @@ void draw_choices(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel) 
                    true);
     const DeskRect rows{rect.left, rect.top + 2 * em, rect.width, rect.height - 2 * em};
     if (wheel.choices.empty())
-        pen.text_until(rect.right(), rect.left, rows.top, palette::warn,
-                       "no command has that in it");
+        pen.text_until(rect.right(), rect.left, rows.top, palette::warn, "no command matches");
     draw_rows(pen, rows, wheel.choices.size(), wheel.chosen,
               [&](std::size_t i, const DeskRect& row) {
                   const float y = row.top + 0.2f * em;
@@ -252,9 +250,9 @@ void draw_feel(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel) {
     const float em = pen.em(), row_height = 1.5f * em;
     const DeskWheel::Feel& feel = *wheel.feel;
     const bool has_rest = wheel.controls[wheel.selected].kind == Kind::axis;
-    const std::string none = "none: it has no rest";
+    const std::string none = "none (no spring centre)";
     const std::pair<const char*, std::string> rows[] = {
-        {has_rest ? "factor" : "steps a detent", fmt::format("{:.2f}", feel.steps)},
+        {has_rest ? "factor" : "steps per detent", fmt::format("{:.2f}", feel.steps)},
         {"dead zone", has_rest ? fmt::format("{:.0f} %", 100 * feel.dead_zone) : none},
         {"curve", has_rest ? fmt::format("{:.1f}", feel.curve) : none},
         {"inverted", feel.inverted ? "yes" : "no"}};
@@ -274,23 +272,23 @@ void draw_feel(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel) {
                          std::max(rect.bottom() - y - 0.6f * em - asks_height, em)};
     draw_graph(pen, graph, feel);
     pen.text_until(rect.right(), rect.left, graph.bottom() + 0.3f * em, palette::dim,
-                   fmt::format("asks for {:+.2f} {}", feel.asks, feel.unit));
+                   fmt::format("output {:+.2f} {}", feel.asks, feel.unit));
 }
 
 void draw_foot(const Pen& pen, const DeskRect& rect, const DeskWheel& wheel) {
     const char* hint =
         wheel.is_choosing
-            ? "letters narrow the list, Up and Down choose, Enter puts it into the map, Esc leaves "
-              "it as it is"
-            : "move a control, click it, or Up and Down: take it in hand. Letters or Enter: what "
-              "it "
-              "does. Tab, Left, Right: how it feels. Ctrl + S: save. Esc: close";
+            ? "Type to filter the list. Up, Down: choose. Enter: assign the command. Esc: keep the "
+              "old one."
+            : "Move a control, click it, or press Up or Down to select it. Letters or Enter: "
+              "choose its command. Tab, Left, Right: adjust its response. Ctrl + S: save. Esc: "
+              "close.";
     float y = rect.top;
     y += pen.text_wrapped(rect.width, rect.left, y, palette::dim, hint);
     if (!wheel.remark.empty())
         pen.text_wrapped(rect.width, rect.left, y, palette::warn, wheel.remark);
     else if (wheel.is_changed)
-        pen.text_until(rect.right(), rect.left, y, palette::dim, "to be saved in " + wheel.file);
+        pen.text_until(rect.right(), rect.left, y, palette::dim, "will be saved in " + wheel.file);
 }
 
 }  // namespace
@@ -314,12 +312,12 @@ void draw_wheel_map(const Pen& pen, float width_px, float height_px, const DeskW
     const float top = inner.top + title_height * em;
     if (is_empty) {
         pen.text_wrapped(inner.width, inner.left, top, palette::text,
-                         "No wheel is plugged in. Plug one in, or have one that is none: sudo "
-                         "vantage jog simulate. Esc closes this.");
+                         "No jog wheel is connected. Connect one, or simulate one with: sudo "
+                         "vantage jog simulate. Esc: close.");
         return;
     }
     pen.text_until(inner.right(), x, inner.top, palette::dim,
-                   "the wheel moves nothing while this is open");
+                   "the wheel is inactive while this map is open");
     const DeskRect foot{inner.left, inner.bottom() - foot_height * em, inner.width,
                         foot_height * em};
     const DeskRect figure{inner.left, top, figure_width * em, foot.top - top - em};
@@ -333,7 +331,7 @@ void draw_wheel_map(const Pen& pen, float width_px, float height_px, const DeskW
         draw_feel(pen, side, wheel);
     else
         pen.text_wrapped(side.width, side.left, side.top, palette::dim,
-                         fmt::format("{} is a button. Enter: choose what it does.",
+                         fmt::format("{} is a button. Enter: choose its command.",
                                      wheel.controls[wheel.selected].name));
     draw_foot(pen, foot, wheel);
 }

@@ -7,15 +7,15 @@
 namespace vantage {
 
 std::vector<DeskWheel::Choice> wheel_choices(DeskWheel::Kind kind) {
-    std::vector<DeskWheel::Choice> choices{{"nothing", "do nothing"}};
+    std::vector<DeskWheel::Choice> choices{{"nothing", "no command"}};
     if (kind == DeskWheel::Kind::button) {
-        choices.push_back({"store", "the next shot button keeps the view"});
+        choices.push_back({"store", "the next shot button stores the view"});
         for (const std::string& action : button_commands())
             choices.push_back({action, parse_button_command(action)->command->does});
         return choices;
     }
     if (kind == DeskWheel::Kind::axis)
-        choices.push_back({"shuttle", "the speed of what the mode says"});
+        choices.push_back({"shuttle", "the speed of the wheel's mode"});
     for (const ControlCommand& command : control_commands())
         if (command.argument == CommandArgument::steps)
             choices.push_back({command.name, command.does});
@@ -28,7 +28,7 @@ void WheelPanel::follow(std::optional<DeskWheel>& wheel) {
     const bool has_control = wheel->selected < wheel->controls.size();
     const DeskWheel::Kind kind =
         has_control ? wheel->controls[wheel->selected].kind : DeskWheel::Kind::button;
-    // Another control was pressed meanwhile: what was being chosen was not for it.
+    // The choice belonged to another control.
     if (!has_control || wheel->selected != selected_ || kind != kind_) choose(false);
     selected_ = wheel->selected;
     kind_ = kind;
@@ -56,17 +56,17 @@ void WheelPanel::narrow() {
     std::erase_if(choices_, [&](const DeskWheel::Choice& choice) {
         return choice.action.find(typed_) == std::string::npos;
     });
-    // What begins so is what was meant.
+    // Commands that begin with the typed text come first.
     std::stable_partition(choices_.begin(), choices_.end(), [&](const DeskWheel::Choice& choice) {
         return choice.action.starts_with(typed_);
     });
 }
 
 void WheelPanel::type(unsigned codepoint) {
-    constexpr std::size_t most_letters = 32;
+    constexpr std::size_t max_letters = 32;
     constexpr unsigned last_of_ascii = 126;
     if (!is_open_ || names_.empty() || codepoint < ' ' || codepoint > last_of_ascii ||
-        typed_.size() >= most_letters)
+        typed_.size() >= max_letters)
         return;
     if (!is_choosing_) choose(true);
     typed_ += static_cast<char>(codepoint);
@@ -76,7 +76,7 @@ void WheelPanel::type(unsigned codepoint) {
 std::optional<WheelCall> WheelPanel::press(Key key) {
     using What = WheelCall::What;
     if (is_choosing_) return press_while_choosing(key);
-    constexpr std::size_t feels = 4;
+    constexpr std::size_t feels = 4;  // steps, dead zone, curve, inverted
     switch (key) {
         case Key::up:
             return WheelCall{What::select_by, -1};

@@ -9,20 +9,21 @@
 
 namespace vantage {
 
-/// The hands on a wheel's map: which control is theirs, what it is to do, how it is to feel. A
-/// command is only written into the map here and never given.
+/// The keyboard input of an open wheel map: it selects a control, assigns a command to it and
+/// adjusts its response. Commands chosen here are written into the map and never executed.
 class WheelPanel {
   public:
     enum class Key { up, down, left, right, tab, enter, escape, backspace };
 
-    /// What is shown next, to which it adds what hands are about; nothing: the map is closed.
+    /// Takes the map that is shown next and adds the state of the input to it; nothing: the map is
+    /// closed.
     void follow(std::optional<DeskWheel>& wheel);
     bool is_open() const { return is_open_; }
 
-    /// A letter of a command's name.
+    /// Adds a character to the filter of the commands.
     void type(unsigned codepoint);
     std::optional<WheelCall> press(Key key);
-    /// By its place in the map, from 1 on.
+    /// Selects a control by its place in the map, from 1 on.
     WheelCall press_control(int number);
 
   private:
@@ -32,7 +33,7 @@ class WheelPanel {
     void narrow();
 
     bool is_open_ = false, is_choosing_ = false;
-    bool has_feel_ = false;  ///< the control in hand is no button
+    bool has_feel_ = false;  ///< the selected control is not a button
     DeskWheel::Kind kind_ = DeskWheel::Kind::button;
     std::vector<std::string> names_;  ///< of the controls
     std::size_t selected_ = 0;
@@ -41,7 +42,7 @@ class WheelPanel {
     std::size_t chosen_ = 0, feel_in_hand_ = 0;
 };
 
-/// All that a control of this kind may do, with what that is.
+/// Returns the commands that a control of this kind can have, with their descriptions.
 std::vector<DeskWheel::Choice> wheel_choices(DeskWheel::Kind kind);
 
 }  // namespace vantage

@@ -1,26 +1,35 @@
 #pragma once
 
+#include <memory>
 #include <string>
+
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
+#include "host_app/desk/windows/style.h"
+#include "host_app/desk/windows/ui_renderer.h"
 
 struct GLFWmonitor;
 struct GLFWwindow;
 
 namespace vantage {
 
-/// Hints of the next window: OpenGL ES 3.1, without depth. All others are the defaults.
+struct WindowPlace;
+
+/// Sets GLFW's hints for the next window: OpenGL ES 3.1 without depth, everything else default.
 void hint_gl_window();
 
-/// With the hints as they stand; null: GLFW has the reason. Its context is the window system's own:
-/// a processor that draws hands pictures to an X server in shared memory through GLX, and through
-/// EGL (Mesa 22.3) by its socket, which costs the server more than drawing them. Where GLX has no
-/// OpenGL ES it is EGL's. `monitor`: that it fills; `shared`: whose objects it draws with; or null.
+/// Creates a window with the present hints; null on failure, with GLFW's reason in glfw_reason().
+/// The context is the window system's own: through GLX a software renderer passes pictures to the X
+/// server in shared memory, whereas EGL (Mesa 22.3) sends them through the socket, which costs the
+/// server more than drawing them. If GLX has no OpenGL ES, EGL is used. `monitor` makes the window
+/// fill that monitor; `shared` is the window whose objects it shares; both may be null.
 GLFWwindow* create_gl_window(int width, int height, const std::string& title, GLFWmonitor* monitor,
                              GLFWwindow* shared);
 
-/// GLFW's reason for what just failed.
+/// GLFW's reason for the last failure.
 std::string glfw_reason();
 
-/// Makes a window's context current while it lives, and then what was current before.
+/// Makes a window's context current during its lifetime and restores the former one afterwards.
 class CurrentWindow {
   public:
     explicit CurrentWindow(GLFWwindow* window);
@@ -31,5 +40,24 @@ class CurrentWindow {
   private:
     GLFWwindow* before_;
 };
+
+/// The off-screen image that a window's content is drawn into before it is shown. It belongs to the
+/// window's context.
+struct WindowScreen {
+    Texture texture;
+    Framebuffer target;
+
+    WindowScreen(int width_px, int height_px);
+    /// Copies the image to the window and shows it. Precondition: the window's context is current.
+    void present(GLFWwindow* window) const;
+};
+
+/// Adapts the current ImGui context, its font size and the off-screen image to the window's size.
+/// Returns false if the window is minimised and has no size.
+bool fit_screen(GLFWwindow* window, UiContext& ui, UiRenderer& renderer,
+                std::unique_ptr<WindowScreen>& screen);
+
+/// Moves and resizes a window. A position outside all monitors is ignored.
+void put_window(GLFWwindow* window, const WindowPlace& place);
 
 }  // namespace vantage

@@ -4,20 +4,20 @@
 
 namespace vantage {
 
-/// What ends or destroys something is asked for twice: a key is obeyed only when it is pressed
-/// again while its question stands.
+/// Confirmation of keys that end or delete something: such a key acts only when it is pressed a
+/// second time while its question is shown. Times are GLFW's seconds.
 class KeyGuard {
   public:
-    static constexpr double asks_for_s = 3;
+    static constexpr double asks_for_s = 3;  ///< how long a question is shown
 
-    /// Whether this question stands already; else it does from now on.
+    /// Returns whether this question is already shown; otherwise shows it.
     bool confirms(const std::string& question, double now_s) {
         const bool is_again = question == question_ && now_s < until_s_;
         question_ = is_again ? std::string() : question;
         until_s_ = now_s + asks_for_s;
         return is_again;
     }
-    /// Empty: nothing is asked.
+    /// The question that is shown now; empty: none.
     std::string question(double now_s) const {
         return now_s < until_s_ ? question_ : std::string();
     }

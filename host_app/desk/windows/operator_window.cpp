@@ -19,14 +19,16 @@
 namespace vantage {
 namespace {
 
-/// By itself the desk takes no more than a twentieth of the time, and a third while hands change
-/// it; it is drawn no oftener than anybody can read, and no more seldom than it must.
+/// Pause after drawing the desk, in times of the drawing: it takes at most a twentieth of the time,
+/// and a third during operator input.
 constexpr int idle_times = 19, idle_times_in_hand = 2;
-constexpr std::chrono::milliseconds least_desk_period{40}, most_desk_period{1000};
-/// Between the presses of a double click.
+/// Limits of the desk's period: faster changes could not be read, slower ones look frozen.
+constexpr std::chrono::milliseconds min_desk_period{40}, max_desk_period{1000};
+/// Longest time between the presses of a double click.
 constexpr double double_press_s = 0.35;
 
-/// GLFW's number of a key by its name in the table of commands; letters and signs are their ASCII.
+/// Returns GLFW's code of a key by its name in the table of commands; a single character is its own
+/// code.
 int glfw_key(std::string_view name) {
     if (name == "Space") return GLFW_KEY_SPACE;
     constexpr std::pair<std::string_view, int> named[] = {
@@ -39,12 +41,12 @@ int glfw_key(std::string_view name) {
     return name.empty() ? GLFW_KEY_UNKNOWN : name.front();
 }
 
-/// 0: the key does not give the command; else the number that it gives, 1 for one without.
+/// Returns the command's argument if the key gives the command (1 for a command without one), or 0.
 int number_of_key(const ControlCommand& command, int key, bool with_control) {
     const int first = glfw_key(command.key.name);
-    const int keys = command.argument == CommandArgument::number ? command.most : 1;
+    const int keys = command.argument == CommandArgument::number ? command.max_number : 1;
     if (first == GLFW_KEY_UNKNOWN || key < first || key >= first + keys) return 0;
-    // Only where there are two of one key does it matter whether Ctrl is held.
+    // Ctrl matters only if two commands share the key.
     const bool shares_key = std::any_of(
         control_commands().begin(), control_commands().end(), [&](const ControlCommand& other) {
             return &other != &command && std::string_view(other.key.name) == command.key.name;
@@ -56,7 +58,7 @@ int number_of_key(const ControlCommand& command, int key, bool with_control) {
 
 GlfwLibrary::GlfwLibrary() {
     if (!glfwInit())
-        fail("no window can be opened ({}); with --headless the flight goes to files",
+        fail("cannot open a window ({}); use --headless to write the flight to files",
              glfw_reason());
 }
 
@@ -79,17 +81,17 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     window_.reset(create_gl_window(width_px, height_px, title, nullptr, nullptr));
     if (!window_)
         fail(
-            "no window with OpenGL ES 3.1 can be opened ({}); with --headless the flight goes to "
+            "cannot open a window with OpenGL ES 3.1 ({}); use --headless to write the flight to "
             "files",
             glfw_reason());
     glfwSetWindowSizeLimits(window_.get(), 320, 240, PiLimits::max_image_side_px,
                             PiLimits::max_image_side_px);
     glfwMakeContextCurrent(window_.get());
-    // The output's clock sets the pace; waiting for the screen as well would miss its ticks.
+    // The programme's clock sets the pace; waiting for the screen too would miss its ticks.
     glfwSwapInterval(0);
     GlInfo::query().require_vantage_minimum();
     glfwSetWindowUserPointer(window_.get(), this);
-    // Every event by itself: between two pictures a whole drag may begin and end.
+    // Callbacks deliver every event: a whole drag may happen between two polls.
     glfwSetKeyCallback(window_.get(), on_key);
     glfwSetCharCallback(window_.get(), on_letter);
     glfwSetMouseButtonCallback(window_.get(), on_button);
@@ -126,7 +128,7 @@ void OperatorWindow::on_moved(GLFWwindow* window, int x, int y) {
 
 void OperatorWindow::on_sized(GLFWwindow* window, int width, int height) {
     WindowPlace& place = of(window).place_;
-    // One that is put away has no size.
+    // A minimised window has no size.
     if (place.is_maximised || width < 1 || height < 1) return;
     place.width = width;
     place.height = height;
@@ -215,16 +217,16 @@ void OperatorWindow::press_in_panel(int key, bool with_control) {
 
 std::string OperatorWindow::question_of(const ControlCommand& command, int number) const {
     const std::string_view name = command.name;
-    if (name == "take" && take_runs_) return "T again to end the take";
-    if (name == "remove_keyframe") return "X again to take out the keyframe";
-    if (name == "learn_set") return "Ctrl + J again to forget the set and learn it anew";
+    if (name == "take" && take_runs_) return "Press T again to end the take";
+    if (name == "remove_keyframe") return "Press X again to remove the keyframe";
+    if (name == "learn_background") return "Press Ctrl + J again to learn the background anew";
     if (name == "store" && number <= shot_places &&
         kept_shots_[static_cast<std::size_t>(number - 1)])
-        return fmt::format("Ctrl + {} again to replace shot {}", number, number);
+        return fmt::format("Press Ctrl + {} again to replace shot {}", number, number);
     return "";
 }
 
-/// Keys that are the window's own.
+/// Handles the window's own keys.
 void OperatorWindow::take_key(int key, int modifiers) {
     switch (key) {
         case GLFW_KEY_F1:
@@ -245,9 +247,9 @@ void OperatorWindow::take_key(int key, int modifiers) {
             break;
         case GLFW_KEY_ESCAPE:
             if (guard_.confirms(has_unsaved_wheel_
-                                    ? "the wheel's map is not saved (Ctrl + M, then Ctrl + S); Esc "
-                                      "again to end without it"
-                                    : "Esc again to end the programme",
+                                    ? "The wheel's map is not saved (Ctrl + M, then Ctrl + S); "
+                                      "press Esc again to quit without it"
+                                    : "Press Esc again to quit",
                                 glfwGetTime()))
                 glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
             break;
@@ -270,7 +272,7 @@ void OperatorWindow::take_tab(bool with_shift, bool with_control) {
 void OperatorWindow::on_button(GLFWwindow* window, int button, int action, int) {
     OperatorWindow& self = of(window);
     if (button < 0 || button >= static_cast<int>(self.drags_.size())) return;
-    // What begins beside the picture is none of the camera's until the button is up.
+    // A drag moves the camera only if it began on the picture.
     self.drags_[static_cast<std::size_t>(button)] =
         action == GLFW_PRESS && !self.panel_.is_open() &&
         self.drawn_.in_hand().contains(static_cast<float>(self.cursor_x_),
@@ -291,14 +293,14 @@ void OperatorWindow::press_at_cursor() {
         return;
     }
     for (const DeskSpots::Numbered& shot : drawn_.spots.shots)
-        if (is_on(shot.rect)) input_.recall_shot = shot.number;
+        if (is_on(shot.rect)) input_.commands.push_back(command::RecallShot{shot.number});
     for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
-        if (is_on(output.rect)) input_.toggle_output = output.number;
+        if (is_on(output.rect)) input_.commands.push_back(command::ToggleOutput{output.number});
     for (const DeskSpots::Numbered& clip : drawn_.spots.clips)
-        if (is_on(clip.rect)) input_.replay.push_back({ReplayAction::hold_clip, clip.number});
+        if (is_on(clip.rect)) input_.commands.push_back(ReplayCall{ReplayAction::hold_clip, clip.number});
     for (const DeskSpots::Numbered& entry : drawn_.spots.entries)
-        if (is_on(entry.rect)) input_.replay.push_back({ReplayAction::select_entry, entry.number});
-    if (is_on(drawn_.spots.live)) input_.to_live = true;
+        if (is_on(entry.rect)) input_.commands.push_back(ReplayCall{ReplayAction::select_entry, entry.number});
+    if (is_on(drawn_.spots.live)) input_.commands.push_back(command::ToLive{});
     if (is_on(drawn_.in_hand())) press_on_picture();
     drags_outside_ = is_on(drawn_.spots.outside);
     if (!drawn_.spots.time || !is_on(drawn_.spots.time->rect)) return;
@@ -313,15 +315,15 @@ void OperatorWindow::seek_at_cursor() {
     is_changed_ = true;
 }
 
-/// Of two presses soon after one another: the place in the picture.
+/// Picks a place in the picture by a double click.
 void OperatorWindow::press_on_picture() {
     const double now_s = glfwGetTime();
     const bool is_second = pressed_s_ >= 0 && now_s - pressed_s_ < double_press_s;
     pressed_s_ = is_second ? -1 : now_s;
     if (!is_second) return;
     const DeskRect& picture = drawn_.in_hand();
-    input_.pick = Eigen::Vector2d((cursor_x_ - picture.left) / picture.width,
-                                  (cursor_y_ - picture.top) / picture.height);
+    input_.commands.push_back(command::PickPivot{{(cursor_x_ - picture.left) / picture.width,
+                                                  (cursor_y_ - picture.top) / picture.height}});
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {
@@ -344,7 +346,7 @@ void OperatorWindow::take_cursor(double x, double y) {
         is_changed_ = true;
     }
     if (drags_[GLFW_MOUSE_BUTTON_LEFT]) {
-        // Across the whole picture: half a turn. The stage follows the hand.
+        // A drag across the whole picture is half a turn; the stage follows the mouse.
         input_.orbit_azimuth_rad -= right * std::numbers::pi;
         input_.orbit_elevation_rad += down * std::numbers::pi;
     }
@@ -368,7 +370,7 @@ void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
     else if (is_on(self.drawn_.spots.outside))
         self.switches_.eye.go_nearer(per_notch * up), self.is_changed_ = true;
     else if (self.drawn_.spots.time && is_on(self.drawn_.spots.time->rect))
-        self.input_.past_steps += up;
+        self.input_.commands.push_back(command::StepFrames{up});
 }
 
 void OperatorWindow::take_held_keys(double dt_s) {
@@ -428,9 +430,9 @@ void OperatorWindow::show(DeskState state) {
     show_rigs(state);
     const MonotonicTime end = MonotonicClock::now();
     next_desk_ = end + std::clamp<std::chrono::nanoseconds>(idle_times * (end - start),
-                                                            least_desk_period, most_desk_period);
+                                                            min_desk_period, max_desk_period);
     next_desk_in_hand_ = std::min(next_desk_, end + idle_times_in_hand * (end - start));
-    // A wheel is watched as it turns.
+    // An open wheel map shows the wheel's motion without delay.
     if (panel_.is_open()) next_desk_ = next_desk_in_hand_;
 }
 
@@ -442,7 +444,7 @@ void OperatorWindow::show_pictures(const Texture& programme, const Texture* prev
     screen_->present(window_.get());
 }
 
-/// In their own window, where that is asked for. One that is closed is the row again.
+/// Shows the rigs in their own window if that is switched on. Closing the window switches it off.
 void OperatorWindow::show_rigs(const DeskState& state) {
     if (rigs_window_ && rigs_window_->closed()) switches_.rigs_apart = false;
     if (!switches_.rigs_apart) return rigs_window_.reset();
@@ -450,7 +452,6 @@ void OperatorWindow::show_rigs(const DeskState& state) {
         try {
             rigs_window_ = std::make_unique<RigsWindow>(window_.get(), shaders_, rigs_place_);
         } catch (const Error& error) {
-            // The show goes on with one window.
             log_warning("{}", error.what());
             switches_.rigs_apart = false;
             return;

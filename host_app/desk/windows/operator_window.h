@@ -11,14 +11,14 @@
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
 #include "host_app/desk/desk_arrangement.h"
-#include "host_app/desk/desk_screen.h"
+#include "host_app/desk/desk_layout.h"
 #include "host_app/desk/panels/command_prompt.h"
-#include "host_app/desk/panels/shot_places.h"
+#include "host_app/desk/panels/desk_parts.h"
 #include "host_app/desk/panels/wheel_panel.h"
+#include "host_app/desk/windows/gl_window.h"
 #include "host_app/desk/windows/key_guard.h"
 #include "host_app/desk/windows/rigs_window.h"
 #include "host_app/desk/windows/ui_renderer.h"
-#include "host_app/desk/windows/window_screen.h"
 #include "host_app/flight/flight_input.h"
 
 struct GLFWwindow;
@@ -27,7 +27,7 @@ namespace vantage {
 
 struct ControlCommand;
 
-/// GLFW for as long as it lives. Throws Error with GLFW's reason if there is no display.
+/// Initialises GLFW for its lifetime. Throws Error with GLFW's reason if there is no display.
 class GlfwLibrary {
   public:
     GlfwLibrary();
@@ -36,46 +36,46 @@ class GlfwLibrary {
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
 };
 
-/// The operator's window, with an OpenGL ES 3.1 context that is current on the constructing thread
-/// while it lives. One a process. The desk is drawn at a rate of its own, so that where the
-/// processor draws it takes no more than a tenth of the time; in between only the programme's
-/// picture is.
+/// The operator's window with the desk, and its mouse and keyboard input. Its OpenGL ES 3.1 context
+/// is current on the constructing thread during its lifetime; there is one window per process. The
+/// desk is drawn at its own rate, so that a software renderer spends at most a twentieth of its
+/// time on it; in between only the pictures are updated.
 class OperatorWindow {
   public:
-    /// The window has this size, or less where the screen is smaller. Throws Error, with the mend,
-    /// if there is no display or no OpenGL ES 3.1 on it.
+    /// Opens a window of this size, or smaller if the screen is smaller. Throws Error with the
+    /// remedy if there is no display, or no OpenGL ES 3.1 on it.
     OperatorWindow(const std::string& title, int width_px, int height_px);
     ~OperatorWindow();
     OperatorWindow(const OperatorWindow&) = delete;
     OperatorWindow& operator=(const OperatorWindow&) = delete;
 
-    /// Looks at mouse and keyboard; `dt_s` is how long a held key has acted.
+    /// Reads mouse and keyboard. `dt_s` is the time since the last call, for keys that are held.
     FlightInput poll(double dt_s);
-    /// The pulse that the mouse went to on the line of time since the last call.
+    /// Returns the pulse that was clicked on the time line since the last call.
     std::optional<double> take_seek();
-    /// What hands asked of a wheel's map since the last call, in their order.
+    /// Returns the changes to a wheel's map since the last call, in order.
     std::vector<WheelCall> take_wheel_calls();
     bool closed() const;
 
-    /// Whether show() is to come next, since hands changed what is shown or it is time again.
+    /// Returns whether show() is due: after operator input, or after the desk's period.
     bool is_desk_due(MonotonicTime now) const;
-    /// Draws the whole desk and shows it. Whether parts and help show is the window's.
+    /// Draws the whole desk with the parts that are switched on, and shows it.
     void show(DeskState state);
-    /// Of the desk that was shown last only the pictures of programme and preview (null: none) are
-    /// new ones, of the same sizes. Under the help they wait for the next show().
+    /// Updates only the pictures of programme and preview (null: none) of the desk that was shown
+    /// last; their sizes must not have changed. Does nothing under an overlay.
     void show_pictures(const Texture& programme, const Texture* preview);
 
-    /// What hands have switched on, and where they have put the window.
+    /// The operator's arrangement of desk and windows.
     DeskArrangement arrangement() const { return {switches_, place_, rigs_place_}; }
-    /// Of a place without a monitor only the size counts.
+    /// Applies an arrangement. A position outside all monitors is ignored.
     void arrange(const DeskArrangement& desk);
-    /// Whether points of the stage are shown.
+    /// Whether the 3-D view of the stage is shown.
     bool shows_outside() const { return switches_.panels && switches_.outside; }
-    /// Where the parts of what was shown last are.
+    /// The positions of the parts as they were drawn last.
     const DrawnDesk& drawn() const { return drawn_; }
-    /// The rigs' own window; null: they are in the desk's row.
+    /// The rigs' window; null: the rigs are in the desk's row.
     const RigsWindow* rigs_window() const { return rigs_window_.get(); }
-    /// What was shown last, the whole desk.
+    /// The desk as it was shown last.
     ColourImage screenshot() const;
 
   private:
@@ -85,12 +85,12 @@ class OperatorWindow {
     static OperatorWindow& of(GLFWwindow* window);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     static void on_letter(GLFWwindow* window, unsigned codepoint);
-    /// While a command is typed all keys are its.
+    /// Handles a key while the command line is open.
     void type(int key);
     void take_key(int key, int modifiers);
-    /// While a wheel's map is open all keys are its.
+    /// Handles a key while a wheel's map is open.
     void press_in_panel(int key, bool with_control);
-    /// What a command's key has to be asked before it is obeyed; empty: nothing.
+    /// The question that a command's key must confirm; empty: none.
     std::string question_of(const ControlCommand& command, int number) const;
     void press_on_picture();
     static void on_button(GLFWwindow* window, int button, int action, int modifiers);
@@ -114,13 +114,13 @@ class OperatorWindow {
     std::optional<UiContext> ui_;
     std::optional<UiRenderer> renderer_;
     std::unique_ptr<WindowScreen> screen_;
-    std::unique_ptr<RigsWindow> rigs_window_;  ///< null: they are in the desk's row
+    std::unique_ptr<RigsWindow> rigs_window_;  ///< null: the rigs are in the desk's row
     std::optional<WindowPlace> rigs_place_;
     DrawnDesk drawn_;
     DeskSwitches switches_;
     WindowPlace place_;
     bool take_runs_ = false, drags_time_ = false, drags_outside_ = false;
-    bool is_changed_ = true;  ///< by hands, since the desk was drawn
+    bool is_changed_ = true;  ///< there was operator input since the desk was drawn
     KeyGuard guard_;
     CommandPrompt prompt_;
     WheelPanel panel_;
@@ -130,10 +130,10 @@ class OperatorWindow {
 
     FlightInput input_;
     std::optional<double> seek_;
-    std::bitset<3> drags_;                ///< by button: it went down on the picture
-    double cursor_x_ = 0, cursor_y_ = 0;  ///< in pixels of what is shown
+    std::bitset<3> drags_;                ///< by button: pressed on the picture
+    double cursor_x_ = 0, cursor_y_ = 0;  ///< pixels
     MonotonicTime next_desk_{}, next_desk_in_hand_{};
-    double pressed_s_ = -1;  ///< when the left button went down on the picture last
+    double pressed_s_ = -1;  ///< time of the left button's last press on the picture
 };
 
 }  // namespace vantage

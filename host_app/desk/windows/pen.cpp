@@ -31,7 +31,7 @@ Pen Pen::dry() const {
 
 void Pen::words_at(float x, float y, const ImVec4& colour, std::string_view words, bool is_strong,
                    float wrap_width) const {
-    // On whole pixels, where letters are sharp.
+    // Text is sharp only at whole pixels.
     if (draws_)
         list().AddText(font(is_strong), em(), {std::round(x), std::round(y)}, packed(colour),
                        words.data(), words.data() + words.size(), wrap_width);

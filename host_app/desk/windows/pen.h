@@ -10,15 +10,15 @@
 
 namespace vantage {
 
-/// How something stands, told by shape as well as by colour: a disc, a triangle, a square.
+/// A status mark with a shape as well as a colour: a disc, a triangle, a square.
 enum class Mark { good, care, bad };
 const ImVec4& colour_of(Mark mark);
 
-/// Draws onto the desk, in the window's pixels. Lengths of its own are in ems.
+/// Draws text and shapes on the desk, in the window's pixels. Its own lengths are in ems.
 class Pen {
   public:
     explicit Pen(const UiFonts& fonts) : fonts_(&fonts) {}
-    /// One that only measures: it draws nothing and returns the same.
+    /// A pen that measures without drawing and returns the same values.
     Pen dry() const;
 
     float em() const { return fonts_->body->FontSize; }
@@ -26,24 +26,24 @@ class Pen {
     ImDrawList& list() const { return *ImGui::GetBackgroundDrawList(); }
 
     float width_of(std::string_view words, bool is_strong = false) const;
-    /// Returns where the words end.
+    /// Returns the x at which the text ends.
     float text(float x, float y, const ImVec4& colour, std::string_view words,
                bool is_strong = false) const;
     void text_right(float right, float y, const ImVec4& colour, std::string_view words,
                     bool is_strong = false) const;
-    /// What does not fit before `right` gives way to an ellipsis.
+    /// Shortens text that does not fit before `right` with an ellipsis.
     float text_until(float right, float x, float y, const ImVec4& colour, std::string_view words,
                      bool is_strong = false) const;
-    /// Returns the height that the lines took.
+    /// Returns the height of the wrapped lines.
     float text_wrapped(float width, float x, float y, const ImVec4& colour,
                        std::string_view words) const;
 
     void fill(const DeskRect& rect, const ImVec4& colour, float rounding = 0) const;
     void outline(const DeskRect& rect, const ImVec4& colour, float thickness = 1) const;
     void image(const DeskRect& rect, const Texture& texture) const;
-    /// Of a line's height; returns where words go on.
+    /// Draws a mark of a line's height; returns the x at which text may follow.
     float mark(float x, float y, Mark mark) const;
-    /// A filled label such as LIVE, in a row of this height; returns where the next one begins.
+    /// Draws a filled label such as LIVE in a row of this height; returns the x of the next one.
     float badge(float x, float y, float height, std::string_view words, const ImVec4& colour) const;
 
   private:
@@ -54,7 +54,7 @@ class Pen {
     bool draws_ = true;
 };
 
-/// Nothing outside the rectangle is drawn while it lives.
+/// Clips all drawing to a rectangle during its lifetime.
 class Clipping {
   public:
     Clipping(const Pen& pen, const DeskRect& rect);

@@ -8,7 +8,6 @@
 #include "host_app/desk/panels/desk_parts.h"
 #include "host_app/desk/windows/gl_window.h"
 #include "host_app/desk/windows/window_places.h"
-#include "host_app/desk/windows/window_screen.h"
 
 namespace vantage {
 
@@ -25,17 +24,17 @@ void RigsWindow::WindowDeleter::operator()(GLFWwindow* window) const { glfwDestr
 RigsWindow::RigsWindow(GLFWwindow* operators, const ShaderLibrary& shaders,
                        const std::optional<WindowPlace>& place) {
     hint_gl_window();
-    // The operator's hands stay at the operator's window.
+    // Keyboard focus stays at the operator's window.
     glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
     glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
     place_ = place.value_or(WindowPlace{});
     window_.reset(
         create_gl_window(place_.width, place_.height, "Vantage rigs", nullptr, operators));
-    if (!window_) fail("no window can be opened for the rigs ({})", glfw_reason());
+    if (!window_) fail("cannot open a window for the rigs ({})", glfw_reason());
     if (place) {
         put_window(window_.get(), *place);
     } else if (const std::vector<WindowPlace> monitors = monitor_places(); monitors.size() > 1) {
-        // Without a second one it is where the window manager likes.
+        // With one monitor the window manager chooses the place.
         put_window(window_.get(), *place_for_rigs(monitors, {}));
     }
     const CurrentWindow current(window_.get());
@@ -72,7 +71,7 @@ void RigsWindow::show(const DeskState& state) {
     glfwGetWindowPos(window_.get(), &place_.x, &place_.y);
     glfwGetWindowSize(window_.get(), &place_.width, &place_.height);
     leave(state.programme_monitors);
-    // Until the pictures are there, which the operator's context was given.
+    // This context waits for the textures that the operator's context uploads.
     const Fence pictures = Fence::insert();
     const CurrentWindow current(window_.get());
     const UiContext::Kept kept;

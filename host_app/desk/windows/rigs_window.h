@@ -16,13 +16,13 @@ struct GLFWwindow;
 
 namespace vantage {
 
-/// The rigs' pictures and state in a window of their own, as large as they get: on the second
-/// monitor where there is one, and never on one that the programme fills. Its context shares the
-/// pictures of the operator's window, which is current whenever this is made, shown or destroyed,
-/// and is so afterwards.
+/// A window with the rigs' pictures and state, as large as possible. It opens on the second monitor
+/// if there is one, and never on a monitor that the programme fills. Its context shares the
+/// textures of the operator's window, whose context must be current for construction, show() and
+/// destruction, and is current afterwards.
 class RigsWindow {
   public:
-    /// Throws Error if it cannot be opened.
+    /// Throws Error if the window cannot be opened.
     RigsWindow(GLFWwindow* operators, const ShaderLibrary& shaders,
                const std::optional<WindowPlace>& place);
     ~RigsWindow();
@@ -31,20 +31,20 @@ class RigsWindow {
 
     using OnKey = void (*)(GLFWwindow*, int key, int scancode, int action, int modifiers);
     using OnLetter = void (*)(GLFWwindow*, unsigned codepoint);
-    /// Who types in it is heard there, with this as the window's user pointer.
+    /// Forwards keyboard input to these callbacks, with `user` as the window's user pointer.
     void give_keys(void* user, OnKey on_key, OnLetter on_letter);
     bool closed() const;
     void show(const DeskState& state);
-    /// As it was when it was shown last.
+    /// The window's place when it was shown last.
     const WindowPlace& place() const { return place_; }
-    /// What was shown last.
+    /// The content that was shown last.
     ColourImage screenshot() const;
 
   private:
     struct WindowDeleter {
         void operator()(GLFWwindow* window) const;
     };
-    /// Monitors that the programme fills.
+    /// Moves the window away from the monitors that the programme fills.
     void leave(std::span<const int> filled);
 
     /// Objects of the window's context.

@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// Its context is current while it is made, drawn and destroyed.
+/// A full-screen window. Its context is current during construction, draw() and destruction.
 class ScreenWindows::Window {
   public:
     explicit Window(int monitor) {
@@ -21,19 +21,19 @@ class ScreenWindows::Window {
         if (monitor > count) fail("there is no monitor {}: this display has {}", monitor, count);
         GLFWmonitor* shown_on = monitors[monitor - 1];
         const GLFWvidmode* mode = glfwGetVideoMode(shown_on);
-        // The monitor's own mode, so that nothing is switched.
+        // The monitor keeps its video mode.
         hint_gl_window();
         glfwWindowHint(GLFW_RED_BITS, mode->redBits);
         glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);
         glfwWindowHint(GLFW_BLUE_BITS, mode->blueBits);
         glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
-        // The operator's hands stay at the operator's window.
+        // Keyboard focus stays at the operator's window.
         glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
         glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
         glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
         window_ =
             create_gl_window(mode->width, mode->height, "Vantage programme", shown_on, nullptr);
-        if (!window_) fail("no window with OpenGL ES 3.1 can be opened on monitor {}", monitor);
+        if (!window_) fail("cannot open a window with OpenGL ES 3.1 on monitor {}", monitor);
         glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(0);
@@ -47,7 +47,7 @@ class ScreenWindows::Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// GLFW makes a window of a monitor that is unplugged one of none.
+    /// False after the monitor was unplugged.
     bool is_on_monitor() const { return glfwGetWindowMonitor(window_) != nullptr; }
 
     void draw(const ColourImage& picture) {
@@ -68,7 +68,7 @@ class ScreenWindows::Window {
         glViewport(0, 0, width, height);
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT);
-        // Our pictures have their top in row 0, the window's has its bottom there.
+        // Row 0 is the top of our pictures and the bottom of the window.
         glBlitFramebuffer(0, 0, picture.cols, picture.rows, left, bottom + shown_height,
                           left + shown_width, bottom, GL_COLOR_BUFFER_BIT, GL_LINEAR);
         glfwSwapBuffers(window_);

@@ -11,20 +11,20 @@
 
 namespace vantage {
 
-/// Shows pictures on the whole of monitors, without anything else, letterboxed where a monitor has
-/// another shape. Everything on one thread, that of the operator's window where there is one.
+/// The full-screen outputs: windows that show nothing but the programme, letterboxed on a monitor
+/// of another shape. All calls come from one thread, that of the operator's window if there is one.
 class ScreenWindows {
   public:
-    /// `has_glfw`: an OperatorWindow is there, outlives this, and looks at events.
+    /// `has_glfw`: there is an OperatorWindow, which outlives this object and polls the events.
     explicit ScreenWindows(bool has_glfw);
     ~ScreenWindows();
     ScreenWindows(const ScreenWindows&) = delete;
     ScreenWindows& operator=(const ScreenWindows&) = delete;
 
-    /// Opens and closes windows as the feeds ask, and shows what came since the last call. What
-    /// goes wrong with one is told to its feed. The context that was current is so afterwards.
+    /// Opens and closes windows as the feeds request and shows their new pictures. Failures are
+    /// reported to the feed. The context that was current is restored.
     void follow(std::span<const std::shared_ptr<ScreenFeed>> feeds);
-    /// That windows are on now, counted from 1.
+    /// The monitors with an open window, counted from 1.
     std::vector<int> monitors() const;
 
   private:

@@ -22,10 +22,10 @@ ImFont* load_font(const char* file, float letter_px) {
 UiContext::UiContext(float letter_px) : context_(ImGui::CreateContext()) {
     make_current();
     ImGuiIO& io = ImGui::GetIO();
-    // Parts stand where they stand; nothing is kept between sessions.
+    // ImGui keeps nothing between sessions.
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
-    io.DeltaTime = 1;  // nothing moves by itself
+    io.DeltaTime = 1;  // there are no animations
     ImGui::StyleColorsDark();
     set_letter_px(letter_px);
 }

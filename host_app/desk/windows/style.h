@@ -4,10 +4,9 @@
 
 namespace vantage {
 
-/// The look of the operator's desk: dark, so that the picture is the brightest thing on it, and in
-/// colours that people who see few of them tell apart (M. Okabe and K. Ito, "Color universal
-/// design", 2008), lightened for a dark ground. No colour stands alone: a shape or a word says the
-/// same.
+/// The colours of the operator's desk. It is dark, so that the picture is the brightest part. The
+/// hues can be told apart with impaired colour vision (M. Okabe and K. Ito, "Color universal
+/// design", 2008) and are lightened for a dark background. A shape or a word repeats every colour.
 namespace palette {
 inline const ImVec4 text{0.90f, 0.92f, 0.94f, 1};
 inline const ImVec4 dim{0.60f, 0.64f, 0.69f, 1};
@@ -21,19 +20,19 @@ inline const ImVec4 warn{0.95f, 0.80f, 0.25f, 1};
 inline const ImVec4 bad{0.93f, 0.42f, 0.16f, 1};
 inline const ImVec4 on_air{0.95f, 0.28f, 0.24f, 1};
 inline const ImVec4 on_badge{0.03f, 0.03f, 0.04f, 1};
-/// Over a picture that is not of now.
+/// Laid over a picture that is out of date.
 inline const ImVec4 veil{0.027f, 0.031f, 0.039f, 0.6f};
-// Of the line of time.
+// The time line.
 inline const ImVec4 trough{0.13f, 0.15f, 0.18f, 1};
 inline const ImVec4 tick{0.30f, 0.34f, 0.40f, 1};
 inline const ImVec4 between_marks{0.16f, 0.38f, 0.50f, 1};
-// Of the plan.
+// The stage's plan and 3-D view.
 inline const ImVec4 field{0.55f, 0.60f, 0.66f, 0.30f};
 inline const ImVec4 corridor{0.16f, 0.74f, 0.57f, 0.13f};
 inline const ImVec4 corridor_edge{0.95f, 0.80f, 0.25f, 0.13f};
 }  // namespace palette
 
-/// As a draw list takes it.
+/// Converts a colour for a draw list.
 inline ImU32 packed(const ImVec4& colour) { return ImGui::GetColorU32(colour); }
 
 struct UiFonts {
@@ -41,11 +40,11 @@ struct UiFonts {
     ImFont* strong = nullptr;
 };
 
-/// A Dear ImGui context of its own, current from its making on, with the fonts of Vantage. Where
-/// DejaVu Sans is not installed, the font that comes with the library takes its place.
+/// A Dear ImGui context with the fonts of Vantage; it is current after construction. If DejaVu Sans
+/// is not installed, ImGui's built-in font is used.
 class UiContext {
   public:
-    /// `letter_px`: height of letters.
+    /// `letter_px` is the font height.
     explicit UiContext(float letter_px);
     ~UiContext();
     UiContext(const UiContext&) = delete;
@@ -54,7 +53,7 @@ class UiContext {
     const UiFonts& fonts() const { return fonts_; }
     float letter_px() const { return letter_px_; }
     void make_current() const { ImGui::SetCurrentContext(context_); }
-    /// Makes the context of before current again at its end.
+    /// Restores the current context at the end of its lifetime.
     class Kept {
       public:
         Kept() : context_(ImGui::GetCurrentContext()) {}
@@ -65,7 +64,7 @@ class UiContext {
       private:
         ImGuiContext* context_;
     };
-    /// Fonts of before are gone then, and a UiRenderer has to take up the new ones.
+    /// Reloads the fonts in this height. Call UiRenderer::take_fonts() afterwards.
     void set_letter_px(float letter_px);
 
   private:

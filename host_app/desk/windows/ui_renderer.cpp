@@ -17,7 +17,7 @@ Texture upload_glyphs() {
     return glyphs;
 }
 
-/// A buffer that holds at least `bytes`, with room to grow.
+/// Replaces a buffer that is smaller than `bytes` by one of twice the size.
 void make_room(std::optional<Buffer>& buffer, std::size_t bytes) {
     if (!buffer || buffer->bytes() < bytes)
         buffer.emplace(std::max<std::size_t>(2 * bytes, 1 << 16), GL_STREAM_DRAW);

@@ -16,25 +16,25 @@ namespace vantage {
 
 inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
 
-/// How a picture is named to ImGui::Image: the texture must live until the frame is drawn.
+/// Converts a texture for ImGui::Image. The texture must live until the frame is drawn.
 inline ImTextureID ui_texture(const Texture& texture) {
     // ImGui takes names as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
 }
 
-/// Draws Dear ImGui with OpenGL ES 3.1. (The backend that comes with the library as Debian builds
-/// it looks for desktop OpenGL.) Pictures are drawn opaque and filtered.
+/// Draws Dear ImGui's output with OpenGL ES 3.1. (The backend in Debian's library needs desktop
+/// OpenGL.) Pictures are drawn opaque and with linear filtering.
 class UiRenderer {
   public:
-    /// Takes the fonts of the current ImGui context to the GPU; they must be loaded by then.
+    /// Uploads the fonts of the current ImGui context, which must be loaded.
     explicit UiRenderer(const ShaderLibrary& shaders);
 
-    /// After the fonts have changed.
+    /// Uploads the fonts again after they have changed.
     void take_fonts();
 
-    /// Draws over what the target shows.
+    /// Draws over the target's content.
     void draw(const ImDrawData& data, const Framebuffer& target);
-    /// The same pixels as an image of Dear ImGui's there gives, without laying out a frame.
+    /// Draws one picture with the same pixels as ImGui::Image, without an ImGui frame.
     void draw_picture(const Texture& picture, const DeskRect& rect, const Framebuffer& target);
 
   private:

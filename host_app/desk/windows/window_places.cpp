@@ -19,12 +19,12 @@ std::vector<WindowPlace> monitor_places() {
 }
 
 bool is_on(const WindowPlace& window, const WindowPlace& monitor) {
-    constexpr int least_px = 64;
+    constexpr int min_px = 64;
     const auto shared = [](int from, int length, int other_from, int other_length) {
         return std::min(from + length, other_from + other_length) - std::max(from, other_from);
     };
-    return shared(window.x, window.width, monitor.x, monitor.width) >= least_px &&
-           shared(window.y, window.height, monitor.y, monitor.height) >= least_px;
+    return shared(window.x, window.width, monitor.x, monitor.width) >= min_px &&
+           shared(window.y, window.height, monitor.y, monitor.height) >= min_px;
 }
 
 std::optional<WindowPlace> place_for_rigs(std::span<const WindowPlace> monitors,
@@ -35,7 +35,7 @@ std::optional<WindowPlace> place_for_rigs(std::span<const WindowPlace> monitors,
     for (std::size_t i = 1; i < monitors.size(); ++i)
         if (is_free(i)) return monitors[i];
     if (monitors.empty() || !is_free(0)) return std::nullopt;
-    // The operator's window is there too.
+    // Monitor 1 also has the operator's window.
     const WindowPlace& first = monitors[0];
     const int width = first.width / 2, height = first.height / 2;
     return WindowPlace{first.x + first.width - width, first.y + first.height - height, width,

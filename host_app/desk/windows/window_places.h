@@ -8,19 +8,19 @@
 
 namespace vantage {
 
-/// What windows may cover of every monitor, in GLFW's order, which counts them.
+/// Returns the work area of every monitor, in GLFW's order.
 std::vector<WindowPlace> monitor_places();
 
-/// Whether so much of a window is on a monitor that it can be taken hold of, or is in the way.
+/// Returns whether at least 64 x 64 units of a window are on a monitor, enough to grab it.
 bool is_on(const WindowPlace& window, const WindowPlace& monitor);
 
-/// Where the rigs' window goes: to the first free monitor but the operator's, which is the first,
-/// or else into a corner of that; never onto one that the programme fills (`filled`, counted from
-/// 1). Nothing: there is no such place.
+/// Chooses the place of the rigs' window: the first free monitor after the operator's, which is
+/// monitor 1, or else a corner of monitor 1. Monitors that the programme fills (`filled`, counted
+/// from 1) are never used. Nothing if no monitor is free.
 std::optional<WindowPlace> place_for_rigs(std::span<const WindowPlace> monitors,
                                           std::span<const int> filled);
 
-/// Whether it is in the programme's way.
+/// Returns whether a window covers a monitor that the programme fills.
 bool covers_programme(const WindowPlace& window, std::span<const WindowPlace> monitors,
                       std::span<const int> filled);
 

@@ -7,21 +7,21 @@
 #include "common/config/toml_reader.h"
 #include "common/config/toml_text.h"
 #include "host_app/flight/flight_book.h"
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 
 namespace vantage {
 namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
-constexpr double longest_s = 24 * 3600, longest_shot_s = 60;
-/// Of a stage of any size.
-constexpr double least_distance_m = 0.02, most_distance_m = 1000, most_offset_m = 1000;
-constexpr double lowest_floor_m = -1000, highest_floor_m = 100;
-/// What rounding to nine digits may do to a camera that is at a limit.
+constexpr double max_time_s = 24 * 3600, max_shot_s = 60;
+/// Limits of values in the file, wide enough for a stage of any size.
+constexpr double min_distance_m = 0.02, max_distance_m = 1000, max_offset_m = 1000;
+constexpr double min_floor_m = -1000, max_floor_m = 100;
+/// Largest shift of a camera at a limit by rounding to nine digits.
 constexpr double rounding_m = 1e-5;
-/// Of an eye, a target, a focus.
-constexpr double farthest_m = 100;
-constexpr double most_turns_deg = 36000;
+/// Largest coordinate of an eye, and largest focus distance.
+constexpr double max_eye_m = 100;
+constexpr double max_angle_deg = 36000;
 
 constexpr std::initializer_list<const char*> orbit_keys{"pivot_m", "azimuth_deg", "elevation_deg",
                                                         "distance_m"};
@@ -65,38 +65,39 @@ void refuse_all(const TomlTable& table, std::initializer_list<const char*> keys,
     for (const char* key : keys)
         if (table.has(key))
             table.refuse(key,
-                         fmt::format("does not go with {}: a camera is said by what it orbits, "
-                                     "by eye_m and target_m, or by eye_m, pan_deg and tilt_deg",
+                         fmt::format("cannot be combined with {}: give a camera by its orbit, by "
+                                     "eye_m and target_m, or by eye_m, pan_deg and tilt_deg",
                                      others));
 }
 
-/// An eye that looks at a target.
+/// Reads a camera that is given by its eye and its target.
 void read_eye(TomlTable& table, const Eigen::Vector3d& eye, OrbitView& view) {
     Eigen::Vector3d target = view.pivot_m;
     table.read("target_m", std::span<double>(target.data(), 3), {-30, 30});
-    if ((eye - target).norm() < 1e-6) table.refuse("eye_m", "must not be the point it looks at");
+    if ((eye - target).norm() < 1e-6) table.refuse("eye_m", "must not be the same point as target_m");
     const double roll_rad = view.roll_rad;
     view = view_from_eye(eye, target, view.field_of_view_rad, view.azimuth_rad);
     view.roll_rad = roll_rad;
 }
 
-/// A camera's head.
+/// Reads a camera that is given by its eye, pan and tilt.
 void read_head(TomlTable& table, const Eigen::Vector3d& eye, OrbitView& view) {
     PanTiltRoll turn{-view.azimuth_rad, -view.elevation_rad, view.roll_rad};
-    read_degrees(table, "pan_deg", turn.pan_rad, {-most_turns_deg, most_turns_deg});
+    read_degrees(table, "pan_deg", turn.pan_rad, {-max_angle_deg, max_angle_deg});
     read_degrees(table, "tilt_deg", turn.tilt_rad, {-90, 90});
-    table.read("focus_m", view.distance_m, {0.05, farthest_m});
+    table.read("focus_m", view.distance_m, {0.05, max_eye_m});
     view.azimuth_rad = -turn.pan_rad;
     view.elevation_rad = -turn.tilt_rad;
     view.pivot_m = eye + view.distance_m * turned(turn).col(2);
 }
 
-/// `view` comes with the values of the keyframe before. True: it is said as a camera's head.
+/// Reads a camera into `view`, which holds the values of the keyframe before. True if it is given
+/// by pan and tilt.
 bool read_camera(TomlTable& table, OrbitView& view, const FlightLimits& limits) {
     read_degrees(table, "field_of_view_deg", view.field_of_view_rad, {5, 110});
-    read_degrees(table, "roll_deg", view.roll_rad, {-most_turns_deg, most_turns_deg});
+    read_degrees(table, "roll_deg", view.roll_rad, {-max_angle_deg, max_angle_deg});
     Eigen::Vector3d eye = view.eye_m();
-    table.read("eye_m", std::span<double>(eye.data(), 3), {-farthest_m, farthest_m});
+    table.read("eye_m", std::span<double>(eye.data(), 3), {-max_eye_m, max_eye_m});
     if (has_any(table, head_keys)) {
         refuse_all(table, {"target_m"}, "pan_deg and tilt_deg");
         refuse_all(table, orbit_keys, "pan_deg and tilt_deg");
@@ -111,20 +112,20 @@ bool read_camera(TomlTable& table, OrbitView& view, const FlightLimits& limits) 
     }
     table.read("pivot_m", std::span<double>(view.pivot_m.data(), 3),
                {-limits.max_pivot_offset_m, limits.max_pivot_offset_m});
-    read_degrees(table, "azimuth_deg", view.azimuth_rad, {-most_turns_deg, most_turns_deg});
+    read_degrees(table, "azimuth_deg", view.azimuth_rad, {-max_angle_deg, max_angle_deg});
     read_degrees(table, "elevation_deg", view.elevation_rad, {-86, 86});
     table.read("distance_m", view.distance_m, {limits.min_distance_m, limits.max_distance_m});
     return false;
 }
 
-/// Refuses what is outside the limits; `key` is in the table that says it.
+/// Refuses a camera outside the limits, at the key `key`.
 void check_camera(const TomlTable& table, const char* key, OrbitView& view,
                   const FlightLimits& limits, bool is_orbit) {
     const Eigen::Vector3d eye = view.eye_m();
     if (!is_orbit) {
         if (eye.y() < limits.min_eye_height_m - rounding_m)
-            table.refuse(key, fmt::format("is of a camera at a height of {:.2f} m; {} m are the "
-                                          "least (lowest_m)",
+            table.refuse(key, fmt::format("belongs to a camera at a height of {:.2f} m; the minimum "
+                                          "is {} m (lowest_m)",
                                           eye.y(), limits.min_eye_height_m));
         return;
     }
@@ -132,9 +133,9 @@ void check_camera(const TomlTable& table, const char* key, OrbitView& view,
     if ((allowed.eye_m() - eye).norm() > rounding_m ||
         (allowed.pivot_m - view.pivot_m).norm() > rounding_m)
         table.refuse(
-            key, fmt::format("is of a camera at ({:.2f}, {:.2f}, {:.2f}) m, {:.2f} m from "
-                             "what it looks at, which is outside the flight's limits: {} m "
-                             "above the floor at least (lowest_m), {} to {} m away, at "
+            key, fmt::format("belongs to a camera at ({:.2f}, {:.2f}, {:.2f}) m, {:.2f} m from "
+                             "its pivot, which is outside the flight's limits: at least {} m "
+                             "above the floor (lowest_m), {} to {} m from the pivot, at "
                              "most {:.0f} degrees up or down",
                              eye.x(), eye.y(), eye.z(), view.distance_m, limits.min_eye_height_m,
                              limits.min_distance_m, limits.max_distance_m,
@@ -145,7 +146,7 @@ void check_camera(const TomlTable& table, const char* key, OrbitView& view,
 MoveKeyframe read_keyframe(TomlTable& table, const std::vector<MoveKeyframe>& before,
                            const FlightLimits& limits, MovePath path) {
     MoveKeyframe keyframe;
-    table.read("time_s", keyframe.time_s, {0, longest_s});
+    table.read("time_s", keyframe.time_s, {0, max_time_s});
     table.require("time_s");
     if (!before.empty()) keyframe.view = before.back().view;
     const bool is_head = read_camera(table, keyframe.view, limits);
@@ -158,13 +159,13 @@ MoveKeyframe read_keyframe(TomlTable& table, const std::vector<MoveKeyframe>& be
     if (table.has("take_s")) keyframe.take_s = take_s;
     if (!before.empty() && keyframe.take_s.has_value() != before.front().take_s.has_value())
         table.refuse(keyframe.take_s ? "take_s" : "time_s",
-                     "is of a keyframe that differs from the first one: either all have take_s or "
-                     "none has");
+                     "belongs to a keyframe that differs from the first one: give take_s in all "
+                     "keyframes or in none");
     if (before.empty() && keyframe.time_s != 0)
         table.refuse("time_s", "must be 0 in the first keyframe");
     if (!before.empty() && keyframe.time_s <= before.back().time_s)
         table.refuse("time_s",
-                     fmt::format("is {}, and it must be later than the keyframe before, at {}",
+                     fmt::format("is {}, and it must be later than that of the keyframe before, {}",
                                  keyframe.time_s, before.back().time_s));
     return keyframe;
 }
@@ -175,13 +176,14 @@ void read_shot(TomlTable& table, FlightBook& book, const FlightLimits& limits) {
     table.read("number", number, {1, static_cast<int>(most_shots)});
     if (number == 0) return;
     std::optional<Shot>& place = book.shots[static_cast<std::size_t>(number - 1)];
-    if (place) table.refuse("number", fmt::format("is {} a second time", number));
+    if (place) table.refuse("number", fmt::format("is {} for the second time; give every shot its own number",
+                                                     number));
     Shot shot;
     table.read("name", shot.name);
     if (const std::string fault = fault_of_name(shot.name); !fault.empty())
         table.refuse("name", fault);
     if (shot.name.empty()) shot.name = fmt::format("shot {}", number);
-    table.read("duration_s", shot.duration_s, {0, longest_shot_s});
+    table.read("duration_s", shot.duration_s, {0, max_shot_s});
     std::string easing = name_of(shot.easing);
     table.read_choice("easing", easing, {"ease", "linear"});
     shot.easing = easing_of(easing);
@@ -190,7 +192,7 @@ void read_shot(TomlTable& table, FlightBook& book, const FlightLimits& limits) {
     place = std::move(shot);
 }
 
-/// Nine digits, and none that say nothing.
+/// Nine significant digits, without trailing zeros.
 std::string number_text(double value) { return fmt::format("{:.9g}", value == 0 ? 0 : value); }
 
 std::string camera_text(const OrbitView& view, bool is_head) {
@@ -217,12 +219,12 @@ std::string camera_text(const OrbitView& view, bool is_head) {
 
 FlightBook load_flight(const std::filesystem::path& path) {
     FlightLimits limits;
-    limits.min_distance_m = least_distance_m;
-    limits.max_distance_m = most_distance_m;
-    limits.max_pivot_offset_m = most_offset_m;
+    limits.min_distance_m = min_distance_m;
+    limits.max_distance_m = max_distance_m;
+    limits.max_pivot_offset_m = max_offset_m;
     FlightBook book;
     read_toml_file(path, 1, [&](TomlTable& top) {
-        top.read("lowest_m", limits.min_eye_height_m, {lowest_floor_m, highest_floor_m});
+        top.read("lowest_m", limits.min_eye_height_m, {min_floor_m, max_floor_m});
         std::vector<MoveKeyframe> keyframes;
         bool loop = false;
         std::string way = "orbit";
@@ -235,12 +237,12 @@ FlightBook load_flight(const std::filesystem::path& path) {
         top.read_tables("shot", [&](TomlTable& table) { read_shot(table, book, limits); });
         if (keyframes.size() > most_keyframes)
             top.refuse("keyframe",
-                       fmt::format("stands {} times, and a move has at most {} keyframes",
+                       fmt::format("occurs {} times, and a move has at most {} keyframes",
                                    keyframes.size(), most_keyframes));
         if (loop &&
             (keyframes.size() < 2 || !is_same_shot(keyframes.front().view, keyframes.back().view)))
             top.refuse("loop",
-                       "is true, so the last keyframe must show the same view as the first "
+                       "is true, so the last keyframe must have the same view as the first "
                        "(its azimuth may differ by whole turns)");
         book.lowest_m = limits.min_eye_height_m;
         if (!keyframes.empty()) book.move.emplace(std::move(keyframes), loop, limits, move_path);
@@ -251,7 +253,7 @@ FlightBook load_flight(const std::filesystem::path& path) {
 Move Move::load(const std::filesystem::path& path) {
     FlightBook book = load_flight(path);
     if (!book.move)
-        fail("{}: holds no move: give it a [[keyframe]] with time_s = 0", path.string());
+        fail("{} contains no move; add a [[keyframe]] with time_s = 0", path.string());
     return *std::move(book.move);
 }
 

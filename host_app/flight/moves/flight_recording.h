@@ -7,31 +7,29 @@
 
 namespace vantage {
 
-/// Where the camera was at one time.
+/// The camera at one time of a recorded flight.
 struct FlightSample {
     double time_s = 0;
     OrbitView view;
-    std::optional<double> take_s =
-        {};  ///< where in a take the programme was, seconds from its start
+    std::optional<double> take_s = {};  ///< playback position in a take, from its start
 };
 using FlightRecording = std::deque<FlightSample>;
 
-/// What a move may differ from the flight that it is made of.
+/// Allowed deviation of a move from the recorded flight.
 struct FlightTolerance {
     double shift_m = 0.01;     ///< of the camera's place
-    double turn_rad = 0.0017;  ///< of its turn and of its angle of view: 0.1 degrees
-    double take_s = 0.02;      ///< of time in the take
+    double turn_rad = 0.0017;  ///< of its direction and field of view: 0.1 degrees
+    double take_s = 0.02;      ///< of the position in the take
 };
 
 struct SimplifiedFlight {
     Move move;
-    double worst =
-        0;  ///< of the tolerance that was asked for; over 1: too many keyframes otherwise
+    double worst = 0;  ///< largest deviation, in units of the tolerance; may exceed 1
 };
 
-/// A move of few keyframes that is at every sample within the tolerance; where that would take more
-/// than most_keyframes, within the least multiple of it that does not. Times begin at the first
-/// sample. Preconditions: a sample or more, times growing.
+/// Simplifies a recorded flight to a move of few keyframes that stays within the tolerance at every
+/// sample. If that would need more than most_keyframes, the tolerance is doubled until they suffice.
+/// Times start at the first sample. Preconditions: at least one sample, times increase.
 SimplifiedFlight simplified(const FlightRecording& flight, const FlightTolerance& tolerance,
                             const FlightLimits& limits, MovePath path);
 

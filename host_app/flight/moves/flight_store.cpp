@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Along an orbit, unless the camera was where no orbit is allowed, as a tracked one may be.
+/// An orbit, unless the camera left the flight limits, as a tracked camera may.
 MovePath path_of(const FlightRecording& flight, const FlightLimits& limits) {
     const bool is_orbit = std::all_of(flight.begin(), flight.end(), [&](const FlightSample& each) {
         return is_same_shot(constrained(each.view, limits), each.view);
@@ -58,8 +58,8 @@ std::optional<Move> FlightStore::take_simplified(bool waits) {
     SimplifiedFlight flight = simplified_.get();
     const FlightTolerance tolerance;
     log_info(
-        "the flight of {:.1f} s is a move of {} keyframes, nowhere further from it than {:.0f} mm "
-        "and {:.2f} degrees",
+        "the recorded flight of {:.1f} s became a move of {} keyframes, which deviates by at most "
+        "{:.0f} mm and {:.2f} degrees",
         flight.move.duration_s(), flight.move.keyframes().size(),
         1000 * flight.worst * tolerance.shift_m,
         flight.worst * tolerance.turn_rad * 180 / std::numbers::pi);
@@ -68,7 +68,7 @@ std::optional<Move> FlightStore::take_simplified(bool waits) {
 }
 
 void FlightStore::replace_move(std::optional<Move> move) {
-    // What waits to be written is of the move that goes.
+    // Changes that are not written yet belong to the old move.
     if (file_.is_changed()) write();
     is_file_move_ = !book_.move;
     flies_another_ = false;
@@ -90,7 +90,7 @@ void FlightStore::finish() {
 }
 
 void FlightStore::write() {
-    if (file_.write(to_toml(book_), is_file_move_ ? nullptr : "another move takes its place"))
+    if (file_.write(to_toml(book_), is_file_move_ ? nullptr : "another move replaces it"))
         is_file_move_ = true;
 }
 

@@ -13,13 +13,13 @@
 
 namespace vantage {
 
-/// Keeps a show's shots and its move in a flight file, beside the stage's or the take's. What hands
-/// change is written within a second, in place of what this session read or wrote; a file that
-/// anybody else has changed meanwhile, or whose move makes room for another one, stays under a free
-/// name. Of the session's thread.
+/// Keeps the shots and the move of a show in a flight file beside the stage file or the take.
+/// Changes are written within a second and replace the file that this session read or wrote. A file
+/// that another program changed meanwhile, or whose move is replaced by a different one, is kept
+/// under a free name. Used on the session's thread only.
 class FlightStore {
   public:
-    /// Reads the file where there is one. Throws Error as load_flight().
+    /// Reads the file if it exists. Throws Error as load_flight() does.
     explicit FlightStore(std::filesystem::path file);
     ~FlightStore();
     FlightStore(const FlightStore&) = delete;
@@ -27,15 +27,15 @@ class FlightStore {
 
     const FlightBook& book() const { return book_; }
 
-    /// The session begins with another move than the file's.
+    /// To be called if the session starts with another move than the one in the file.
     void begin_with_another_move() { flies_another_ = true; }
     void keep(const FlightController::Change& change);
-    /// Makes a move of a flight that was recorded, meanwhile.
+    /// Simplifies a recorded flight to a move, in the background.
     void simplify(FlightRecording flight, const FlightLimits& limits);
-    /// To be called often: writes what is due. A flight that has become a move since the last call;
-    /// it is kept.
+    /// Writes changes that are due; to be called often. Returns a recorded flight that was
+    /// simplified since the last call and is now the move of the file.
     std::optional<Move> follow(MonotonicTime now);
-    /// Writes all that is not written yet; waits for flights.
+    /// Waits for flights that are being simplified and writes all changes.
     void finish();
 
   private:
@@ -45,13 +45,13 @@ class FlightStore {
 
     KeptFile file_;
     FlightBook book_;
-    bool flies_another_ = false;  ///< than the file's move
-    bool is_file_move_ = true;    ///< what is to be written has the file's move, as hands made it
+    bool flies_another_ = false;  ///< the session's move is not the one in the file
+    bool is_file_move_ = true;    ///< book_ has the file's move or an edited version of it
     std::future<SimplifiedFlight> simplified_;
     std::vector<std::pair<FlightRecording, FlightLimits>> waiting_;
 };
 
-/// STAGE.flight.toml beside STAGE.toml, TAKE.flight.toml beside TAKE.mkv.
+/// Name of the flight file: STAGE.flight.toml for STAGE.toml, TAKE.flight.toml for TAKE.mkv.
 std::filesystem::path flight_file_of(std::filesystem::path file);
 
 }  // namespace vantage

@@ -27,14 +27,14 @@ OrbitView orbit_view(const Channels& c) {
     return view;
 }
 
-/// The place of the three that turn is left free.
+/// The three channels of the rotation are left 0.
 Channels free_channels(const OrbitView& view) {
     Channels c;
     c << view.eye_m(), 0, 0, 0, std::log(view.distance_m), view.field_of_view_rad;
     return c;
 }
 
-/// A turn about its own axis, as a vector: its direction and its angle.
+/// A rotation as a vector along its axis, whose length is the angle.
 Eigen::Vector3d vector_of(const Eigen::Quaterniond& turn) {
     const Eigen::AngleAxisd about(turn);
     return about.angle() * about.axis();
@@ -91,7 +91,7 @@ Move::Channels Move::tangent(std::size_t keyframe) const {
         const double h0 = duration_of(before), h1 = duration_of(after);
         return (h1 * slope(before) + h0 * slope(after)) / (h0 + h1);
     }
-    // A smooth part takes up the speed of the straight part that it meets.
+    // Where a smooth segment meets a linear one, it takes over the speed of that.
     if (arriving == Easing::smooth && leaving == Easing::linear) return slope(after);
     if (leaving == Easing::smooth && arriving == Easing::linear) return slope(before);
     return Channels::Zero();
@@ -121,7 +121,7 @@ Eigen::Quaterniond Move::turn_at(const Place& place) const {
         case Easing::cut:
             return s < 1 ? a : b;
     }
-    // Bezier's construction on the sphere.
+    // De Casteljau's construction of a Bezier curve on the sphere.
     const double third_s = duration_of(i) / 3;
     const Eigen::Quaterniond from_a = a * turn_by(third_s * tangents_[i].segment<3>(rotation));
     const Eigen::Quaterniond to_b = b * turn_by(-third_s * tangents_[i + 1].segment<3>(rotation));
@@ -136,7 +136,7 @@ OrbitView Move::at(double time_s) const {
     const auto& [i, s] = place;
     const double h = duration_of(i);
     const Channels &a = values_[i], &b = values_[i + 1];
-    // Hermite's basis on [0, 1].
+    // Hermite basis on [0, 1].
     Channels value = a + eased(s) * (b - a);
     switch (keyframes_[i].easing) {
         case Easing::smooth:

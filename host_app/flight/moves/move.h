@@ -10,50 +10,51 @@
 
 namespace vantage {
 
-/// How the camera leaves a keyframe.
+/// Interpolation from a keyframe to the next one.
 enum class Easing {
-    smooth,  ///< through the keyframes without a stop (cubic Hermite, Catmull-Rom tangents)
+    smooth,  ///< without a stop at the keyframes (cubic Hermite, Catmull-Rom tangents)
     linear,  ///< at constant speed
     ease,    ///< from rest to rest
-    cut,     ///< stays, and jumps at the next keyframe
+    cut,     ///< holds the view, and cuts at the next keyframe
 };
 
-/// 0..1 from rest to rest, at 0..1 of the time.
+/// Progress 0..1 of a motion from rest to rest at the share `s` of its time.
 inline double eased(double s) { return s * s * (3 - 2 * s); }
 
-/// What runs from keyframe to keyframe.
+/// Quantities that are interpolated between keyframes.
 enum class MovePath {
     orbit,  ///< pivot, azimuth, elevation, roll, the logarithm of the distance
-    free,   ///< the camera's place, and its turn as a quaternion
+    free,   ///< the camera's position, and its rotation as a quaternion
 };
 
 struct MoveKeyframe {
     double time_s = 0;
     OrbitView view;
     Easing easing = Easing::smooth;
-    std::optional<double> take_s = {};  ///< where in a take, in seconds from its beginning
+    std::optional<double> take_s = {};  ///< position in a take, from its start
 };
 
-/// A flight that was planned: keyframes on a time line. Between them the path's numbers and the
-/// field of view run on cubic Hermite curves (E. Catmull and R. Rom, "A class of local
-/// interpolating splines", 1974; tangents for uneven times), and quaternions on the like curves of
-/// K. Shoemake
-/// ("Animating rotation with quaternion curves", 1985). The camera starts and ends at rest, unless
-/// the move loops. Time in a take runs straight from keyframe to keyframe.
+/// A planned camera move: keyframes on a time line, immutable. Between keyframes the quantities of
+/// the path and the field of view follow cubic Hermite curves (E. Catmull and R. Rom, "A class of
+/// local interpolating splines", 1974, with tangents for uneven times). Quaternions follow the
+/// corresponding curves of K. Shoemake ("Animating rotation with quaternion curves", 1985). The
+/// camera starts and ends at rest, unless the move loops. The position in a take is interpolated
+/// linearly.
 class Move {
   public:
-    /// Preconditions: a keyframe or more, the first at 0 s, times growing; take_s in all or none;
-    /// of a looping move, which has two, the last view is the first one, whole turns aside.
+    /// Preconditions: at least one keyframe, the first at 0 s, times increase; take_s in all
+    /// keyframes or in none. A looping move has at least two keyframes, and its last view is the
+    /// same as the first, except for whole turns.
     Move(std::vector<MoveKeyframe> keyframes, bool loop, const FlightLimits& limits = {},
          MovePath path = MovePath::orbit);
 
-    /// The move of a flight file (see load_flight()). Throws Error likewise, and where it has none.
+    /// Reads the move of a flight file. Throws Error as load_flight() does, and if it has no move.
     static Move load(const std::filesystem::path& path);
 
-    /// The view at a time; before the start the first, after the end the last one, or around again
-    /// if the move loops. On an orbit within the flight limits, on a free path above the floor.
+    /// The view at a time. Times outside the move give the first or the last view; a looping move
+    /// starts again. An orbit stays within the flight limits, a free path above the floor.
     OrbitView at(double time_s) const;
-    /// Nothing: it says nothing of a take.
+    /// Position in a take; empty if the keyframes have none.
     std::optional<double> take_s_at(double time_s) const;
 
     double duration_s() const { return keyframes_.back().time_s; }
@@ -63,11 +64,12 @@ class Move {
     const std::vector<MoveKeyframe>& keyframes() const { return keyframes_; }
 
   private:
-    static constexpr int channels = 8, rotation = 3;  ///< where three of them are, on a free path
+    /// On a free path three channels from `rotation` on hold the rotation.
+    static constexpr int channels = 8, rotation = 3;
     using Channels = Eigen::Matrix<double, channels, 1>;
     struct Place {
         std::size_t segment;
-        double share;  ///< 0..1 of it
+        double share;  ///< 0..1 within the segment
     };
 
     Place place_of(double time_s) const;
@@ -78,7 +80,7 @@ class Move {
 
     std::vector<MoveKeyframe> keyframes_;
     std::vector<Channels> values_, tangents_;
-    std::vector<Eigen::Quaterniond> turns_;  ///< of a free path, each in its neighbour's hemisphere
+    std::vector<Eigen::Quaterniond> turns_;  ///< free path only; each in the hemisphere of the one before
     bool loop_;
     FlightLimits limits_;
     MovePath path_;

@@ -7,13 +7,13 @@
 
 namespace vantage {
 
-/// A part of a move that is beyond the end of the corridor.
+/// A part of a move outside the corridor.
 struct UncoveredPart {
     double from_s = 0, to_s = 0;
     Coverage least;
 };
 
-/// In order of time; times are good to 0.1 s.
+/// All parts of a move outside the corridor, in order of time, with times to 0.1 s.
 std::vector<UncoveredPart> uncovered_parts(const Move& move, const Corridor& corridor);
 
 }  // namespace vantage

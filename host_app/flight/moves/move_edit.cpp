@@ -6,8 +6,8 @@
 namespace vantage {
 namespace {
 
-/// Keyframes are no nearer to one another.
-constexpr double least_gap_s = 0.05;
+/// Shortest time between two keyframes.
+constexpr double min_gap_s = 0.05;
 
 Move rebuilt(const Move& move, std::vector<MoveKeyframe> keyframes) {
     const double start_s = keyframes.front().time_s;
@@ -28,7 +28,7 @@ Move appended(const std::optional<Move>& move, const OrbitView& view, std::optio
     if (last.take_s && !take_s) take_s = last.take_s;
     const double passed_s = take_s ? *take_s - *last.take_s : 0;
     keyframes.push_back(
-        {last.time_s + (passed_s > least_gap_s ? passed_s : after_s), view, last.easing, take_s});
+        {last.time_s + (passed_s > min_gap_s ? passed_s : after_s), view, last.easing, take_s});
     return rebuilt(*move, std::move(keyframes));
 }
 
@@ -38,7 +38,7 @@ Move with_view_at(const Move& move, double time_s, OrbitView view, std::optional
     view.azimuth_rad = nearest_turn(view.azimuth_rad, before.azimuth_rad);
     view.roll_rad = nearest_turn(view.roll_rad, before.roll_rad);
     MoveKeyframe& nearest = keyframes[nearest_keyframe(move, time_s)];
-    if (std::abs(nearest.time_s - time_s) < least_gap_s) {
+    if (std::abs(nearest.time_s - time_s) < min_gap_s) {
         nearest.view = view;
         if (nearest.take_s && take_s) nearest.take_s = take_s;
         return rebuilt(move, std::move(keyframes));
@@ -72,7 +72,7 @@ Move retimed(const Move& move, std::size_t keyframe, double later_s) {
     std::vector<MoveKeyframe> keyframes = move.keyframes();
     if (keyframe == 0) return move;
     const double gap_s = keyframes[keyframe].time_s - keyframes[keyframe - 1].time_s;
-    later_s = std::max(later_s, std::min(least_gap_s, gap_s) - gap_s);
+    later_s = std::max(later_s, std::min(min_gap_s, gap_s) - gap_s);
     for (std::size_t i = keyframe; i < keyframes.size(); ++i) keyframes[i].time_s += later_s;
     return rebuilt(move, std::move(keyframes));
 }

@@ -5,29 +5,32 @@
 #include "common/base/time/pulse_grid.h"
 #include "host_app/flight/flight_book.h"
 #include "host_app/output/media/video_writer.h"
-#include "host_app/session/options/picture_options.h"
+#include "host_app/session/options/common_options.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
 
 void FilmOptions::add_to(CLI::App& command) {
+    constexpr const char* group = "Film";
     command
         .add_option("--path", path,
-                    "Of a film: the flight file that it is filmed from (TOML); default: the "
-                    "camera that the take was flown with")
-        ->group("Film");
+                    "Fly the move of this flight file (TOML) (default: the camera of the take)")
+        ->group(group);
     command
         .add_option("--rate", rate,
-                    "Pictures a second, such as 50, 29.97 or 30000/1001 (default: the stage's "
+                    "Set the frame rate, such as 50, 29.97 or 30000/1001 (default: the stage's "
                     "rate)")
-        ->group("Film");
-    command.add_option("--size", size, "Of the picture, WIDTHxHEIGHT (default: the stage's)")
-        ->group("Film");
+        ->group(group);
     command
-        .add_option("--synth", synthesiser, "Synthesiser (default: the stage's; see render --help)")
+        .add_option("--size", size,
+                    "Set the size of the picture, WIDTHxHEIGHT (default: the stage's size)")
+        ->group(group);
+    command
+        .add_option("--synth", synthesiser,
+                    "Select the synthesiser (default: the stage's; see vantage render --help)")
         ->type_name(synthesisers_type_name())
-        ->group("Film");
-    stereoscopic.add_to(command, "the camera's distance from its pivot")->group("Film");
+        ->group(group);
+    stereoscopic.add_to(command, "the camera's distance from its pivot", group);
 }
 
 bool FilmOptions::is_any() const {
@@ -38,7 +41,7 @@ bool FilmOptions::is_any() const {
 ExportStats FilmOptions::write(const std::filesystem::path& take_file, const TakePart& part,
                                bool has_part, const std::filesystem::path& file,
                                const std::function<void(double)>& progress) const {
-    // Before any other thread, so that they leave the signals to it.
+    // It must exist before any other thread is started, so that it receives the signals.
     StopSignal stop;
     require_film_name(file);
     const auto take = std::make_shared<const TakeReader>(take_file);
@@ -51,7 +54,7 @@ ExportStats FilmOptions::write(const std::filesystem::path& take_file, const Tak
     } else {
         const Move move = Move::load(path);
         if (move.take_s_at(0) && has_part)
-            fail("{} says where in the take it is: leave out --from and --to", path);
+            fail("{} is tied to the take's time; leave out --from and --to", path);
         pictures = film_of(move, *take, part, rate_hz);
     }
     FilmSettings settings{{show.view.width_px, show.view.height_px, stereoscopic.stereoscopy()},
@@ -65,7 +68,7 @@ ExportStats FilmOptions::write(const std::filesystem::path& take_file, const Tak
     const auto is_wanted = [&] { return !stop.requested(); };
     const ExportStats stats = export_film(take, pictures, settings, file, is_wanted, progress);
     if (stats.written + stats.there < pictures.size())
-        fail("{} is not there yet: {} of its {} pictures are; the same command goes on with them",
+        fail("{} is not complete: {} of {} frames are rendered; run the same command to continue",
              file.string(), stats.written + stats.there, pictures.size());
     return stats;
 }

@@ -6,48 +6,49 @@
 
 namespace vantage {
 
-/// Nothing of a rig that is away, for what it said last may not hold any more.
+// A disconnected rig has no worries: its last report may no longer hold.
 std::vector<std::string> computer_worries_of(const RigStatus& status) {
     // A Raspberry Pi's processors slow down from here on.
     constexpr float hot_c = 80;
     std::vector<std::string> worries;
     if (!status.connected) return worries;
     if (status.health.temperature_c.value_or(0) >= hot_c)
-        worries.push_back(fmt::format("{:.0f} C, it slows down from {:.0f}",
+        worries.push_back(fmt::format("{:.0f} C, it throttles from {:.0f} C on",
                                       *status.health.temperature_c, hot_c));
-    if (status.health.under_voltage) worries.emplace_back("its supply sags");
+    if (status.health.under_voltage) worries.emplace_back("the supply voltage is too low");
     return worries;
 }
 
 std::vector<CounterGroup> counters_of(const RigAccount& rig) {
     const RigStatus& s = rig.status;
     const RigCounters& r = s.rig_counters;
-    return {{"rig",
-             "at the rig, since this host came",
-             {{"captured", "captured", r.captured},
-              {"missed", "missed", r.missed},
-              {"late", "late", r.late},
-              {"published", "published", r.published}}},
-            {"link",
-             "on the way to this host",
-             {{"offered", "offered", s.link.offered},
-              {"send_dropped", "pushed out", s.link.send_dropped},
-              {"thinned", "thinned", s.link.skipped},
-              {"sent", "sent", s.link.sent},
-              {"lost", "lost", s.lost}}},
-            {"host",
-             "at this host",
-             {{"received", "received", s.received},
-              {"undecodable", "damaged", s.undecodable},
-              {"queue_dropped", "host busy", s.queue_dropped},
-              {"late", "late", s.late},
-              {"duplicate", "duplicate", s.duplicate},
-              {"unsynchronized", "unsynced", s.unsynchronized},
-              {"out_of_step", "out of step", s.out_of_step},
-              {"in_sets", "in sets", s.in_frame_sets},
-              {"fused", "fused", rig.fused},
-              {"superseded", "superseded", rig.superseded},
-              {"in_dropped_sets", "set dropped", s.in_dropped_frame_sets}}}};
+    return {
+        {"rig",
+         "at the rig, since this host connected",
+         {{"captured", "captured", r.captured},
+          {"missed", "missed", r.missed},
+          {"late", "late", r.late},
+          {"published", "published", r.published}}},
+        {"link",
+         "on the way to this host",
+         {{"offered", "offered", s.link.offered},
+          {"send_dropped", "dropped at rig", s.link.send_dropped},
+          {"skipped", "skipped", s.link.skipped, "thinned"},  // old name
+          {"sent", "sent", s.link.sent},
+          {"lost", "lost", s.lost}}},
+        {"host",
+         "at this host",
+         {{"received", "received", s.received},
+          {"undecodable", "damaged", s.undecodable},
+          {"queue_dropped", "dropped at host", s.queue_dropped},
+          {"late", "late", s.late},
+          {"duplicate", "duplicate", s.duplicate},
+          {"unsynchronized", "unsynchronised", s.unsynchronized},
+          {"out_of_step", "out of step", s.out_of_step},
+          {"in_frame_sets", "in frame sets", s.in_frame_sets, "in_sets"},
+          {"fused", "fused", rig.fused},
+          {"replaced", "replaced by newer", rig.replaced, "superseded"},  // old name
+          {"dropped_at_start", "dropped at start", s.in_dropped_frame_sets, "in_dropped_sets"}}}};
 }
 
 std::string state_of(const RigStatus& status) {
@@ -64,10 +65,10 @@ std::string full_state_of(const RigStatus& status) {
 std::string outages_of(const RigStatus& status) {
     std::string text;
     if (status.outages > 0)
-        text = fmt::format("was away {}, {:.1f} s in all", counted_times(status.outages),
+        text = fmt::format("was disconnected {}, {:.1f} s in all", counted_times(status.outages),
                            status.outage_s);
     if (status.restarts > 0)
-        text += fmt::format("{}its daemon was started anew {}", text.empty() ? "" : "; ",
+        text += fmt::format("{}its daemon restarted {}", text.empty() ? "" : "; ",
                             counted_times(status.restarts));
     return text;
 }
@@ -90,14 +91,14 @@ std::vector<std::string> failures_of(const LiveReport& report) {
     const auto add = [&](const auto& of) {
         if (!of.failure.empty())
             failures.push_back(fmt::format("{} failed after {}: {}", of.name,
-                                           counted(of.pictures, "picture"), of.failure));
+                                           counted(of.pictures, "frame"), of.failure));
     };
     for (const OutputState& output : report.outputs) add(output);
     for (const SinkState& sink : report.programme.sinks) add(sink);
     return failures;
 }
 
-double pictures_a_second(const ProgrammeStats& programme) {
+double new_frames_per_second(const ProgrammeStats& programme) {
     return programme.duration_s > 0 ? static_cast<double>(programme.pictures) / programme.duration_s
                                     : 0;
 }

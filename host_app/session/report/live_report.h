@@ -13,7 +13,7 @@
 #include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/ports/control_ports.h"
-#include "host_app/flight/corridor_stats.h"
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/moves/move_coverage.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/output/output_supervisor.h"
@@ -25,102 +25,105 @@
 
 namespace vantage {
 
-/// What became of one rig's frames at the host.
+/// The account of one rig's frames at the host.
 struct RigAccount {
     RigStatus status;
-    std::uint64_t fused = 0;       ///< in sets that instants were made of
-    std::uint64_t superseded = 0;  ///< in sets that a newer one replaced before they were prepared
-    /// What live harmonisation adds to its colours; nothing if it never did.
+    std::uint64_t fused = 0;     ///< frames of frame sets that became instants
+    std::uint64_t replaced = 0;  ///< frames of frame sets that a newer one replaced
+    /// The rig's gain compensation; nothing if it was never estimated.
     std::optional<GainCompensation::Rig> gain_compensation = {};
-    std::optional<RigBackgroundState> set =
-        {};  ///< what it has learnt of its set; nothing: none is learnt
+    std::optional<RigBackgroundState> background = {};  ///< nothing: no background is learnt
 };
 
-/// All that a live session did, for the closing summary and the operator's desk.
+/// The state and the measurements of a session, for the summary, the metrics and the desk.
 struct LiveReport {
     PictureFormat format;
-    double rate_hz = 0;  ///< that was asked for
+    double rate_hz = 0;  ///< requested frame rate
     std::string synthesiser, renderer;
-    SignalState signal = SignalState::no_signal;  ///< at the end
-    TransportState time;                          ///< at the end
-    ReplayState replay;                           ///< at the end
-    std::uint64_t shown_pulse = 0;                ///< of the last picture
-    std::optional<PastFrameSets::Span> past;           ///< that can be gone back to
+    // At the time of the report, or when the session ended:
+    SignalState signal = SignalState::no_signal;
+    TransportState time;
+    ReplayState replay;
+    std::uint64_t shown_pulse = 0;            ///< of the last picture
+    std::optional<PastFrameSets::Span> past;  ///< the replay buffer or the take
     double pulse_rate_hz = 0;
     OrbitView view;  ///< of the last picture
     CorridorStats corridor;
-    bool free_flight = false;              ///< hands may leave the corridor
-    std::vector<UncoveredPart> uncovered;  ///< of the planned move
+    bool free_flight = false;              ///< the camera may leave the corridor
+    std::vector<UncoveredPart> uncovered;  ///< parts of the planned move
     ProgrammeStats programme;
-    int faults = 0;         ///< renderers and preparers that were made anew
-    int contexts_lost = 0;  ///< resets of the GPU that were got over
+    int faults = 0;         ///< renderers and preparers that were created again after a fault
+    int contexts_lost = 0;  ///< GPU resets that the session survived
 
     std::uint64_t frame_sets_closed = 0, frame_sets_complete = 0;
-    std::uint64_t instants_prepared = 0, frame_sets_superseded = 0, frame_sets_dropped = 0;
-    std::uint64_t instants_between = 0;  ///< of moments between pulses
-    std::vector<RigAccount> rigs;        ///< in the stage's order
+    std::uint64_t instants_prepared = 0;
+    std::uint64_t frame_sets_replaced = 0;  ///< by a newer one before they were prepared
+    std::uint64_t frame_sets_dropped = 0;   ///< before the session took any
+    std::uint64_t instants_between = 0;     ///< interpolated between two pulses
+    std::vector<RigAccount> rigs;           ///< in the stage's order
 
     RigSteps rig_steps;
-    /// Steps of a frame's way at the host; of network and decode the worst rig's, of encode the
-    /// slowest output's. Without samples: not done.
+    /// Steps of a frame at the host: network and decode of the slowest rig, encode of the slowest
+    /// output. A step that was not done has no samples.
     Percentiles network_ms, decode_ms, prepare_ms, encode_ms;
 
-    std::optional<Stereoscopy> stereoscopy;  ///< of the last picture, where it is two
-    std::optional<SourceShares> source_map;  ///< of the last picture, where its source map was shown
+    std::optional<Stereoscopy> stereoscopy;  ///< of the last picture
+    std::optional<SourceShares> source_map;  ///< of the last picture, if the source map was shown
 
-    std::vector<DeckDevice> wheels;  ///< jog controllers at the end of the flight
+    std::vector<DeckDevice> wheels;
 
-    std::optional<TakeState> take;  ///< that was recorded; nothing: there was none
-    std::string saved_background;          ///< where the set was saved last; empty: nowhere
-    std::string played;             ///< the take that was played; empty: the stage was live
+    std::optional<TakeState> take;  ///< nothing: none was recorded
+    std::string saved_background;   ///< the last file; empty: none was saved
+    std::string played;             ///< the take that was played; empty: a live stage
 
-    std::optional<SoundState> sound;  ///< nothing: the programme has none
+    std::optional<SoundState> sound;  ///< nothing: the programme has no sound
     std::vector<OutputState> outputs;
-    std::vector<PortState> ports;  ///< that others steered by
+    std::vector<PortState> ports;
 };
 
-/// One counter of a rig: its key for machines and its heading for people.
+/// A counter of a rig: its JSON key, its heading in the tables, and its key before it was renamed.
 struct Counter {
     const char *key, *heading;
     std::uint64_t value;
+    const char* old_key = nullptr;  ///< deprecated; null: it has always had this key
 };
-/// Counters of one place on the way, which together say what became of every frame there.
+/// The counters of one place on a frame's way. Together they account for every frame there.
 struct CounterGroup {
     const char *key, *title;
     std::vector<Counter> counters;
 };
 std::vector<CounterGroup> counters_of(const RigAccount& rig);
 
-/// The steps of a frame's way, by name, of which there are samples: at the rigs as the worst of
-/// them says, then at the host.
+/// The durations of a step of a frame.
 struct StepTime {
     std::string name;
     Percentiles ms;
 };
+/// Returns the steps that have samples: at the rigs those of the slowest one, then at the host.
 std::vector<StepTime> step_times(const LiveReport& report);
-/// Such as "4: 96 %, 5: 4 %": levels of quality and their shares of the time.
+/// Formats levels of quality and their shares of the time, such as "4: 96 %, 5: 4 %".
 std::string shares_text(const std::vector<double>& shares);
-/// A sentence for every output that has failed and is not on again, with its name.
+/// Returns a sentence for every output that has failed and is not on again.
 std::vector<std::string> failures_of(const LiveReport& report);
-/// New pictures a second.
-double pictures_a_second(const ProgrammeStats& programme);
+double new_frames_per_second(const ProgrammeStats& programme);
 
-/// For machines: keys with units, one object.
+/// Formats the report as one JSON object; the keys have units.
 nlohmann::ordered_json to_json(const LiveReport& report);
-/// For people: several lines.
+/// Formats the report as the text of the summary.
 std::string to_text(const LiveReport& report);
-/// "connected", "disconnected" or "refused: ...".
+/// Returns "connected", "disconnected" or "refused: ...".
 std::string state_of(const RigStatus& status);
-/// The state, and why the rig gives nothing: "disconnected: connection refused at ...".
+/// Returns the state with its reason, such as "disconnected: connection refused at ...".
 std::string full_state_of(const RigStatus& status);
-/// When and how a rig was away since this host came; empty if it never was.
+/// Describes the rig's outages and restarts since this host connected; empty if there were none.
 std::string outages_of(const RigStatus& status);
-/// What the words over the counters mean, for people: several lines.
+/// Explains the headings of the counters, in several lines.
 std::string counters_legend();
 
-/// What of a connected rig a technician should look after, a few words each: heat, supply, clock.
+/// Returns the faults of a connected rig that a technician should look at, in a few words each:
+/// heat, supply, clock.
 std::vector<std::string> worries_of(const RigStatus& status);
-/// Of those heat and supply alone.
+/// Returns only those of the computer: heat and supply.
 std::vector<std::string> computer_worries_of(const RigStatus& status);
 
 }  // namespace vantage

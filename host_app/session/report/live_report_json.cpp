@@ -37,7 +37,8 @@ nlohmann::ordered_json time_json(const LiveReport& report) {
     if (!report.played.empty()) json["take"] = report.played;
     if (report.past)
         json["past"] = {
-            {"sets", report.past->sets},
+            {"frame_sets", report.past->sets},
+            {"sets", report.past->sets},  // old name
             {"bytes", report.past->bytes},
             {"duration_s", static_cast<double>(report.past->newest - report.past->oldest) /
                                report.pulse_rate_hz}};
@@ -119,6 +120,28 @@ nlohmann::ordered_json output_json(const OutputState& output) {
             {"write_ms", to_json(output.write_ms)}};
 }
 
+/// Adds the values of renamed keys under their old names, which are deprecated and go with the next
+/// release.
+void add_old_keys(nlohmann::ordered_json& json) {
+    constexpr std::pair<const char*, const char*> keys[] = {
+        {"new_frames_per_second", "pictures_a_second"},
+        {"replaced_pictures", "superseded_pictures"},   // old name
+        {"input_to_picture_ms", "hand_to_picture_ms"},  // old name
+        {"idle_to_best_ms", "rest_to_best_ms"},
+        {"frame_sets", "sets"},
+        {"source_map", "novelty"},  // old name
+        {"saved_background", "saved_set"}};
+    for (const auto& [key, old_key] : keys)
+        if (const auto found = json.find(key); found != json.end()) {
+            nlohmann::ordered_json value = *found;
+            json[old_key] = std::move(value);
+        }
+    const nlohmann::ordered_json replaced = json["frame_sets"]["replaced"];
+    json["sets"]["superseded"] = replaced;  // old name
+    const nlohmann::ordered_json per_second = json["instants"]["per_second"];
+    json["instants"]["a_second"] = per_second;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const LiveReport& report) {
@@ -128,12 +151,12 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                 {"width_px", report.format.width_px},
                                 {"height_px", report.format.height_px},
                                 {"rate_hz", report.rate_hz},
-                                {"pictures_a_second", pictures_a_second(programme)},
+                                {"new_frames_per_second", new_frames_per_second(programme)},
                                 {"duration_s", programme.duration_s},
                                 {"reprojected_ticks", programme.reprojected},
                                 {"repeated_ticks", programme.repeated},
                                 {"missed_ticks", programme.missed},
-                                {"superseded_pictures", programme.superseded},
+                                {"replaced_pictures", programme.replaced},  // old name
                                 {"synthesiser", report.synthesiser},
                                 {"renderer", report.renderer},
                                 {"signal", key_of(report.signal)}};
@@ -142,9 +165,9 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["tick_late_ms"] = to_json(programme.late_ms);
     json["interval_ms"] = to_json(programme.interval_ms);
     json["latency_ms"] = to_json(programme.latency_ms);
-    json["hand_to_picture_ms"] = to_json(programme.input_ms);
+    json["input_to_picture_ms"] = to_json(programme.input_ms);
     json["seek_to_picture_ms"] = to_json(programme.seek_ms);
-    json["rest_to_best_ms"] = to_json(programme.rest_ms);
+    json["idle_to_best_ms"] = to_json(programme.rest_ms);
     json["seek_steps_ms"] = {{"wait", to_json(programme.seek_steps_ms.wait)},
                              {"fetch", to_json(programme.seek_steps_ms.fetch)},
                              {"prepare", to_json(programme.seek_steps_ms.prepare)},
@@ -155,10 +178,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["instants"] = {
         {"prepared", report.instants_prepared},
         {"between_pulses", report.instants_between},
-        {"a_second", programme.duration_s > 0
-                         ? static_cast<double>(report.instants_prepared) / programme.duration_s
-                         : 0},
-        {"skipped", report.frame_sets_superseded}};
+        {"per_second", programme.duration_s > 0
+                           ? static_cast<double>(report.instants_prepared) / programme.duration_s
+                           : 0},
+        {"skipped", report.frame_sets_replaced}};
     json["level_shares"] = {{"render", programme.render_shares},
                             {"prepare", programme.prepare_shares}};
     json["faults"] = report.faults;
@@ -176,12 +199,12 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                       {"field_of_view_deg", view.field_of_view_rad * deg},
                       {"pivot_m", {view.pivot_m.x(), view.pivot_m.y(), view.pivot_m.z()}}};
     if (report.corridor.now) json["corridor"] = corridor_json(report);
-    json["sets"] = {{"closed", report.frame_sets_closed},
-                    {"complete", report.frame_sets_complete},
-                    {"partial", report.frame_sets_closed - report.frame_sets_complete},
-                    {"fused", report.instants_prepared},
-                    {"superseded", report.frame_sets_superseded},
-                    {"dropped", report.frame_sets_dropped}};
+    json["frame_sets"] = {{"closed", report.frame_sets_closed},
+                          {"complete", report.frame_sets_complete},
+                          {"partial", report.frame_sets_closed - report.frame_sets_complete},
+                          {"fused", report.instants_prepared},
+                          {"replaced", report.frame_sets_replaced},
+                          {"dropped", report.frame_sets_dropped}};
     json["rigs"] = nlohmann::ordered_json::array();
     for (const RigAccount& rig : report.rigs) {
         nlohmann::ordered_json entry{{"name", rig.status.rig}, {"state", state_of(rig.status)}};
@@ -191,16 +214,21 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                             {"total_s", rig.status.outage_s},
                             {"restarts", rig.status.restarts}};
         for (const CounterGroup& group : counters_of(rig))
-            for (const Counter& counter : group.counters)
+            for (const Counter& counter : group.counters) {
                 entry[group.key][counter.key] = counter.value;
+                if (counter.old_key) entry[group.key][counter.old_key] = counter.value;
+            }
         if (rig.gain_compensation) {
             const Eigen::Vector3d gain = rig.gain_compensation->gain();
             entry["colour"] = {{"gains", {gain[0], gain[1], gain[2]}},
                                {"shared_points", rig.gain_compensation->samples}};
         }
-        if (rig.set) {
-            entry["set"] = {{"known", rig.set->known}, {"loaded", rig.set->is_loaded}};
-            if (!rig.set->misfit.empty()) entry["set"]["misfit"] = rig.set->misfit;
+        if (rig.background) {
+            nlohmann::ordered_json background{{"known", rig.background->known},
+                                              {"loaded", rig.background->is_loaded}};
+            if (!rig.background->misfit.empty()) background["misfit"] = rig.background->misfit;
+            entry["background"] = background;
+            entry["set"] = background;  // old name
         }
         entry["latency_ms"] = to_json(rig.status.latency_ms);
         entry["clock"] = clock_text(rig.status);
@@ -213,7 +241,7 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
     json["stages_ms"] = nlohmann::ordered_json::object();
     for (const StepTime& step : step_times(report)) json["stages_ms"][step.name] = to_json(step.ms);
     if (report.stereoscopy) json["stereoscopic"] = to_json(*report.stereoscopy);
-    if (report.source_map) json["novelty"] = to_json(*report.source_map);
+    if (report.source_map) json["source_map"] = to_json(*report.source_map);
     for (const DeckDevice& wheel : report.wheels)
         json["wheels"].push_back({{"name", wheel.model},
                                   {"path", wheel.place.path},
@@ -231,11 +259,12 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                    {"told", port.stats.told},
                                    {"failure", port.failure}});
     if (report.take) json["take"] = take_json(*report.take);
-    if (!report.saved_background.empty()) json["saved_set"] = report.saved_background;
+    if (!report.saved_background.empty()) json["saved_background"] = report.saved_background;
     for (const OutputState& output : report.outputs)
         if (!output.film.empty() && !json.contains("film"))
             json["film"] = {
                 {"path", output.film}, {"pictures", output.pictures}, {"dropped", output.dropped}};
+    add_old_keys(json);
     return json;
 }
 

@@ -35,7 +35,7 @@ std::string rig_tables(const LiveReport& report) {
     return text;
 }
 
-/// What a person must know of a rig beyond its numbers.
+/// Lists troubles, outages, clocks and faults of the rigs.
 std::string rig_remarks(const LiveReport& report) {
     std::string text;
     for (const RigAccount& rig : report.rigs) {
@@ -62,33 +62,31 @@ std::string rig_remarks(const LiveReport& report) {
 std::string corridor_text(const LiveReport& report) {
     const CorridorStats& stats = report.corridor;
     if (!stats.now) return "";
-    std::string text =
-        fmt::format("the rigs cover {:.0f} % of the last picture, {:.0f} % at the least",
-                    100 * stats.now->share, 100 * stats.least_share);
+    std::string text = fmt::format(
+        "the rigs cover {:.0f} % of the last picture and at least {:.0f} % of every one",
+        100 * stats.now->share, 100 * stats.least_share);
     if (stats.edge_s > 0 || stats.beyond_s > 0)
         text += fmt::format(
-            "; the camera was {:.1f} s at the edge of their corridor and {:.1f} s "
-            "beyond its end",
+            "; the camera was {:.1f} s at the edge of the corridor and {:.1f} s outside it",
             stats.edge_s, stats.beyond_s);
     return text + '\n';
 }
 
 std::string take_text(const TakeState& take) {
     std::string text = fmt::format(
-        "take: {}, {:.1f} s, {} frames and {} missing, {:.1f} MB, {:.1f} MB a second, written "
-        "{:.0f} ms after they came at most\n",
+        "take: {}, {:.1f} s, {} frames, {} missing, {:.1f} MB, {:.1f} MB/s, each written within "
+        "{:.0f} ms\n",
         take.path, take.duration_s, take.frames, take.gaps, static_cast<double>(take.bytes) / 1e6,
         take.mb_s, take.longest_unwritten_ms);
     for (const TakeState::Rig& rig : take.rigs)
         if (rig.dropped + rig.refused > 0)
             text += fmt::format(
-                "take: of rig {} are {} frames left out since they came faster than they could be "
-                "written, and {} that did not fit\n",
+                "take: rig {}: dropped {} frames because the disk was too slow and {} that did not "
+                "fit the take\n",
                 rig.name, rig.dropped, rig.refused);
     if (take.has_sound)
         text += fmt::format(
-            "take: {:.1f} s of sound, {} samples left out since they came faster than they could "
-            "be written\n",
+            "take: {:.1f} s of sound, {} samples dropped because the disk was too slow\n",
             take.sound_s, take.sound_dropped);
     if (!take.failure.empty()) text += fmt::format("take: {}\n", take.failure);
     return text;
@@ -99,9 +97,8 @@ std::string sound_text(const SoundState& sound) {
         return 1000 * static_cast<double>(samples) / sound_rate_hz;
     };
     std::string text = fmt::format(
-        "sound: {}, {}, {:.1f} s, {:.0f} ms after it was heard; {:.0f} ms of it were not there, "
-        "{:.0f} ms came too fast, {} over what could not be slid over; its clock is {:.0f} "
-        "millionths ahead",
+        "sound: {}, {}, {:.1f} s, delayed by {:.0f} ms; {:.0f} ms missing, {:.0f} ms dropped, {}; "
+        "its clock is {:.0f} ppm fast",
         sound.name, key_of(sound.phase), ms(sound.played) / 1000, sound.delay_ms, ms(sound.missing),
         ms(sound.dropped), counted(sound.jumps, "jump"), sound.drift_ppm);
     if (sound.failures > 0) text += fmt::format("; failed {}", counted_times(sound.failures));
@@ -110,14 +107,14 @@ std::string sound_text(const SoundState& sound) {
 }
 
 std::string output_text(const OutputState& output) {
-    std::string text = fmt::format("output: {}{}{}, {}, {:.1f} MB, {} left out because it was busy",
+    std::string text = fmt::format("output: {}{}{}, {}, {:.1f} MB, {} dropped because it was busy",
                                    output.name, output.encoder.empty() ? "" : " by ",
-                                   output.encoder, counted(output.pictures, "picture"),
+                                   output.encoder, counted(output.pictures, "frame"),
                                    static_cast<double>(output.bytes) / 1e6, output.dropped);
     if (output.unheard > 0)
-        text += fmt::format(", {} while nobody took it", counted(output.unheard, "picture"));
+        text += fmt::format(", {} without a receiver", counted(output.unheard, "frame"));
     if (output.silenced > 0)
-        text += fmt::format(", the sound of {}", counted(output.silenced, "picture"));
+        text += fmt::format(", {} without sound", counted(output.silenced, "frame"));
     if (output.failures > 0) text += fmt::format(", failed {}", counted_times(output.failures));
     return text + '\n';
 }
@@ -138,10 +135,10 @@ std::string steps_text(const LiveReport& report) {
 std::string results_text(const LiveReport& report) {
     std::string text;
     if (report.faults > 0)
-        text += fmt::format("faults of the GPU's work, after which it was set up anew: {}\n",
+        text += fmt::format("faults of renderers and preparers, which were created again: {}\n",
                             report.faults);
     if (report.contexts_lost > 0)
-        text += fmt::format("resets of the GPU, after which all of it was set up anew: {}\n",
+        text += fmt::format("GPU resets, after which everything was created again: {}\n",
                             report.contexts_lost);
     for (const std::string& failure : failures_of(report)) text += failure + '\n';
     if (report.stereoscopy)
@@ -153,16 +150,16 @@ std::string results_text(const LiveReport& report) {
         text += "pixels of the last picture by rig:";
         for (const auto& [rig, share] : report.source_map->rigs)
             text += fmt::format(" {} {:.1f} %,", rig, 100 * share);
-        text += fmt::format(" filled {:.1f} % remembered {:.1f} %\n", 100 * report.source_map->filled,
-                            100 * report.source_map->remembered);
+        text += fmt::format(" inpainted {:.1f} %, background {:.1f} %\n",
+                            100 * report.source_map->filled, 100 * report.source_map->remembered);
     }
     for (const DeckDevice& wheel : report.wheels)
-        text += fmt::format("wheel: {} at {}, {} reports, {} of them not understood{}{}\n",
-                            wheel.model, wheel.place.path, wheel.reports, wheel.unread,
+        text += fmt::format("wheel: {} at {}, {} reports, {} of them unreadable{}{}\n", wheel.model,
+                            wheel.place.path, wheel.reports, wheel.unread,
                             wheel.fault.empty() ? "" : "; ", wheel.fault);
     for (const PortState& port : report.ports)
         text += fmt::format(
-            "control: {}, {} obeyed, {} unknown, {} malformed, {} more than may come{}{}\n",
+            "control: {}, {} executed, {} unknown, {} malformed, {} over the rate limit{}{}\n",
             port.name, counted(port.stats.obeyed, "message"), port.stats.unknown,
             port.stats.malformed, port.stats.dropped,
             port.failure.empty() ? "" : "; failed: ", port.failure);
@@ -170,7 +167,8 @@ std::string results_text(const LiveReport& report) {
         if (!port.stats.told.empty())
             text += fmt::format("control: {}: {}\n", port.name, port.stats.told);
     if (report.take) text += take_text(*report.take);
-    if (!report.saved_background.empty()) text += fmt::format("set saved to {}\n", report.saved_background);
+    if (!report.saved_background.empty())
+        text += fmt::format("background saved to {}\n", report.saved_background);
     if (report.sound) text += sound_text(*report.sound);
     for (const OutputState& output : report.outputs) text += output_text(output);
     return text;
@@ -179,13 +177,14 @@ std::string results_text(const LiveReport& report) {
 }  // namespace
 
 std::string counters_legend() {
-    return R"(Every frame since this host came ends in one place. At the rig: missed (a pulse without a picture),
-late (a step was still busy), published. On the way: thinned (this host asked for fewer or none),
-pushed out (this host or its network was slow), sent; lost (sent, and the connection broke). At this
-host: damaged (not readable), host busy, late (its set was closed), duplicate, unsynced (names no pulse
-of the stage), out of step (counts pulses differently from the other rigs), in sets; of those: fused (in a
-picture), superseded (a newer set came before a picture was due), set dropped
-(before anything took sets).
+    return R"(Every frame since this host connected is counted in one place.
+At the rig: missed (no picture for a pulse), late (a step was still busy), published.
+On the way: skipped (this host did not request it), dropped at rig (the queue to this host was full),
+sent, lost (sent, then the connection broke).
+At this host: damaged (not readable), dropped at host (the decoder was busy), late (its frame set was
+closed), duplicate, unsynchronised (it has no pulse of the stage), out of step (its rig counts pulses
+differently from the others), in frame sets. Of those in frame sets: fused (in an instant), replaced by
+newer (before an instant was due), dropped at start (before the session took any).
 )";
 }
 
@@ -201,47 +200,49 @@ std::string shares_text(const std::vector<double>& shares) {
 std::string to_text(const LiveReport& report) {
     const ProgrammeStats& programme = report.programme;
     std::string text = fmt::format(
-        "\n{:g} pictures a second asked, {:.1f} new ones held: {} of {}x{} in {:.1f} s, of {} "
-        "ticks {} reprojected and {} repeated the last one, {} missed, {} pictures superseded "
-        "(synthesiser {}, on {})\n",
-        report.rate_hz, pictures_a_second(programme), programme.pictures, report.format.width_px,
-        report.format.height_px, programme.duration_s, programme.ticks, programme.reprojected,
-        programme.repeated, programme.missed, programme.superseded, report.synthesiser,
+        "\n{:g} fps requested, {:.1f} new frames per second: {} frames of {}x{} in {:.1f} s; of {} "
+        "ticks {} reprojected and {} repeated the last frame, {} missed; {} frames replaced by "
+        "newer (synthesiser {}, on {})\n",
+        report.rate_hz, new_frames_per_second(programme), programme.pictures,
+        report.format.width_px, report.format.height_px, programme.duration_s, programme.ticks,
+        programme.reprojected, programme.repeated, programme.missed, programme.replaced,
+        report.synthesiser,  // old name
         report.renderer);
     text += line_of("after the tick", programme.late_ms);
-    text += line_of("between two pictures", programme.interval_ms);
+    text += line_of("between two frames", programme.interval_ms);
     if (programme.latency_ms.count > 0)
         text += line_of("exposure to picture", programme.latency_ms);
-    if (programme.input_ms.count > 0) text += line_of("hand to picture", programme.input_ms);
+    if (programme.input_ms.count > 0) text += line_of("input to picture", programme.input_ms);
     if (programme.rest_ms.count > 0)
-        text += line_of("held until the best picture", programme.rest_ms);
+        text += line_of("idle until the best picture", programme.rest_ms);
     if (programme.seek_ms.count > 0) {
         text += line_of("seek to picture", programme.seek_ms);
-        text += line_of("  waiting for the instant before", programme.seek_steps_ms.wait);
+        text += line_of("  waiting for the previous instant", programme.seek_steps_ms.wait);
         text += line_of("  reading and decoding", programme.seek_steps_ms.fetch);
         text += line_of("  preparing", programme.seek_steps_ms.prepare);
         text += line_of("  rendering, until its tick", programme.seek_steps_ms.picture);
     }
     if (programme.preview_pictures > 0)
         text += line_of(
-            fmt::format("{} of the preview, each", counted(programme.preview_pictures, "picture"))
+            fmt::format("{} of the preview, each", counted(programme.preview_pictures, "frame"))
                 .c_str(),
             programme.preview_ms);
     text +=
         fmt::format("levels of quality (0 is the best) by time: rendering {}; preparing {}\n",
                     shares_text(programme.render_shares), shares_text(programme.prepare_shares));
     if (!report.played.empty()) {
-        text += fmt::format(
-            "{} was played: {} instants, {} more between pulses, the last of pulse {}\n",
-            report.played, report.instants_prepared, report.instants_between, report.shown_pulse);
+        text += fmt::format("{}: played {} instants and {} between pulses, the last of pulse {}\n",
+                            report.played, report.instants_prepared, report.instants_between,
+                            report.shown_pulse);
         text += corridor_text(report) + steps_text(report) + results_text(report);
         return text;
     }
     text += fmt::format(
-        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} superseded by a "
-        "newer one, {} dropped\n",
-        report.frame_sets_closed, report.frame_sets_complete, report.frame_sets_closed - report.frame_sets_complete,
-        report.instants_prepared, report.frame_sets_superseded, report.frame_sets_dropped);
+        "{} frame sets, {} complete and {} partial: {} prepared as instants, {} replaced by newer, "
+        "{} dropped\n",
+        report.frame_sets_closed, report.frame_sets_complete,
+        report.frame_sets_closed - report.frame_sets_complete, report.instants_prepared,
+        report.frame_sets_replaced, report.frame_sets_dropped);
     text += corridor_text(report) + '\n' + rig_tables(report);
     if (!report.rigs.empty()) text += counters_legend() + '\n';
     text += fmt::format("signal at the end: {}\n", title_of(report.signal));

@@ -30,4 +30,25 @@ std::string calibration_words(const RigHealth& health, std::chrono::system_clock
     return days ? fmt::format("{} d, {:.2f} px", *days, health.calibration_row_rms_px) : "";
 }
 
+bool delivers(const RigStatus& rig, const std::vector<RigStatus>& rigs) {
+    return gives_pictures(rig, rigs) && rig.health.published_hz > 0;
+}
+
+bool waits_for_a_host(const RigStatus& rig) {
+    return rig.connected && rig.sync.ready && rig.sync.role != RigSync::Role::free &&
+           rig.sync.first_pulse == 0;
+}
+
+std::string silence_of(const RigStatus& rig) {
+    if (!trouble_of(rig).empty() || rig.health.published_hz > 0) return {};
+    if (waits_for_a_host(rig))
+        return "it is connected and sends nothing: it is armed and starts when a host runs the "
+               "stage (vantage live)";
+    if (rig.health.captured_hz > 0)
+        return "it is connected and captures, but sends nothing: a step after its cameras is "
+               "stuck; see its log at the rig (journalctl -u vantage-rig)";
+    return "it is connected and sends nothing: its cameras deliver no frames; see its log at the "
+           "rig (journalctl -u vantage-rig), and run vantage-rig probe there";
+}
+
 }  // namespace vantage

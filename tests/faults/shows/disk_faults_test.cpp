@@ -55,7 +55,7 @@ TEST_F(DiskFaults, ATakeWhoseDiskIsFullEndsAndTheProgrammeGoesOn) {
 
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
-    EXPECT_THAT(result.err, HasSubstr("the programme went to its end without an output"));
+    EXPECT_THAT(result.err, HasSubstr("an output failed"));
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     expect_ticks_held(summary);
     EXPECT_EQ(summary["signal"], "live");

@@ -85,7 +85,7 @@ TEST_F(MidiPads, SteerAndAreLitWheneverTheyArePluggedIn) {
     EXPECT_EQ(early->lit(45), 0);
     early->note(45, 100);
     serve(*port);
-    EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
+    EXPECT_TRUE(operator_input_.take().input.find<command::ToggleHold>());
     ShowLamps shown;
     shown.hold = true;
     lamps_.show(shown);

@@ -24,7 +24,7 @@ Attended::Attended(const std::string& program, const std::string& arguments,
     : pipe_(folder / (name + ".in")) {
     if (mkfifo(pipe_.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
     std::filesystem::create_directories(folder / name);
-    // Opened both ways, so that neither end waits for the other.
+    // It is opened for reading and writing, so that neither end blocks.
     fd_ = UniqueFd(open(pipe_.c_str(), O_RDWR | O_CLOEXEC));
     child_ = std::make_unique<ChildProgram>(
         "/bin/sh",

@@ -11,13 +11,13 @@
 
 namespace vantage {
 
-/// The event of that name among lines of JSON; null if it has not come.
+/// Returns the event of this name from lines of JSON; null if there is none.
 nlohmann::json event_of(const std::string& out, const std::string& name, std::size_t skip = 0);
 
-/// A program with a person at its standard input, which tells what happens as lines of JSON.
+/// A program with an operator at its standard input that prints events as lines of JSON.
 class Attended {
   public:
-    /// `name`: of its folder and pipe in `folder`.
+    /// `name` is that of its folder and pipe in `folder`.
     Attended(const std::string& program, const std::string& arguments,
              const std::filesystem::path& folder, const std::string& name);
 
@@ -31,7 +31,7 @@ class Attended {
     std::unique_ptr<ChildProgram> child_;
 };
 
-/// Of `vantage setup` and `vantage-rig pair` each is typed what the other shows.
+/// Types the code of `vantage-rig pair` at `vantage setup` and the other way round.
 void compare_codes(const Attended& host, const Attended& rig, std::size_t codes_before);
 
 }  // namespace vantage

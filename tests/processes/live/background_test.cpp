@@ -12,8 +12,8 @@
 namespace vantage {
 namespace {
 
-/// Shows of a take, each a process, that save what they learn of its set and begin with it.
-class Sets : public testing::Test {
+/// Shows of a take, each a process, that save their background and start with a saved one.
+class SavedBackgrounds : public testing::Test {
   protected:
     std::vector<std::string> played(std::vector<std::string> more) const {
         std::vector<std::string> words{
@@ -33,39 +33,62 @@ class Sets : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(Sets, AreSavedAtTheEndAndBegunWith) {
-    const ProgramResult first = play({"--save-set", at("studio.vset")});
+TEST_F(SavedBackgrounds, AreWrittenAtTheEndAndLoadedAtTheStart) {
+    const ProgramResult first = play({"--save-background", at("studio.vset")});
     ASSERT_EQ(first.status, 0) << first.err;
-    EXPECT_EQ(nlohmann::json::parse(first.out)["saved_set"], at("studio.vset"));
+    EXPECT_EQ(nlohmann::json::parse(first.out)["saved_background"], at("studio.vset"));
     ASSERT_TRUE(std::filesystem::exists(at("studio.vset")));
     for (const auto& rig : nlohmann::json::parse(first.out)["rigs"])
-        EXPECT_FALSE(rig["set"]["loaded"].get<bool>());
+        EXPECT_FALSE(rig["background"]["loaded"].get<bool>());
 
-    const ProgramResult second = play({"--set", at("studio.vset")});
+    const ProgramResult second = play({"--background", at("studio.vset")});
     ASSERT_EQ(second.status, 0) << second.err;
     for (const auto& rig : nlohmann::json::parse(second.out)["rigs"]) {
-        EXPECT_TRUE(rig["set"]["loaded"].get<bool>()) << rig["set"];
-        EXPECT_FALSE(rig["set"].contains("misfit")) << rig["set"];
+        EXPECT_TRUE(rig["background"]["loaded"].get<bool>()) << rig["background"];
+        EXPECT_FALSE(rig["background"].contains("misfit")) << rig["background"];
     }
 
-    const ProgramResult again = play({"--save-set", at("studio.vset")});
+    const ProgramResult again = play({"--save-background", at("studio.vset")});
     EXPECT_EQ(again.status, 1);
-    EXPECT_NE(again.err.find("there is such a file"), std::string::npos) << again.err;
-    const ProgramResult none = play({"--set", (source_folder() / "README.md").string()});
+    EXPECT_NE(again.err.find("the file exists"), std::string::npos) << again.err;
+    const ProgramResult none = play({"--background", (source_folder() / "README.md").string()});
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("not a background file"), std::string::npos) << none.err;
 }
 
-TEST_F(Sets, AreSavedWhileAShowRunsByACommandThatADeskSees) {
-    SteeredShow steered(played({"--loop", "--seconds", "300", "--save-set", at("by_hand.vset")}),
-                        folder_);
+/// Renamed options keep their old names for one release.
+TEST_F(SavedBackgrounds, AreSavedAndLoadedUnderTheOldNamesOfTheOptions) {
+    const ProgramResult first =
+        play({"--save-set", at("studio.vset"), "--no-harmonise",  // old name
+              "--novelty"});                                      // old name
+    ASSERT_EQ(first.status, 0) << first.err;
+    for (const char* warning : {"--save-set is the old name of --save-background",
+                                "--no-harmonise is the old name of",  // old name
+                                "--novelty is the old name of --source-map"})
+        EXPECT_NE(first.err.find(warning), std::string::npos) << first.err;
+    const nlohmann::json summary = nlohmann::json::parse(first.out);
+    EXPECT_EQ(summary["saved_background"], at("studio.vset"));
+    EXPECT_TRUE(summary.contains("source_map"));
+    for (const auto& rig : summary["rigs"]) EXPECT_FALSE(rig.contains("colour")) << rig;
+
+    const ProgramResult second = play({"--set", at("studio.vset")});
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_NE(second.err.find("--set is the old name of --background"), std::string::npos)
+        << second.err;
+    for (const auto& rig : nlohmann::json::parse(second.out)["rigs"])
+        EXPECT_TRUE(rig["background"]["loaded"].get<bool>()) << rig;
+}
+
+TEST_F(SavedBackgrounds, AreWrittenByACommandDuringTheShow) {
+    SteeredShow steered(
+        played({"--loop", "--seconds", "300", "--save-background", at("by_hand.vset")}), folder_);
     ASSERT_TRUE(steered.is_told("lamp/speed f 1.0")) << steered.told() << steered.show().err();
-    ASSERT_TRUE(steered.send("/vantage/save_set"));
+    ASSERT_TRUE(steered.send("/vantage/save_background"));
     EXPECT_TRUE(steered.is_told("by_hand.vset")) << steered.told() << steered.show().err();
-    ASSERT_TRUE(steered.send("/vantage/learn_set"));
+    ASSERT_TRUE(steered.send("/vantage/learn_background"));
     steered.show().send_signal(SIGINT);
     const ProgramResult end = steered.show().wait();
-    EXPECT_EQ(nlohmann::json::parse(end.out)["saved_set"], at("by_hand.vset"));
+    EXPECT_EQ(nlohmann::json::parse(end.out)["saved_background"], at("by_hand.vset"));
     EXPECT_TRUE(std::filesystem::exists(at("by_hand.vset")));
     EXPECT_FALSE(std::filesystem::exists(at("by_hand-2.vset")));
 }

@@ -7,13 +7,13 @@
 
 namespace vantage {
 
-/// The camera of every tick that is put out, as a graphics computer would hear it.
+/// Receives the camera of every tick as FreeD, like a graphics computer.
 class CameraOnAir {
   public:
     explicit CameraOnAir(int port)
         : socket_(UdpSocket::bound({"127.0.0.1", port, true}, "the test")) {}
 
-    /// Of the next tick.
+    /// Returns the camera of the next tick.
     Pose next() {
         for (int i = 0; i < 600; ++i)
             if (const auto message = socket_.receive(std::chrono::milliseconds(100)))
@@ -22,7 +22,7 @@ class CameraOnAir {
         ADD_FAILURE() << "no camera came";
         return Pose::Identity();
     }
-    /// Of the ticks that have come meanwhile too, the last one.
+    /// Returns the camera of the latest tick that has arrived.
     Pose newest() {
         while (socket_.receive(std::chrono::milliseconds(0)))
             ;

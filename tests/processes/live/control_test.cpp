@@ -18,8 +18,8 @@
 namespace vantage {
 namespace {
 
-/// A take that is played, steered by oscsend and watched by oscdump, each a process of its own.
-TEST(Control, OfOthersSteersAShowWhoseLampsTheySee) {
+/// Plays a take, steers it with oscsend and reads its lamps with oscdump, each in its own process.
+TEST(Control, SteersAShowAndReportsItsLamps) {
     const TemporaryFolder folder;
     SteeredShow steered({"play", (source_folder() / "tests/takes/version_1.mkv").string(),
                          "--headless", "--size", "96x72", "--loop", "--seconds", "300", "--json"},
@@ -42,8 +42,8 @@ TEST(Control, OfOthersSteersAShowWhoseLampsTheySee) {
     EXPECT_TRUE(summary["time"]["in"].is_number()) << summary["time"];
 }
 
-/// Where there is no sequencer the show says so before it starts, and what would mend it.
-TEST(Control, ByMidiIsRefusedWhereThereIsNoSequencer) {
+/// Without a sequencer the show fails before it starts and names the remedy.
+TEST(Control, ByMidiIsRefusedWithoutASequencer) {
     if (access("/dev/snd/seq", F_OK) == 0) GTEST_SKIP() << "SKIPPED: this computer has one";
     const ProgramResult end =
         run_to_end(VANTAGE_PROGRAM,
@@ -53,8 +53,8 @@ TEST(Control, ByMidiIsRefusedWhereThereIsNoSequencer) {
     EXPECT_NE(end.err.find("modprobe snd-seq"), std::string::npos) << end.err;
 }
 
-/// A flight by hand over a take becomes a flight file, which is flown and filmed.
-TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
+/// A flight over a take is recorded to a flight file, played and rendered to a film.
+TEST(Flight, OverATakeIsRecordedPlayedAndFilmed) {
     const TemporaryFolder folder;
     const std::string take = (folder.path() / "take.mkv").string();
     const std::string flight = (folder.path() / "take.flight.toml").string();
@@ -68,14 +68,14 @@ TEST(Flight, ByHandOverATakeIsKeptPlayedAndFilmed) {
     ASSERT_TRUE(steered.is_told("lamp/record i 1")) << steered.told();
     ASSERT_TRUE(steered.send("/vantage/orbit f 12.0"));
     ASSERT_TRUE(steered.send("/vantage/source_map"));
-    ASSERT_TRUE(steered.is_told("lamp/source_map i 1")) << "the turn was taken in a step before";
+    ASSERT_TRUE(steered.is_told("lamp/source_map i 1")) << "the turn was executed before";
     ASSERT_TRUE(steered.send("/vantage/record"));
-    for (const char* words : {"is a move of", " pictures, "})
+    for (const char* words : {"is a move of", " frames, "})
         for (int i = 0; i < 3000 && steered.show().err().find(words) == std::string::npos; ++i)
             usleep(20'000);
     steered.show().send_signal(SIGINT);
     EXPECT_EQ(steered.show().wait().status, 130) << steered.show().err();
-    EXPECT_NE(steered.show().err().find(" pictures, "), std::string::npos);
+    EXPECT_NE(steered.show().err().find(" frames, "), std::string::npos);
     EXPECT_EQ(steered.show().err().find("exposure"), std::string::npos)
         << "a take has no latency: " << steered.show().err();
     const FlightBook book = load_flight(flight);

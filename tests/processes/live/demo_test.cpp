@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-/// Whether a rig with a key answers there.
+/// Returns whether a rig with a key answers there.
 bool serves(const std::string& stage) {
     return run_to_end(VANTAGE_PROGRAM, {"rigs", "status", "--stage", stage, "--wait", "1"})
                .status == 0;
@@ -25,7 +25,7 @@ bool serves(const std::string& stage) {
 class Demo : public testing::Test {
   protected:
     Demo() {
-        // A wall of noise that stands 8 px deep.
+        // A textured wall with a disparity of 8 px.
         std::mt19937 random(1);
         ColourImage right(96, 128);
         for (auto& texel : right)
@@ -42,7 +42,7 @@ class Demo : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
+TEST(DemoSize, IsTheLargestThatLeavesTheHostHalfOfTheGpu) {
     std::vector<int> tried;
     const auto size_where_a_megapixel_takes = [&](double ms) {
         tried.clear();
@@ -61,7 +61,7 @@ TEST(DemoSize, IsTheLargestWhoseMatchingLeavesTheHostHalfOfTheGpu) {
     EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
 }
 
-TEST(DemoSize, OfAProcessorThatDrawsEverythingHasFewerPulsesWhereItIsSlow) {
+TEST(DemoSize, IsSlowerOnASlowSoftwareRenderer) {
     EXPECT_EQ(software_rate_hz(4, 5), software_demo_size().rate_hz);
     EXPECT_EQ(software_rate_hz(4, 15), 3.5) << "3.7 of them take 220 ms";
     EXPECT_EQ(software_rate_hz(4, 20), 2.5);
@@ -69,7 +69,7 @@ TEST(DemoSize, OfAProcessorThatDrawsEverythingHasFewerPulsesWhereItIsSlow) {
 }
 
 TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
-    // Of a demo before.
+    // A file of an earlier demo.
     std::filesystem::create_directory(file("out"));
     write_colour_image(file("out/contact_sheet.png"), ColourImage(1, 1));
     const ProgramResult result = run_to_end(
@@ -85,7 +85,7 @@ TEST_F(Demo, PlaysAPairAndWritesTheFlight) {
         << result.err;
 }
 
-TEST_F(Demo, RigsEndWithItHoweverItEnds) {
+TEST_F(Demo, RigsEndWithTheDemo) {
     ChildProgram demo(VANTAGE_PROGRAM,
                       {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
                        "--folder", file("out")},
@@ -103,7 +103,7 @@ TEST_F(Demo, RigsEndWithItHoweverItEnds) {
     EXPECT_TRUE(is_gone);
 }
 
-TEST_F(Demo, SaysWhatIsWrongWithAPair) {
+TEST_F(Demo, ReportsFaultsOfAPair) {
     const ProgramResult missing =
         run_to_end(VANTAGE_PROGRAM, {"demo", "--files", file("left.png"), file("none.png"),
                                      "--headless", "--folder", file("out")});

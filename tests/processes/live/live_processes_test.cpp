@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* first_progress = " pictures, ";
 
-/// Two tiny rigs on the virtual stage and a host, each a process of its own.
+/// Two tiny rigs on the virtual stage and a host; each is a process.
 class LiveProcesses : public testing::Test {
   protected:
     LiveProcesses() {
@@ -59,7 +59,7 @@ class LiveProcesses : public testing::Test {
         return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
     }
 
-    /// Until the program has written these words, a minute at most.
+    /// Waits until the program has logged these words, at most a minute.
     static void wait_for(const ChildProgram& program, const char* words) {
         for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
             usleep(10'000);
@@ -70,7 +70,7 @@ class LiveProcesses : public testing::Test {
     std::vector<std::unique_ptr<ChildProgram>> rigs_;
 };
 
-TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
+TEST_F(LiveProcesses, ShowTheStageAndAccountForEveryFrame) {
     start_rig("left", -12);
     start_rig("right", 12);
     write_colour_image(file("last.png"), ColourImage(1, 1));
@@ -86,21 +86,22 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     EXPECT_EQ(summary["film"]["pictures"].get<int>() + summary["film"]["dropped"].get<int>(),
               summary["pictures"])
         << "the film has every tick";
-    EXPECT_EQ(summary["sets"]["closed"], summary["sets"]["fused"].get<int>() +
-                                             summary["sets"]["superseded"].get<int>() +
-                                             summary["sets"]["dropped"].get<int>());
-    EXPECT_GE(summary["sets"]["fused"], 1);
+    EXPECT_EQ(summary["frame_sets"]["closed"], summary["frame_sets"]["fused"].get<int>() +
+                                                   summary["frame_sets"]["replaced"].get<int>() +
+                                                   summary["frame_sets"]["dropped"].get<int>());
+    EXPECT_GE(summary["frame_sets"]["fused"], 1);
     ASSERT_EQ(summary["rigs"].size(), 2u);
     for (const nlohmann::json& rig : summary["rigs"]) {
         const auto count = [&](const char* place, const char* what) {
             return rig[place][what].get<std::int64_t>();
         };
         EXPECT_GE(count("host", "fused"), 1) << rig;
-        EXPECT_EQ(count("host", "in_sets"), count("host", "fused") + count("host", "superseded") +
-                                                count("host", "in_dropped_sets"))
+        EXPECT_EQ(
+            count("host", "in_frame_sets"),
+            count("host", "fused") + count("host", "replaced") + count("host", "dropped_at_start"))
             << rig;
-        // What has come and is in no other counter is in a set that was still open.
-        const std::int64_t open = count("host", "received") - count("host", "in_sets") -
+        // Frames in no other counter are in a frame set that is still open.
+        const std::int64_t open = count("host", "received") - count("host", "in_frame_sets") -
                                   count("host", "late") - count("host", "duplicate") -
                                   count("host", "unsynchronized") - count("host", "out_of_step");
         EXPECT_GE(open, 0) << rig;
@@ -121,7 +122,7 @@ TEST_F(LiveProcesses, FlyWhatTheRigsFilmAndAccountForEveryFrame) {
     EXPECT_TRUE(std::filesystem::exists(file("flight.mkv")));
 }
 
-TEST_F(LiveProcesses, FlyToTheEndWhereAFilmFailsAndEndWithItsName) {
+TEST_F(LiveProcesses, ContinueWithoutAFailedFilmAndNameItAtTheEnd) {
     start_rig("left", -12);
     start_rig("right", 12);
     std::unique_ptr<ChildProgram> host;
@@ -141,7 +142,7 @@ TEST_F(LiveProcesses, FlyToTheEndWhereAFilmFailsAndEndWithItsName) {
     EXPECT_NE(last.find("File too large"), std::string::npos) << err;
 }
 
-TEST_F(LiveProcesses, PutOutToSeveralPlacesAtOnceOfWhichOneFails) {
+TEST_F(LiveProcesses, SendTheProgrammeToSeveralOutputsThoughOneFails) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host =
@@ -165,7 +166,7 @@ TEST_F(LiveProcesses, PutOutToSeveralPlacesAtOnceOfWhichOneFails) {
     EXPECT_EQ(summary["outputs"][1]["encoder"], "");
     EXPECT_EQ(summary["outputs"][3]["state"], "failed");
     EXPECT_NE(err.find("v4l2:/dev/no-such-video failed"), std::string::npos) << err;
-    // The standard output has pictures and nothing else.
+    // Standard output has nothing but frames.
     const std::string out = host->out();
     const std::size_t head = out.find('\n') + 1;
     EXPECT_NE(out.substr(0, head).find("W128 H72 F30000:1001 "), std::string::npos);
@@ -174,28 +175,27 @@ TEST_F(LiveProcesses, PutOutToSeveralPlacesAtOnceOfWhichOneFails) {
               summary["outputs"][1]["pictures"].get<std::size_t>());
 }
 
-TEST_F(LiveProcesses, GoOnWithoutARigThatDoesNotCome) {
+TEST_F(LiveProcesses, ContinueWithoutAMissingRig) {
     start_rig("left", 0);
     wait_for(*rigs_[0], "publishing on");
     const auto host = start_host({"--frames", "2", "--json", "--wait", "4"});
     ASSERT_EQ(host->wait().status, 0) << host->err();
-    EXPECT_NE(host->err().find("missing: right disconnected"), std::string::npos) << host->err();
+    EXPECT_NE(host->err().find("within 4 s: right disconnected"), std::string::npos) << host->err();
     const nlohmann::json summary = nlohmann::json::parse(host->out());
-    EXPECT_EQ(summary["sets"]["complete"], 0);
+    EXPECT_EQ(summary["frame_sets"]["complete"], 0);
     EXPECT_EQ(summary["rigs"][1]["state"], "disconnected");
     EXPECT_EQ(summary["rigs"][1]["host"]["received"], 0);
 }
 
-TEST_F(LiveProcesses, EndWithASentenceWhenNoRigComes) {
+TEST_F(LiveProcesses, FailIfNoRigSendsAFrame) {
     const auto host = start_host({"--wait", "1", "--snapshot", file("last.png")});
     EXPECT_EQ(host->wait().status, 1);
-    EXPECT_NE(host->err().find("no frame of any rig came within 1 s"), std::string::npos)
-        << host->err();
+    EXPECT_NE(host->err().find("no rig sent a frame within 1 s"), std::string::npos) << host->err();
     EXPECT_EQ(host->out(), "");
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
 }
 
-TEST_F(LiveProcesses, ShowEveryRigThroughTheColourCorrectionThatTheStageNames) {
+TEST_F(LiveProcesses, ApplyTheStagesColourCorrectionToEveryRig) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto flown = [&](const std::string& picture) {
@@ -206,7 +206,7 @@ TEST_F(LiveProcesses, ShowEveryRigThroughTheColourCorrectionThatTheStageNames) {
     };
     const cv::Scalar plain = flown("plain.png");
     ASSERT_GT(plain[1], 10);
-    // Of the green, which a plain picture has as much of as of the red, nothing is left.
+    // No green is left, which an uncorrected picture has as much of as red.
     ColourCorrection only_red_and_blue;
     only_red_and_blue.matrix(1, 1) = 0;
     save_colour(file("left.colour.toml"), only_red_and_blue, {});
@@ -221,9 +221,9 @@ TEST_F(LiveProcesses, ShowEveryRigThroughTheColourCorrectionThatTheStageNames) {
     EXPECT_GT(corrected[2], 0.6 * plain[2]);
 }
 
-TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigComes) {
+TEST_F(LiveProcesses, NameTheMissingRigsWhenInterruptedWhileWaiting) {
     const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
-    wait_for(*host, "waiting for the first pictures of 2 rigs");
+    wait_for(*host, "waiting for the first frames of 2 rigs");
     host->send_signal(SIGINT);
     EXPECT_EQ(host->wait().status, 130);
     for (const char* rig : {"left disconnected", "right disconnected"})
@@ -232,7 +232,7 @@ TEST_F(LiveProcesses, SayWhatTheyWaitedForWhenTheyAreInterruptedBeforeAnyRigCome
     EXPECT_FALSE(std::filesystem::exists(file("last.png")));
 }
 
-TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
+TEST_F(LiveProcesses, RefuseInvalidOptionsBeforeConnecting) {
     write_colour_image(file("there.png"), ColourImage(1, 1));
     const struct {
         std::vector<std::string> options;
@@ -261,7 +261,7 @@ TEST_F(LiveProcesses, RefuseWhatCannotBeBeforeAnythingIsConnected) {
     EXPECT_EQ(read_colour_image(file("there.png")).size(), cv::Size(1, 1));
 }
 
-TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
+TEST_F(LiveProcesses, FollowTheMouseInAWindowUntilEscape) {
     if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
     const VirtualScreen screen(640, 360);
     start_rig("left", -12);
@@ -271,13 +271,13 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    // Where the first rig stands: once the stage is known, and not before.
+    // The camera is at the first rig once the stage is known.
     wait_for(host, "azimuth -12.0");
     screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // The picture alone, so that it is as wide as the window.
+    // Show the picture alone, so that it is as wide as the window.
     screen.operator_input({"key", "Tab", "sleep", "1"});
-    // A tenth of the picture's width to the right: the stage turns with the hand by 18 degrees,
-    // from where the first of the two rigs stands.
+    // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
+    // from the first rig's position.
     screen.operator_input(
         {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
     wait_for(host, "azimuth -30.0");
@@ -290,7 +290,7 @@ TEST_F(LiveProcesses, FlyByTheMouseInAWindowUntilEscape) {
     EXPECT_EQ(read_colour_image(file("screen.png")).size(), cv::Size(640, 360));
 }
 
-TEST_F(LiveProcesses, GetOverAResetOfTheGpuWithoutLosingATick) {
+TEST_F(LiveProcesses, SurviveAGpuResetWithoutLosingATick) {
     start_rig("left", -12);
     start_rig("right", 12);
     // The loader parts its list at spaces, which a checkout's path may have.
@@ -308,11 +308,11 @@ TEST_F(LiveProcesses, GetOverAResetOfTheGpuWithoutLosingATick) {
     EXPECT_LE(summary["missed_ticks"].get<double>(), 1 + 0.02 * summary["pictures"].get<double>())
         << "ticks go on while contexts are made: " << summary["tick_late_ms"];
     EXPECT_GE(summary["new_pictures"], 5);
-    // What is drawn on a lost context stays black.
+    // A lost context draws black.
     EXPECT_GT(cv::mean(read_colour_image(file("last.png")))[1], 20);
 }
 
-TEST_F(LiveProcesses, EndInOrderWhenInterrupted) {
+TEST_F(LiveProcesses, FinishTheFilesWhenInterrupted) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});

@@ -16,7 +16,7 @@
 #include "common/base/time/time.h"
 #include "common/base/time/timecode.h"
 #include "common/image/image_file.h"
-#include "host_app/replay/clip_file.h"
+#include "host_app/replay/clip_store.h"
 #include "tests/processes/live/attended.h"
 #include "tests/processes/live/camera_on_air.h"
 #include "tests/processes/live/steered_show.h"
@@ -27,14 +27,14 @@ namespace {
 
 constexpr double show_rate_hz = 5, tick_rate_hz = 25;
 
-/// Everybody who has a hand in a show, each over a socket of loopback: an operator over OSC, a
-/// panel over RossTalk, a mixer over TSL UMD, a tracked camera over FreeD; and a graphics computer
-/// that hears the camera of every tick.
+/// A whole show with all its controllers, each over a loopback socket: an operator over OSC, a panel
+/// over RossTalk, a mixer over TSL UMD, a tracked camera over FreeD, and a graphics computer that
+/// receives the camera of every tick.
 class WholeShow : public testing::Test {
   protected:
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    /// A rig and a host that know nothing of one another become a stage.
+    /// Pairs a rig and a host, which makes them a stage.
     void set_up_the_stage() {
         const auto [stream, pairing] = two_free_ports();
         std::filesystem::create_directories(file("left"));
@@ -59,7 +59,7 @@ class WholeShow : public testing::Test {
         const ProgramResult result = host.end();
         ASSERT_EQ(result.status, 0) << result.err;
         ASSERT_EQ(event_of(result.out, "checked")["ready"], true) << result.out;
-        // A computer that is busy with other tests may be late.
+        // A busy computer may be late.
         std::string stage = read_text_file(file("stage.toml"), 1 << 16);
         const std::size_t first = stage.find("version = 1\n");
         ASSERT_NE(first, std::string::npos) << stage;
@@ -104,13 +104,13 @@ class WholeShow : public testing::Test {
     void ask(const std::string& words) const {
         ASSERT_TRUE(show_->send("/vantage/" + words)) << words;
     }
-    /// "GPI 3", over RossTalk.
+    /// Sends a command such as "GPI 3" over RossTalk.
     void press(const std::string& line) const {
         const std::string said =
             fmt::format("printf '{}\\r\\n' >/dev/tcp/127.0.0.1/{}", line, panel_port_);
         ASSERT_EQ(run_to_end("/bin/bash", {"-c", said}).status, 0) << line;
     }
-    /// What the mixer says of the display, in TSL UMD 3.1.
+    /// Sends the mixer's tally in TSL UMD 3.1.
     void tally(int lamps) const {
         std::string message(18, ' ');
         message[0] = static_cast<char>(0x80 + 5);
@@ -120,19 +120,19 @@ class WholeShow : public testing::Test {
     void track(const CameraState& camera) const {
         send(encode_freed(freed_camera(camera, 1)), tracker_port_);
     }
-    /// The time code is that of the pulse that is shown.
+    /// Checks that the time code belongs to the pulse that is shown.
     void expect_time_code_of(std::uint64_t pulse) const {
         const TimecodeClock clock(show_rate_hz);
         std::string told;
         for (int i = 0; i < 500; ++i, usleep(20'000)) {
             told = show_->lamp("timecode");
-            // Of a computer whose clock knows TAI, or none.
+            // The computer's clock may or may not know TAI.
             for (const int offset_s : {0, 37})
                 if (told == clock.of_pulse(pulse, offset_s)) return;
         }
         ADD_FAILURE() << told << " is not the time code of pulse " << pulse;
     }
-    /// Once it has stood for longer than lamps take to be told.
+    /// Waits until the value has been stable for longer than the lamps' period.
     std::uint64_t settled_pulse() const {
         std::string told = show_->lamp("pulse");
         for (int tries = 0, stood = 0; tries < 600 && stood < 30; ++tries, usleep(100'000)) {
@@ -152,13 +152,13 @@ class WholeShow : public testing::Test {
         return {};
     }
 
-    /// Where things stand: the picture of now is looked at when the film has ended.
+    /// Notes the present state; its picture is checked when the film has ended.
     void stop_for_a_picture(const std::string& name) {
         usleep(1'000'000);
         stops_[name] = MonotonicClock::now();
         usleep(1'000'000);
     }
-    /// Of the film, which ended at `end` with so many ticks.
+    /// Reads the frame of a noted state from the film, which ended at `end` with this many ticks.
     cv::Mat picture_at(const std::string& name, MonotonicTime end, int ticks) const {
         const std::chrono::duration<double> left = end - stops_.at(name);
         const std::string picture = file(name + ".png");
@@ -169,7 +169,7 @@ class WholeShow : public testing::Test {
         EXPECT_EQ(result.status, 0) << name << ": " << result.err;
         return read_colour_image(picture);
     }
-    /// What was on air where things stood.
+    /// Checks the programme's pictures at the noted states.
     void expect_pictures(MonotonicTime end, int ticks) const {
         std::map<std::string, cv::Mat> pictures;
         for (const auto& [name, time] : stops_) {
@@ -215,7 +215,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     ASSERT_TRUE(shows("take", "1"));
     EXPECT_TRUE(shows("film", "1"));
 
-    // A clip is marked by the panel while the programme is live, and on air.
+    // The panel marks a clip while the programme is live.
     tally(1);
     EXPECT_TRUE(shows("programme", "1"));
     press("GPI 3");
@@ -229,7 +229,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     const Clip marked = clip();
     ASSERT_GE(marked.out, marked.in + 5);
 
-    // The moment is frozen, and the camera goes around it.
+    // The instant is frozen, and the camera orbits it.
     tally(2);
     EXPECT_TRUE(shows("preview", "1"));
     EXPECT_TRUE(shows("programme", "0"));
@@ -248,7 +248,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     EXPECT_EQ(settled_pulse(), frozen) << "and the moment stands";
     stop_for_a_picture("orbited");
 
-    // A tracked camera takes over, and a hand takes it back.
+    // A tracked camera takes over, and operator input takes the camera back.
     CameraState tracked;
     tracked.world_from_camera = before;
     tracked.world_from_camera.translation() += Eigen::Vector3d(0.4, 0.2, 0);
@@ -264,7 +264,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     ask("orbit f 3.0");
     EXPECT_TRUE(shows("tracking", "0"));
 
-    // The clip in slow motion, while the stage is recorded on.
+    // The clip plays in slow motion while the stage is still recorded.
     ask("clip_speed i 40");
     press("GPI 7");
     EXPECT_TRUE(shows("replay", "clip"));
@@ -274,7 +274,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     expect_time_code_of(marked.out - 1);
     stop_for_a_picture("clip");
     EXPECT_TRUE(shows("take", "1"));
-    // Twice in a list, the second time at normal speed.
+    // The list has the clip twice, the second time at normal speed.
     ask("add_entry");
     ask("add_entry");
     ASSERT_TRUE(shows("entries", "2"));
@@ -287,7 +287,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     EXPECT_TRUE(shows("pulse", std::to_string(marked.out - 1)));
     stop_for_a_picture("list");
 
-    // Back to live, where the camera is.
+    // Return to live.
     const Pose standing = on_air_.newest();
     press("GPI 1");
     ASSERT_TRUE(shows("live", "1"));
@@ -306,7 +306,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
         EXPECT_EQ(port["unknown"], 0) << port;
         EXPECT_GT(port["obeyed"], 0) << port;
     }
-    EXPECT_GT(summary["hand_to_picture_ms"]["count"], 0);
+    EXPECT_GT(summary["input_to_picture_ms"]["count"], 0);
     const nlohmann::json& film = summary["outputs"][0];
     EXPECT_EQ(film["pictures"].get<int>() + film["dropped"].get<int>(),
               summary["pictures"].get<int>())
@@ -314,7 +314,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     expect_pictures(ended, summary["pictures"].get<int>());
     EXPECT_GT(spread(read_colour_image(file("last.png"))), 20) << "a picture of something";
 
-    // What was recorded meanwhile is there, and other programs are given the camera.
+    // The take is complete, and its camera is exported for other programs.
     EXPECT_EQ(run_to_end(VANTAGE_PROGRAM, {"take", "info", file("take.mkv")}).status, 0);
     const ProgramResult exported =
         run_to_end(VANTAGE_PROGRAM,

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-TEST(Preview, IsFlownWhileTheProgrammeStandsUntilACutOrAFlightBringsItToAir) {
+TEST(Preview, IsFlownWhileTheProgrammeHoldsUntilACutOrAFlight) {
     const TemporaryFolder folder;
     const int port = two_free_ports().first;
     CameraOnAir on_air(port);
@@ -22,10 +22,10 @@ TEST(Preview, IsFlownWhileTheProgrammeStandsUntilACutOrAFlightBringsItToAir) {
                          "600", "--json", "--output", fmt::format("freed://127.0.0.1:{}", port)},
                         folder);
     ASSERT_TRUE(steered.shows("speed", "1")) << steered.told() << steered.show().err();
-    ASSERT_TRUE(steered.shows("hands_preview", "0"));
+    ASSERT_TRUE(steered.shows("preview_camera", "0"));
     const Pose first = on_air.newest();
     ASSERT_TRUE(steered.send("/vantage/preview"));
-    ASSERT_TRUE(steered.shows("hands_preview", "1")) << steered.told();
+    ASSERT_TRUE(steered.shows("preview_camera", "1")) << steered.told();
     ASSERT_TRUE(steered.send("/vantage/orbit f 40.0"));
     ASSERT_TRUE(steered.send("/vantage/source_map"));
     ASSERT_TRUE(steered.shows("source_map", "1")) << "the turn was taken in a step before";
@@ -54,7 +54,7 @@ TEST(Preview, IsFlownWhileTheProgrammeStandsUntilACutOrAFlightBringsItToAir) {
     EXPECT_GT(between, 5) << "and flew there";
     EXPECT_TRUE(steered.shows("auto", "-1"));
     ASSERT_TRUE(steered.send("/vantage/preview"));
-    EXPECT_TRUE(steered.shows("hands_preview", "0"));
+    EXPECT_TRUE(steered.shows("preview_camera", "0"));
 
     steered.show().send_signal(SIGINT);
     const ProgramResult end = steered.show().wait();

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "host_app/replay/clip_file.h"
+#include "host_app/replay/clip_store.h"
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -25,7 +25,7 @@ namespace {
 
 constexpr double rate_hz = 5;
 
-/// A rig on the virtual stage, a host that is steered over OSC.
+/// A rig on the virtual stage, and a host that is steered over OSC.
 class ReplayShow : public testing::Test {
   protected:
     ReplayShow() {
@@ -54,13 +54,13 @@ class ReplayShow : public testing::Test {
     void ask(const std::string& words) const {
         ASSERT_TRUE(show_->send("/vantage/" + words)) << words;
     }
-    /// Of six frames or more.
+    /// Marks a clip of at least six frames.
     void make_clip(const std::string& clips) const {
         ask("no_marks");
         ASSERT_TRUE(shows("mark_in", "0"));
         ask("mark_in");
         ASSERT_TRUE(shows("mark_in", "1"));
-        // The mark may be of a later tick than the lamp that was heard last.
+        // The mark may belong to a later tick than the last lamp.
         ASSERT_TRUE(show_->goes_past("pulse", std::stod(show_->lamp("pulse")) + 7));
         ask("mark_out");
         ASSERT_TRUE(shows("mark_out", "1"));
@@ -79,7 +79,7 @@ class ReplayShow : public testing::Test {
         return {};
     }
 
-    /// Of every tick that the take has, over all its clips and the way back to live.
+    /// Checks the camera of every tick in the take, over all clips and the return to live.
     void expect_the_camera_to_have_flown_without_a_jump() const {
         const ProgramResult exported = run_to_end(
             VANTAGE_PROGRAM,
@@ -111,8 +111,8 @@ class ReplayShow : public testing::Test {
             last = row;
         }
         EXPECT_GT(farthest_m, 0.3) << "a hand has turned it";
-        // A jump of that way in one tick would be more than 15 m/s; it flies at 6, and twice as far
-        // in a tick before which a busy computer left one out.
+        // A jump of this distance in one tick would be more than 15 m/s. The camera flies at 6 m/s,
+        // and twice the distance after a tick that a busy computer missed.
         EXPECT_LT(fastest_m_s, 12.5);
     }
 
@@ -156,7 +156,7 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     ask("play_list");
     EXPECT_TRUE(shows("replay", "list"));
     EXPECT_TRUE(shows("played_entry", "1"));
-    // The second and the third change places while the first plays: 1, 1, 2.
+    // The second and the third entry are swapped while the first plays: 1, 1, 2.
     ask("entry i 2");
     ask("swap i 3");
     EXPECT_EQ(show_->lamp("played_entry"), "1") << "it plays on";
@@ -172,7 +172,8 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
     EXPECT_TRUE(shows("hold", "1"));
     EXPECT_TRUE(shows("take", "1")) << "all the while";
     ask("delete_clip");
-    EXPECT_TRUE(shows("question", "again to delete clip 1, which the play list has 2 times"));
+    EXPECT_TRUE(shows(
+        "question", "give the command again to delete clip 1, which is in the play list 2 times"));
     EXPECT_EQ(show_->lamp("clips"), "2");
     ask("live");
     EXPECT_TRUE(shows("replay", "live"));
@@ -196,7 +197,7 @@ TEST_F(ReplayShow, IsPlayedByAnOperatorWhileTheStageIsRecorded) {
 
     expect_the_camera_to_have_flown_without_a_jump();
 
-    // The clips are of the moments: the take has them too.
+    // The clips are marks in time, so the take has them too.
     SteeredShow played({"play", file("take.mkv"), "--clips", file("stage.clips.toml"), "--headless",
                         "--size", "96x72", "--speed", "0", "--seconds", "600"},
                        folder_);

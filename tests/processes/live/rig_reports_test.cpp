@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A rig with keys that runs, one that does not, and secrets wherever people put them.
+/// A stage with a running rig, a missing rig, and secrets in every file that may have them.
 class RigReports : public testing::Test {
   protected:
     RigReports() {
@@ -67,7 +67,7 @@ class RigReports : public testing::Test {
     std::unique_ptr<ChildProgram> rig_;
 };
 
-TEST_F(RigReports, hold_what_helps_and_nothing_secret) {
+TEST_F(RigReports, ContainTheFilesWithoutSecrets) {
     const ProgramResult result = rigs({"bugreport", "-o", file("report.tar.gz"), "--json"}, "30");
     ASSERT_EQ(result.status, 0) << result.err << rig_->err();
     EXPECT_EQ(nlohmann::json::parse(result.out).at("answered"), 1);
@@ -100,7 +100,7 @@ TEST_F(RigReports, hold_what_helps_and_nothing_secret) {
     EXPECT_EQ(status.at("rigs")[0].at("health").at("version"), std::string(version()));
 }
 
-TEST_F(RigReports, say_which_versions_run) {
+TEST_F(RigReports, ListTheVersionsOfTheRigs) {
     const ProgramResult result = rigs({"update", "--json"}, "2");
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.err, HasSubstr("1 of 2 rigs did not answer"));

@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Rigs that do not do what they should, and what the host says of them; each a process.
+/// Rigs with faults and the reports of the host; every program is a process.
 class RigTroubles : public testing::Test {
   protected:
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -55,7 +55,7 @@ class RigTroubles : public testing::Test {
         return run_to_end(VANTAGE_PROGRAM, arguments);
     }
 
-    /// Until the program has written these words, a minute at most.
+    /// Waits until the program has logged these words, at most a minute.
     static void wait_for(const ChildProgram& program, const std::string& words) {
         for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
             usleep(10'000);
@@ -65,23 +65,23 @@ class RigTroubles : public testing::Test {
     const std::pair<int, int> ports_ = two_free_ports();
 };
 
-TEST_F(RigTroubles, AreAFailureWithTheReasonOfEachRig) {
+TEST_F(RigTroubles, AreReportedWithTheReasonOfEachRig) {
     write_stage("tcp://no-such-rig.invalid:5600", endpoint(ports_.second),
                 "public_key = \"" + generate_curve_keys().public_key + "\"\n",
                 "key_file = \"host.key\"\n");
     write_key_file(file("host.key"), generate_curve_keys());
     const ProgramResult result = status(5);
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err, "vantage: error: 2 of 2 rigs cannot serve: north, south\n");
+    EXPECT_EQ(result.err, "vantage: error: 2 of 2 rigs cannot send frames: north, south\n");
     EXPECT_THAT(result.out,
                 HasSubstr("north: disconnected: the name no-such-rig.invalid does not resolve"));
     EXPECT_THAT(result.out,
                 HasSubstr("south: disconnected: connection refused at " + endpoint(ports_.second)));
-    EXPECT_THAT(result.out, HasSubstr("synchronisation: not proven by light"));
+    EXPECT_THAT(result.out, HasSubstr("synchronisation: not measured"));
     EXPECT_THAT(result.out, HasSubstr("signal: NO SIGNAL"));
 }
 
-TEST_F(RigTroubles, WithKeysSayWhoseKeyIsWrong) {
+TEST_F(RigTroubles, WithKeysNameTheWrongKey) {
     const CurveKeys rig_keys = generate_curve_keys();
     write_key_file(file("rig.key"), rig_keys);
     write_key_file(file("host.key"), generate_curve_keys());
@@ -91,7 +91,7 @@ TEST_F(RigTroubles, WithKeysSayWhoseKeyIsWrong) {
                   "key_file = \"rig.key\"\nauthorized_hosts = \"authorized_hosts\"\n");
     wait_for(*north, "publishing on");
     const std::string top = "key_file = \"host.key\"\n";
-    // South is the same rig, asked without a key.
+    // South is the same rig without a key.
     write_stage(endpoint(ports_.first), endpoint(ports_.first),
                 "public_key = \"" + rig_keys.public_key + "\"\n", top);
     ProgramResult result = status(60, true);
@@ -109,7 +109,7 @@ TEST_F(RigTroubles, WithKeysSayWhoseKeyIsWrong) {
     EXPECT_THAT(result.err, HasSubstr("does not hold the key"));
 }
 
-TEST_F(RigTroubles, AreNotThatRigsAreArmedAndWaitForAHost) {
+TEST_F(RigTroubles, DoNotIncludeArmedRigs) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const std::string armed = "[trigger]\nrole = \"lead\"\npretended = true\n";
     const auto north = start_rig("north", ports_.first, 5, armed);
@@ -124,7 +124,7 @@ TEST_F(RigTroubles, AreNotThatRigsAreArmedAndWaitForAHost) {
     EXPECT_THAT(told["rigs"][1]["silence"].get<std::string>(), HasSubstr("vantage live"));
 }
 
-TEST_F(RigTroubles, NameARigAtAnotherRate) {
+TEST_F(RigTroubles, IncludeARigAtAnotherRate) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 2);
     const auto south = start_rig("south", ports_.second, 5);
@@ -139,7 +139,7 @@ TEST_F(RigTroubles, NameARigAtAnotherRate) {
     EXPECT_EQ(rigs[1]["sync"]["rate_hz"], 5);
 }
 
-TEST_F(RigTroubles, OfARateThatAllShareLeaveASignal) {
+TEST_F(RigTroubles, OfACommonRateLeaveASignal) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 4);
     const auto south = start_rig("south", ports_.second, 4);
@@ -158,7 +158,7 @@ TEST_F(RigTroubles, OfARateThatAllShareLeaveASignal) {
     const std::string reason = "it runs at 4 Hz";
     const ProgramResult read = status(60);
     EXPECT_THAT(read.out, HasSubstr("north: connected: " + reason));
-    EXPECT_THAT(read.err, HasSubstr("error: 2 of 2 rigs cannot serve: north, south\n"));
+    EXPECT_THAT(read.err, HasSubstr("error: 2 of 2 rigs cannot send frames: north, south\n"));
     EXPECT_THAT(read.err, Not(HasSubstr(reason))) << "once is enough";
     for (const nlohmann::json& rig : told["rigs"]) EXPECT_TRUE(rig["delivers"]) << rig;
     host.send_signal(SIGINT);
@@ -167,7 +167,7 @@ TEST_F(RigTroubles, OfARateThatAllShareLeaveASignal) {
     EXPECT_THAT(result.err, HasSubstr(" 2 of 2 rigs"));
 }
 
-TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
+TEST_F(RigTroubles, AreCountedWhenARigRestarts) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     auto north = start_rig("north", ports_.first, 5);
     const auto south = start_rig("south", ports_.second, 5);
@@ -178,10 +178,10 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
     wait_for(host, " pictures, ");
     north->send_signal(SIGKILL);
     wait_for(host, "rig north is gone");
-    // Its port is free once it has ended, which may be later than its connections.
+    // Its port is free when it has ended, which may be later than its connections.
     EXPECT_EQ(north->wait().status, 128 + SIGKILL);
     north = start_rig("north", ports_.first, 5);
-    // The log's last word of it so far is that it is gone.
+    // The log's last line about it says that it is gone.
     const auto back = [&] {
         const std::string log = host.err();
         return log.rfind("rig north is connected") > log.rfind("rig north is gone");
@@ -202,7 +202,7 @@ TEST_F(RigTroubles, AreInTheAccountWhenARigDiesAndComesBack) {
     EXPECT_EQ(summary["signal"], "live");
 }
 
-TEST_F(RigTroubles, WithANetworkTooNarrowAreToldBeforeAnybodyFilms) {
+TEST_F(RigTroubles, OfASlowNetworkAreReportedByThePlan) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 5);
     const auto south = start_rig("south", ports_.second, 5);
@@ -224,13 +224,13 @@ TEST_F(RigTroubles, WithANetworkTooNarrowAreToldBeforeAnybodyFilms) {
     narrow.insert(narrow.end(), {"--rate", "1000", "--host-link", "100"});
     const ProgramResult refused = run_to_end(VANTAGE_PROGRAM, narrow);
     EXPECT_EQ(refused.status, 1);
-    EXPECT_THAT(refused.err, HasSubstr("Mbit/s of a link of 100, of which four fifths"));
+    EXPECT_THAT(refused.err, HasSubstr("Mbit/s of a link of 100, of which 80 %"));
     const nlohmann::json proposals = nlohmann::json::parse(refused.out)["proposals"];
     ASSERT_FALSE(proposals.empty());
     EXPECT_LE(proposals[0]["host_mbit_s"], 80);
 }
 
-TEST_F(RigTroubles, OfARigThatIsSlowToStartDoNotKeepItFromBeingWeighed) {
+TEST_F(RigTroubles, OfASlowStartDoNotKeepARigFromThePlan) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 5);
     const auto south = start_rig("south", ports_.second, 5);
@@ -240,7 +240,7 @@ TEST_F(RigTroubles, OfARigThatIsSlowToStartDoNotKeepItFromBeingWeighed) {
                       folder_.path());
     wait_for(plan, "the take's first pulse is");
     south->send_signal(SIGSTOP);
-    sleep(3);  // for longer than is weighed
+    sleep(3);  // longer than the measurement
     south->send_signal(SIGCONT);
     const ProgramResult result = plan.wait();
     ASSERT_EQ(result.status, 0) << result.err;

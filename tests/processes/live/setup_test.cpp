@@ -44,7 +44,7 @@ struct SetupTest : testing::Test {
     }
 };
 
-TEST_F(SetupTest, MakesAStageOfTwoRigsThatLiveShowsWithTheirKeys) {
+TEST_F(SetupTest, WritesAStageOfTwoRigsThatLiveCanShow) {
     const std::string north = write_rig("north", streams.first);
     const std::string south = write_rig("south", streams.second);
     const auto north_pair = open_rig("north", north, pairings.first);
@@ -58,7 +58,7 @@ TEST_F(SetupTest, MakesAStageOfTwoRigsThatLiveShowsWithTheirKeys) {
     EXPECT_EQ(north_pair->end().status, 0);
     compare_codes(*host, *south_pair, 1);
     EXPECT_EQ(south_pair->end().status, 0);
-    // Their daemons are started with what pairing wrote, and setup, which waits for them, looks.
+    // The daemons start with the files that pairing wrote, and setup waits for them.
     const ChildProgram north_runs(VANTAGE_RIG_PROGRAM, {"run", "--config", north},
                                   folder.path() / "north");
     const ChildProgram south_runs(VANTAGE_RIG_PROGRAM, {"run", "--config", south},
@@ -80,7 +80,7 @@ TEST_F(SetupTest, MakesAStageOfTwoRigsThatLiveShowsWithTheirKeys) {
     for (const nlohmann::json& rig : report["rigs"]) EXPECT_EQ(rig["state"], "connected") << rig;
 }
 
-TEST_F(SetupTest, TrustsNothingWhereTheCodesAreNotTheSame) {
+TEST_F(SetupTest, TrustsNoRigIfTheCodesDiffer) {
     const std::string north = write_rig("north", streams.first);
     const std::string before = read_text_file(north, 4096);
     const auto rig = open_rig("north", north, pairings.first);
@@ -91,14 +91,15 @@ TEST_F(SetupTest, TrustsNothingWhereTheCodesAreNotTheSame) {
     host->type("000 00x");
     const ProgramResult result = host->end();
     EXPECT_EQ(result.status, 1);
-    EXPECT_NE(result.err.find("not the same"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("differ, so the rig is not trusted"), std::string::npos)
+        << result.err;
     EXPECT_NE(rig->wait_for("failed")["why"].get<std::string>().find("host"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(stage));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "north/hosts.keys"));
     EXPECT_EQ(read_text_file(north, 4096), before);
 }
 
-TEST_F(SetupTest, LeavesAStageThatIsThereAloneUnlessAsked) {
+TEST_F(SetupTest, ChangesAnExistingStageOnlyOnRequest) {
     std::filesystem::create_directories(stage.parent_path());
     const std::string before =
         "version = 1\n[[rigs]]\nname = \"a\"\nendpoint = \"tcp://127.0.0.1:1\"\n";
@@ -108,7 +109,7 @@ TEST_F(SetupTest, LeavesAStageThatIsThereAloneUnlessAsked) {
     const auto host = set_up(fmt::format("--rig 127.0.0.1:{}", pairings.first), "setup");
     const ProgramResult result = host->end();
     EXPECT_EQ(result.status, 1);
-    EXPECT_NE(result.err.find("--add adds north to it"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("use --add to add north to it"), std::string::npos) << result.err;
     EXPECT_EQ(read_text_file(stage, 4096), before);
 }
 

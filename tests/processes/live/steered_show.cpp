@@ -16,7 +16,7 @@ std::vector<std::string> steered(std::vector<std::string> arguments, int port, i
     return arguments;
 }
 
-/// False if that does not come in a minute.
+/// Waits for a condition; false after a minute.
 template <class Condition>
 bool comes(Condition condition) {
     for (int i = 0; i < 3000; ++i) {

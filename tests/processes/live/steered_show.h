@@ -11,21 +11,21 @@
 
 namespace vantage {
 
-/// A show steered by oscsend, whose lamps oscdump watches: each a process of its own.
+/// A show that oscsend steers and whose lamps oscdump prints; each is a process.
 class SteeredShow {
   public:
-    /// `arguments`: of vantage, without --control.
+    /// `arguments` are those of vantage without --control.
     SteeredShow(std::vector<std::string> arguments, const TemporaryFolder& folder);
 
-    /// Sends an OSC address with its types and arguments; false if that could not be done.
+    /// Sends an OSC address with its types and arguments; false on failure.
     bool send(const std::string& words) const;
-    /// Waits until oscdump has printed these words; false if that does not come.
+    /// Waits until oscdump has printed these words; false after a minute.
     bool is_told(const std::string& words) const;
-    /// What a lamp was told to be last, as oscdump writes it: "1", "2.5", "live"; empty: nothing.
+    /// Returns the last value of a lamp as oscdump prints it: "1", "2.5", "live"; empty: none.
     std::string lamp(const std::string& name) const;
-    /// Waits until a lamp is this; a failure that says what it is if that does not come.
+    /// Waits until a lamp has this value; the failure names its last value.
     testing::AssertionResult shows(const std::string& name, const std::string& value) const;
-    /// Waits until a lamp that is a number is above this; false if that does not come.
+    /// Waits until a numeric lamp is above this value; false after a minute.
     bool goes_past(const std::string& name, double value) const;
     std::string told() const { return watcher_.out(); }
     ChildProgram& show() { return show_; }

@@ -159,9 +159,13 @@ class OscPort final : public ControlPort {
             LampValue& last = last_values_[lamp.name];
             if (!is_all && value == last) continue;
             last = value;
-            const std::vector<std::byte> bytes =
-                encode_osc(fmt::format("{}lamp/{}", root, lamp.name), value);
-            for (const Listener& listener : listeners_) (void)socket_.send(bytes, listener.address);
+            for (const std::string_view name : {lamp.name, lamp.old_name}) {
+                if (name.empty()) continue;
+                const std::vector<std::byte> bytes =
+                    encode_osc(fmt::format("{}lamp/{}", root, name), value);
+                for (const Listener& listener : listeners_)
+                    (void)socket_.send(bytes, listener.address);
+            }
         }
     }
 

@@ -82,6 +82,10 @@ MidiLampMap read_midi_lamp(const MidiControl& control, TomlTable& table) {
     for (const Lamp& each : lamps()) {
         if (!std::holds_alternative<bool>(each.of(ShowLamps{}))) continue;
         if (name == each.name) lamp.lamp = &each;
+        if (!name.empty() && name == each.old_name) {
+            warn_of_old_name(name, each.name);
+            lamp.lamp = &each;
+        }
         switches.emplace_back(each.name);
     }
     if (!lamp.lamp)

@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "host_app/camera_paths/camera_path_file.h"
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 

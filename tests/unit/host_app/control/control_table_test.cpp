@@ -10,11 +10,12 @@
 #include "host_app/control/table/control_words.h"
 #include "host_app/control/table/lamp.h"
 #include "tests/support/source_folder.h"
+#include "tests/unit/host_app/flight/given_commands.h"
 
 namespace vantage {
 namespace {
 
-TEST(ControlTable, EveryCommandDoesSomethingAndIsToldApart) {
+TEST(ControlTable, EveryCommandHasAnEffectAndAUniqueName) {
     std::set<std::string> names, keys;
     std::set<std::string> lamp_names;
     for (const Lamp& lamp : lamps()) EXPECT_TRUE(lamp_names.insert(lamp.name).second) << lamp.name;
@@ -56,14 +57,26 @@ TEST(ControlTable, JogMapsNameItsCommands) {
         EXPECT_TRUE(parse_button_command(name)) << name;
 }
 
-TEST(ControlTable, KeysArePutInWords) {
+TEST(ControlTable, OldNamesOfCommandsStillWork) {
+    EXPECT_EQ(find_command("learn_set"), find_command("learn_background"));            // old name
+    EXPECT_EQ(find_command("save_set"), find_command("save_background"));              // old name
+    EXPECT_STREQ(parse_button_command("save_set")->command->name, "save_background");  // old name
+    std::set<std::string> names;
+    for (const Lamp& lamp : lamps())
+        for (const std::string name : {lamp.name, lamp.old_name})
+            EXPECT_TRUE(name.empty() || names.insert(name).second) << name;
+    for (const char* old : {"set", "saved_set", "hands_preview"})  // old name
+        EXPECT_TRUE(names.contains(old)) << old;
+}
+
+TEST(ControlTable, DescribesKeys) {
     EXPECT_EQ(key_words(*find_command("freeze")), "Space");
     EXPECT_EQ(key_words(*find_command("store")), "Ctrl + 1 .. 9");
     EXPECT_EQ(key_words(*find_command("output")), "F5 .. F12");
     EXPECT_EQ(key_words(*find_command("orbit")), "");
 }
 
-TEST(ControlTable, WordsHaveToBeFitToBeShown) {
+TEST(ControlTable, RejectsTextThatCannotBeShown) {
     const ControlCommand& name = *find_command("name_clip");
     EXPECT_EQ(call_of(name, "the leap")->words, "the leap");
     for (const std::string& wrong : {std::string(), std::string(41, 'x'), std::string("a\nb")})
@@ -72,24 +85,25 @@ TEST(ControlTable, WordsHaveToBeFitToBeShown) {
     EXPECT_FALSE(call_of(*find_command("live"), "now"));
 }
 
-TEST(ControlTable, WhatIsAskedOfReplayKeepsItsOrder) {
+TEST(ControlTable, ReplayCommandsKeepTheirOrder) {
     FlightInput input;
     for (const char* words : {"preset 25", "make_clip", "name_clip leap"})
         apply(parse_typed_command(words), input);
-    ASSERT_EQ(input.replay.size(), 3u);
-    EXPECT_EQ(input.replay[0].action, ReplayAction::preset_speed);
-    EXPECT_EQ(input.replay[0].number, 25);
-    EXPECT_EQ(input.replay[2].words, "leap");
+    const std::vector<ReplayCall> calls = replay_calls(input);
+    ASSERT_EQ(calls.size(), 3u);
+    EXPECT_EQ(calls[0].action, ReplayAction::preset_speed);
+    EXPECT_EQ(calls[0].number, 25);
+    EXPECT_EQ(calls[2].words, "leap");
 }
 
-TEST(ControlTable, IsWhatTheDocumentsSay) {
+TEST(ControlTable, MatchesTheDocuments) {
     for (const auto& [page, file] : {std::pair(ControlPage::control, "docs/control.md"),
                                      {ControlPage::replay, "docs/replay_commands.md"}}) {
         std::ostringstream document;
         document << std::ifstream(source_folder() / file).rdbuf();
         for (const std::string& table : {command_table(page), lamp_table(page)})
             EXPECT_NE(document.str().find("\n\n" + table + "\n"), std::string::npos)
-                << file << " has to have what `vantage control` writes:\n"
+                << file << " must contain what `vantage control` writes:\n"
                 << table;
     }
     const nlohmann::json json = control_json();

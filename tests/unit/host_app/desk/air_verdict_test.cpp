@@ -19,17 +19,17 @@ DeskState good_state() {
     return state;
 }
 
-TEST(AirVerdictTest, IsReadyWhereNothingIsMissing) {
+TEST(AirVerdictTest, IsReadyWithoutFaults) {
     const AirVerdict verdict = air_verdict(good_state());
     EXPECT_EQ(verdict.level, Level::ready);
     EXPECT_EQ(verdict.why, "");
 }
 
-TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
+TEST(AirVerdictTest, IsNotReadyWithoutACurrentPicture) {
     DeskState state = good_state();
     state.waiting = true;
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);
-    EXPECT_EQ(air_verdict(state).why, "no rig has sent a picture yet");
+    EXPECT_EQ(air_verdict(state).why, "no rig has sent a frame yet");
     state.has_frame_sets = true;
     EXPECT_EQ(air_verdict(state).why, "the renderer compiles its shaders");
     state = good_state();
@@ -40,51 +40,51 @@ TEST(AirVerdictTest, IsNotReadyWithoutAPictureOfNow) {
     EXPECT_NE(air_verdict(state).why, "");
 }
 
-TEST(AirVerdictTest, TellsOfAHostThatCannotFollow) {
+TEST(AirVerdictTest, ReportsAHostThatIsTooSlow) {
     DeskState state = good_state();
     state.tick_rate_hz = 50;
     state.repeat_rate_hz = 10;
     state.age_s = 0.4;
     EXPECT_EQ(air_verdict(state).level, Level::ready);
     state.repeat_rate_hz = 20.4;
-    EXPECT_EQ(air_verdict(state).level, Level::with_care);
-    EXPECT_EQ(air_verdict(state).why, "20 of 50 pictures a second are repeated");
+    EXPECT_EQ(air_verdict(state).level, Level::caution);
+    EXPECT_EQ(air_verdict(state).why, "20 of 50 fps are repeated frames");
     state.age_s = 1.26;
-    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).level, Level::caution);
     EXPECT_EQ(air_verdict(state).why, "the picture is 1.3 s old");
     state.age_s = 4;
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);
     EXPECT_EQ(air_verdict(state).why, "the picture is 4 s old");
 }
 
-TEST(AirVerdictTest, APictureThatIsHeldMayGoOnAir) {
+TEST(AirVerdictTest, AHeldPictureIsReady) {
     DeskState state = good_state();
     state.signal = SignalState::hold;
     EXPECT_EQ(air_verdict(state).level, Level::ready);
 }
 
-TEST(AirVerdictTest, NamesTheRigThatIsMissing) {
+TEST(AirVerdictTest, NamesAMissingRig) {
     DeskState state = good_state();
     state.rigs[1].state = RigState::disconnected;
     EXPECT_EQ(air_verdict(state).level, Level::ready) << "it was there a moment ago";
     state.rigs[1].absent_s = 1.5;
-    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).level, Level::caution);
     EXPECT_EQ(air_verdict(state).why, "south: no link");
 }
 
-TEST(AirVerdictTest, TellsTheEdgeOfTheCorridorFromItsEnd) {
+TEST(AirVerdictTest, DistinguishesTheEdgeOfTheCorridorFromOutside) {
     DeskState state = good_state();
     state.coverage = Coverage{.share = 0.75};
-    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).level, Level::caution);
     EXPECT_EQ(air_verdict(state).why, "the rigs cover 75 % of the picture");
     state.coverage = Coverage{.share = 0.3};
     EXPECT_EQ(air_verdict(state).level, Level::not_ready);
 }
 
-TEST(AirVerdictTest, TellsOfOutputsTakesAndHeat) {
+TEST(AirVerdictTest, ReportsOutputsTakesAndHeat) {
     DeskState state = good_state();
-    state.rigs[0].worries = {"83 C, it slows down from 80"};
-    EXPECT_EQ(air_verdict(state).why, "north: 83 C, it slows down from 80");
+    state.rigs[0].worries = {"83 C, it throttles from 80 C on"};
+    EXPECT_EQ(air_verdict(state).why, "north: 83 C, it throttles from 80 C on");
     state.take.emplace().failure = "the disk is full";
     EXPECT_EQ(air_verdict(state).why, "the take has failed");
     DeskOutput output;
@@ -92,10 +92,10 @@ TEST(AirVerdictTest, TellsOfOutputsTakesAndHeat) {
     output.is_failed = true;
     state.outputs = {output};
     EXPECT_EQ(air_verdict(state).why, "srt://house:9000 has failed");
-    EXPECT_EQ(air_verdict(state).level, Level::with_care);
+    EXPECT_EQ(air_verdict(state).level, Level::caution);
 }
 
-TEST(AirVerdictTest, OfATakeTheRigsNeedNotBeThere) {
+TEST(AirVerdictTest, ATakeNeedsNoSignal) {
     DeskState state = good_state();
     state.signal = SignalState::no_signal;
     state.time.emplace().is_of_take = true;

@@ -12,20 +12,20 @@ CommandPrompt typed(std::string_view words) {
     return prompt;
 }
 
-TEST(CommandPrompt, GivesTheCommandThatIsTyped) {
+TEST(CommandPrompt, ParsesTheTypedCommand) {
     CommandPrompt prompt = typed("clip_speed 50");
     const auto call = prompt.call();
     ASSERT_TRUE(call);
     EXPECT_STREQ(call->command->name, "clip_speed");
     EXPECT_EQ(call->argument, 50);
-    EXPECT_TRUE(prompt.is_open()) << "until it is obeyed";
+    EXPECT_TRUE(prompt.is_open()) << "until the command is executed";
     prompt.close();
     EXPECT_FALSE(prompt.is_open());
     EXPECT_EQ(typed("name_clip the leap").call()->words, "the leap");
     EXPECT_EQ(typed("orbit -12.5").call()->argument, -12.5);
 }
 
-TEST(CommandPrompt, ATimeAloneIsGoneTo) {
+TEST(CommandPrompt, ParsesATimeAlone) {
     for (const char* time : {"20:15:07:12", "-3.5", "12"}) {
         const auto call = typed(time).call();
         ASSERT_TRUE(call) << time;
@@ -34,7 +34,7 @@ TEST(CommandPrompt, ATimeAloneIsGoneTo) {
     }
 }
 
-TEST(CommandPrompt, SaysWhyWhatIsTypedIsNoCommand) {
+TEST(CommandPrompt, ExplainsWhyTextIsNotACommand) {
     for (const auto& [words, why] : {std::pair("clip_sped 50", "did you mean clip_speed?"),
                                      {"clip_speed", "PERCENT (1 to 200)"},
                                      {"clip_speed 300", "1 to 200"},
@@ -48,7 +48,7 @@ TEST(CommandPrompt, SaysWhyWhatIsTypedIsNoCommand) {
     }
 }
 
-TEST(CommandPrompt, CompletesNamesAsFarAsTheyAgree) {
+TEST(CommandPrompt, CompletesTheCommonPrefix) {
     CommandPrompt prompt = typed("last");
     prompt.complete();
     EXPECT_EQ(prompt.line(), "> last_cue_");
@@ -62,7 +62,7 @@ TEST(CommandPrompt, CompletesNamesAsFarAsTheyAgree) {
     EXPECT_EQ(many.line(), "> frame_");
 }
 
-TEST(CommandPrompt, LeavesOutWhatNoCommandHas) {
+TEST(CommandPrompt, IgnoresOtherCharacters) {
     CommandPrompt prompt;
     prompt.open();
     for (const unsigned codepoint : {7u, 0xe4u, 0x1f600u}) prompt.type(codepoint);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/desk/desk_store.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 
@@ -38,7 +37,7 @@ class DeskFile : public testing::Test {
     std::filesystem::path file_ = folder_.path() / "stage.desk.toml";
 };
 
-TEST_F(DeskFile, IsReadAsItWasWritten) {
+TEST_F(DeskFile, IsReadAsWritten) {
     write(to_toml(example()));
     DeskArrangement read = load_desk(file_);
     EXPECT_NEAR(read.switches.eye.azimuth_rad, -1, 0.001);
@@ -46,10 +45,10 @@ TEST_F(DeskFile, IsReadAsItWasWritten) {
     read.switches.eye = example().switches.eye;
     EXPECT_EQ(read, example());
     write("version = 1\n");
-    EXPECT_EQ(load_desk(file_), DeskArrangement()) << "what is left out is as it is at first";
+    EXPECT_EQ(load_desk(file_), DeskArrangement()) << "missing keys have their defaults";
 }
 
-TEST_F(DeskFile, RefusesWhatDoesNotFit) {
+TEST_F(DeskFile, RefusesInvalidValues) {
     expect_refused("panels = 3\n", "panels");
     expect_refused("multiview = true\n", "multiview");
     expect_refused("[eye]\nelevation_deg = 100\n", "elevation_deg");
@@ -57,27 +56,27 @@ TEST_F(DeskFile, RefusesWhatDoesNotFit) {
     expect_refused("[window]\nx = 1\ny = 1\nwidth = 100\nheight = 500\n", "width");
 }
 
-TEST_F(DeskFile, IsKeptWhenHandsHaveArrangedTheDeskAndOnlyThen) {
+TEST_F(DeskFile, IsWrittenOnlyAfterTheOperatorArrangedTheDesk) {
     EXPECT_EQ(desk_file_of("a/stage.toml"), "a/stage.desk.toml");
     DeskStore store(file_);
     DeskArrangement desk = store.desk();
     desk.window = WindowPlace{10, 10, 1280, 720};
     store.follow(desk, MonotonicClock::now());
     store.finish();
-    EXPECT_FALSE(std::filesystem::exists(file_)) << "where it was opened";
+    EXPECT_FALSE(std::filesystem::exists(file_)) << "the window manager chose the place";
     desk.switches.rigs = false;
     store.follow(desk, MonotonicClock::now());
     EXPECT_FALSE(std::filesystem::exists(file_)) << "not yet";
     store.follow(desk, MonotonicClock::now() + 1h);
     EXPECT_EQ(load_desk(file_).window, desk.window);
     EXPECT_FALSE(load_desk(file_).switches.rigs);
-    write("# of somebody else\n");
+    write("# of another program\n");
     desk.window->x = 50;
     store.follow(desk, MonotonicClock::now());
     store.finish();
     EXPECT_EQ(load_desk(file_).window->x, 50);
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "stage.desk-2.toml"))
-        << "what another program wrote stays";
+        << "another program's file is kept";
 }
 
 }  // namespace

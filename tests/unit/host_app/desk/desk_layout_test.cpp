@@ -30,7 +30,7 @@ bool overlap(const DeskRect& a, const DeskRect& b) {
            b.top + slack < a.bottom();
 }
 
-TEST(DeskLayoutTest, PartsStandInTheWindowAndNotOverOneAnother) {
+TEST(DeskLayoutTest, PartsAreInTheWindowAndDoNotOverlap) {
     for (const Size size : sizes)
         for (const int rigs : {0, 1, 2, -2, 4, 9, -9, 16, 104, -102}) {
             const bool has_preview = std::abs(rigs) > 100;
@@ -60,13 +60,13 @@ TEST(DeskLayoutTest, ThePictureIsTheLargestPart) {
     }
 }
 
-TEST(DeskLayoutTest, AllPartsAreThereFromTheSmallestPromisedSizeOn) {
+TEST(DeskLayoutTest, AllPartsExistFromTheSmallestDocumentedSizeOn) {
     for (const Size size : sizes)
         for (const DeskRect& part : parts_of(layout_of(size, 4, wide, true, true)))
             EXPECT_FALSE(part.is_empty()) << size.width << "x" << size.height;
 }
 
-TEST(DeskLayoutTest, AWindowTooSmallForAllKeepsThePictureItsStatusAndItsTime) {
+TEST(DeskLayoutTest, ASmallWindowKeepsPictureStatusAndTimeLine) {
     const DeskLayout layout = layout_of({320, 240});
     EXPECT_TRUE(layout.side.is_empty());
     EXPECT_TRUE(layout.shots.is_empty());
@@ -84,7 +84,7 @@ TEST(DeskLayoutTest, LettersScaleWithTheWindowAndTheDisplayAndStayReadable) {
     EXPECT_LT(letter_height_px(800, 2160, 1), 10) << "a narrow window has room for few letters";
 }
 
-TEST(DeskLayoutTest, ClipsHaveABinOfTheirOwnBesideTheShotsAndNoneWhereThereAreNone) {
+TEST(DeskLayoutTest, ClipsHaveABinBesideTheShotsIfThereAreAny) {
     const DeskLayout without = layout_of({1280, 720}), with = layout_of({1280, 720}, 4, wide, true);
     EXPECT_TRUE(without.clips.is_empty());
     EXPECT_EQ(with.clips.width, with.shots.width);
@@ -111,12 +111,12 @@ TEST(DeskLayoutTest, APreviewIsLargeAndTheProgrammeIsLarger) {
     EXPECT_TRUE(pictures_alone(1280, 720, false).preview.is_empty());
 }
 
-TEST(DeskLayoutTest, ManyRigsStandInRows) {
+TEST(DeskLayoutTest, ManyRigsAreInRows) {
     EXPECT_EQ(layout_of({1280, 720}, 4).rig_rows, 1);
     EXPECT_GT(layout_of({1280, 720}, 12).rig_rows, 1);
 }
 
-TEST(DeskLayoutTest, RigsThatHaveAWindowOfTheirOwnFillIt) {
+TEST(DeskLayoutTest, RigsFillTheirOwnWindow) {
     EXPECT_EQ(best_rig_rows(1280, 720, 13, 1), 1);
     EXPECT_EQ(best_rig_rows(1280, 720, 13, 4), 2);
     EXPECT_EQ(best_rig_rows(2560, 360, 9, 4), 1);

@@ -1,5 +1,3 @@
-#include "host_app/desk/desk_screen.h"
-
 #include <cstdlib>
 #include <set>
 
@@ -7,6 +5,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
+#include "host_app/desk/panels/desk_parts.h"
 #include "host_app/desk/windows/ui_renderer.h"
 #include "tests/unit/host_app/desk/example_desk.h"
 
@@ -29,7 +28,7 @@ class DeskScreen : public testing::Test {
         ImGui::Render();
         renderer_.draw(*ImGui::GetDrawData(), target);
         ColourImage picture = screen.download();
-        // For looking at it.
+        // For a review of the picture.
         if (const char* file = std::getenv("VANTAGE_TEST_PICTURE"))
             write_colour_image(file, picture);
         return picture;
@@ -73,7 +72,7 @@ class DeskScreen : public testing::Test {
     DrawnDesk drawn_;
 };
 
-TEST_F(DeskScreen, LaysNothingOverThePicture) {
+TEST_F(DeskScreen, CoversNoPartOfThePicture) {
     for (const cv::Size size : {cv::Size(640, 360), usual, cv::Size(1920, 1080)}) {
         const ColourImage screen = draw(size);
         const DeskRect inside = drawn_.picture.shrunk(1);
@@ -82,7 +81,7 @@ TEST_F(DeskScreen, LaysNothingOverThePicture) {
     }
 }
 
-TEST_F(DeskScreen, ShowsProgrammeAndPreviewWithNothingOverThemAtAnySize) {
+TEST_F(DeskScreen, CoversNoPartOfProgrammeAndPreviewAtAnySize) {
     desk_.show_preview();
     for (const bool panels : {true, false})
         for (const cv::Size size : {cv::Size(320, 240), cv::Size(640, 360), usual}) {
@@ -101,7 +100,7 @@ TEST_F(DeskScreen, ShowsProgrammeAndPreviewWithNothingOverThemAtAnySize) {
     EXPECT_EQ(&drawn_.in_hand(), &drawn_.picture);
 }
 
-TEST_F(DeskScreen, SaysHowThePreviewStands) {
+TEST_F(DeskScreen, ShowsCoverageAndFlightOfThePreview) {
     desk_.show_preview();
     const ColourImage before = draw();
     const DeskRect over{layout().preview.left, layout().preview.top, layout().preview.width, 18};
@@ -113,7 +112,7 @@ TEST_F(DeskScreen, SaysHowThePreviewStands) {
     EXPECT_GT(differing(before, draw(), name), 20);
 }
 
-TEST_F(DeskScreen, ShowsThePictureAloneWhereTheOperatorWantsThat) {
+TEST_F(DeskScreen, ShowsThePictureAloneWithoutPanels) {
     switches_.panels = false;
     const ColourImage screen = draw();
     for (const cv::Point p : {cv::Point(1, 1), cv::Point(640, 360), cv::Point(1278, 718)})
@@ -134,7 +133,7 @@ TEST_F(DeskScreen, LetterboxesAPictureOfAnotherShape) {
     EXPECT_EQ(at(screen, 270, 5), cv::Vec3b(0, 0, 0));
 }
 
-TEST_F(DeskScreen, ANewPictureAloneIsDrawnAsTheWholeDeskWouldDrawIt) {
+TEST_F(DeskScreen, DrawPictureMatchesTheWholeDesk) {
     state().shots.clear();
     ColourImage ramp(180, 320);
     for (int y = 0; y < ramp.rows; ++y)
@@ -151,7 +150,7 @@ TEST_F(DeskScreen, ANewPictureAloneIsDrawnAsTheWholeDeskWouldDrawIt) {
     EXPECT_LE(cv::norm(ColourImage(screen.download()), expected, cv::NORM_INF), 1);
 }
 
-TEST_F(DeskScreen, TellsInOneLookWhetherItMayGoOnAir) {
+TEST_F(DeskScreen, ShowsWhetherTheProgrammeIsReadyForAir) {
     const DeskRect status = layout().status;
     state().rigs.resize(1);
     const ColourImage ready = draw();
@@ -163,7 +162,7 @@ TEST_F(DeskScreen, TellsInOneLookWhetherItMayGoOnAir) {
     EXPECT_GT(differing(ready, draw(), status), 400);
 }
 
-TEST_F(DeskScreen, TellsTheStateOfARigByItsWordsAndItsPicture) {
+TEST_F(DeskScreen, ShowsTheStateOfARigInWordsAndPicture) {
     const DeskRect rigs = layout().rigs;
     const DeskRect first{rigs.left, rigs.top, rigs.width / 3, rigs.height};
     const DeskRect rest{rigs.left + rigs.width / 3, rigs.top, 2 * rigs.width / 3, rigs.height};
@@ -177,9 +176,9 @@ TEST_F(DeskScreen, TellsTheStateOfARigByItsWordsAndItsPicture) {
     EXPECT_EQ(differing(before, after, rest), 0);
 }
 
-TEST_F(DeskScreen, ShowsWhatATechnicianShouldLookAfter) {
+TEST_F(DeskScreen, ShowsTheWorriesOfARig) {
     const ColourImage before = draw();
-    state().rigs[0].worries = {"83 C, it slows down from 80"};
+    state().rigs[0].worries = {"83 C, it throttles from 80 C on"};
     EXPECT_GT(differing(before, draw(), layout().side), 100);
     EXPECT_GT(differing(before, draw(), layout().rigs), 50);
 }
@@ -219,7 +218,7 @@ TEST_F(DeskScreen, ShowsTheKeyframesOfAFlightOnTheTimeLine) {
     EXPECT_LT(differing(before, draw(), line), two);
 }
 
-TEST_F(DeskScreen, ShowsHowFarThePlannedMoveIsOnALineOfItsOwn) {
+TEST_F(DeskScreen, ShowsTheProgressOfThePlannedMove) {
     const DeskRect line = layout().time_line;
     const ColourImage before = draw();
     state().move_progress = 0.8;
@@ -232,21 +231,21 @@ TEST_F(DeskScreen, ShowsHowFarThePlannedMoveIsOnALineOfItsOwn) {
     EXPECT_GT(differing(before, draw(), line), 1000);
 }
 
-TEST_F(DeskScreen, WithoutAPastThereIsNothingToSeekIn) {
+TEST_F(DeskScreen, HasNoTimeLineToClickWithoutAPast) {
     state().time.reset();
     draw();
     EXPECT_FALSE(drawn_.spots.time.has_value());
     EXPECT_TRUE(drawn_.spots.live.is_empty());
 }
 
-TEST_F(DeskScreen, ShotsThatThereAreCanBePressed) {
+TEST_F(DeskScreen, StoredShotsCanBeClicked) {
     draw();
     ASSERT_EQ(drawn_.spots.shots.size(), 2u);
     EXPECT_EQ(drawn_.spots.shots[0].number, 1);
     EXPECT_EQ(drawn_.spots.shots[1].number, 4);
 }
 
-TEST_F(DeskScreen, ClipsAndEntriesCanBePressedAndTellHowTheyStand) {
+TEST_F(DeskScreen, ClipsAndEntriesCanBeClickedAndShowTheirState) {
     const ColourImage before = draw();
     ASSERT_EQ(drawn_.spots.clips.size(), 4u);
     EXPECT_EQ(drawn_.spots.clips[3].number, 4);
@@ -265,7 +264,7 @@ TEST_F(DeskScreen, ClipsAndEntriesCanBePressedAndTellHowTheyStand) {
     EXPECT_GT(differing(before, draw(), parts.status), 50) << "it was played of the list";
 }
 
-TEST_F(DeskScreen, OfManyClipsThoseAroundTheOneInHandAreShown) {
+TEST_F(DeskScreen, ShowsTheClipsAroundTheOneInHand) {
     const DeskClip last = state().replay.clips[3];
     for (int number = 5; number <= 20; ++number) {
         DeskClip clip = last;
@@ -283,7 +282,7 @@ TEST_F(DeskScreen, OfManyClipsThoseAroundTheOneInHandAreShown) {
     EXPECT_EQ(drawn_.spots.clips.back().number, 20);
 }
 
-TEST_F(DeskScreen, ShowsWhatIsTypedAndWhatReplayCouldNotDo) {
+TEST_F(DeskScreen, ShowsTheCommandLineAndNotices) {
     const DeskRect status = layout().status;
     const ColourImage before = draw();
     state().notice = "clip 3 is not in the replay buffer";
@@ -293,7 +292,7 @@ TEST_F(DeskScreen, ShowsWhatIsTypedAndWhatReplayCouldNotDo) {
     EXPECT_GT(differing(noticed, draw(), status), 1000);
 }
 
-TEST_F(DeskScreen, OutputsCanBePressed) {
+TEST_F(DeskScreen, OutputsCanBeClicked) {
     draw();
     ASSERT_EQ(drawn_.spots.outputs.size(), 3u);
     EXPECT_EQ(drawn_.spots.outputs[2].number, 3);
@@ -307,7 +306,7 @@ TEST_F(DeskScreen, ThePlanFollowsTheCamera) {
               300);
 }
 
-TEST_F(DeskScreen, TheStageIsSeenFromOutsideAndTurned) {
+TEST_F(DeskScreen, The3dViewShowsTheStageAndTurns) {
     desk_.add_points();
     const ColourImage plan = draw();
     EXPECT_TRUE(drawn_.spots.outside.is_empty());
@@ -328,7 +327,7 @@ TEST_F(DeskScreen, TheStageIsSeenFromOutsideAndTurned) {
     draw();
 }
 
-TEST_F(DeskScreen, WithoutTheRigsThereIsMoreRoomForTheRest) {
+TEST_F(DeskScreen, WithoutTheRigsTheRestIsLarger) {
     draw();
     const float before = drawn_.spots.time->rect.bottom();
     switches_.rigs = false;
@@ -340,11 +339,11 @@ TEST_F(DeskScreen, NamesTheColoursOfTheSourceMap) {
     const DeskRect side = layout().side;
     const cv::Vec3b of_north(230, 20, 200), of_filled(255, 0, 255);
     EXPECT_EQ(of_colour(draw(), side, of_north) + of_colour(draw(), side, of_filled), 0);
-    state().sources = {{{"north", {230, 20, 200}, 0.61}, {"filled", {255, 0, 255}, 0.04}}, ""};
+    state().sources = {{{"north", {230, 20, 200}, 0.61}, {"inpainted", {255, 0, 255}, 0.04}}, ""};
     EXPECT_GT(of_colour(draw(), side, of_north), 40);
     EXPECT_GT(of_colour(draw(), side, of_filled), 40);
     const ColourImage shares = draw();
-    state().sources = {{}, "The synthesiser points cannot tell."};
+    state().sources = {{}, "The synthesiser points has no source map."};
     EXPECT_GT(differing(shares, draw(), side), 100);
 }
 
@@ -358,7 +357,7 @@ TEST_F(DeskScreen, OpensTheHelpOverEverythingElse) {
     EXPECT_GT(differing(before, after, {440, 200, 400, 300}), 60000);
 }
 
-TEST_F(DeskScreen, TheHelpHasPagesWhereTheWindowIsSmall) {
+TEST_F(DeskScreen, TheHelpHasPagesInASmallWindow) {
     const cv::Size small(640, 360);
     switches_.help = 1;
     const ColourImage first = draw(small);
@@ -368,13 +367,13 @@ TEST_F(DeskScreen, TheHelpHasPagesWhereTheWindowIsSmall) {
         EXPECT_GT(differing(first, draw(small), {0, 0, 640, 360}), 5000) << switches_.help;
 }
 
-TEST_F(DeskScreen, AsksBeforeTheEnd) {
+TEST_F(DeskScreen, ShowsAQuestion) {
     const ColourImage before = draw();
-    state().question = "Esc again to end the programme";
+    state().question = "Press Esc again to quit";
     EXPECT_GT(differing(before, draw(), layout().status), 1000);
 }
 
-TEST_F(DeskScreen, DrawsWithNothingToShowAtAnySize) {
+TEST_F(DeskScreen, DrawsAnEmptyStateAtAnySize) {
     state() = DeskState();
     for (const cv::Size size : {cv::Size(320, 240), cv::Size(640, 360), usual}) {
         const ColourImage screen = draw(size);
@@ -384,7 +383,7 @@ TEST_F(DeskScreen, DrawsWithNothingToShowAtAnySize) {
     }
 }
 
-TEST_F(DeskScreen, AWheelsMapCanBeClickedControlByControl) {
+TEST_F(DeskScreen, ControlsOfAWheelMapCanBeClicked) {
     desk_.open_wheel_map();
     draw();
     EXPECT_TRUE(drawn_.has_overlay);
@@ -393,7 +392,7 @@ TEST_F(DeskScreen, AWheelsMapCanBeClickedControlByControl) {
     EXPECT_EQ(numbers.size(), state().wheel_map->controls.size());
 }
 
-TEST_F(DeskScreen, ListsTheCommandsThatAControlMayHave) {
+TEST_F(DeskScreen, ListsTheCommandsOfAControl) {
     desk_.open_wheel_map();
     DeskWheel& wheel = *state().wheel_map;
     const ColourImage feel = draw();
@@ -408,7 +407,7 @@ TEST_F(DeskScreen, ListsTheCommandsThatAControlMayHave) {
     EXPECT_GT(differing(choosing, draw(), all), 100) << "the list goes along";
 }
 
-TEST_F(DeskScreen, SaysThatThereIsNoWheelInALittleSpace) {
+TEST_F(DeskScreen, ShowsASmallMessageWithoutAWheel) {
     state().wheel_map.reset();
     const ColourImage closed = draw();
     state().wheel_map = DeskWheel();

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "common/gl/objects/texture.h"
+#include "host_app/desk/desk_layout.h"
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/panels/shot_places.h"
 
 namespace vantage {
 
-/// A desk of three rigs in the middle of a show, for tests. Of the context that is current.
+/// A desk of three rigs during a show, for tests. The textures belong to the current context.
 class ExampleDesk {
   public:
     ExampleDesk()
@@ -17,7 +17,7 @@ class ExampleDesk {
           depth(TextureFormat::rgba8, 160, 120, Filter::linear),
           mask(TextureFormat::rgba8, 160, 120, Filter::linear),
           preview_picture(TextureFormat::rgba8, 160, 90, Filter::linear) {
-        // Alpha 0, as where no rig saw the surface: the desk shows the pixel all the same.
+        // Alpha 0 means that no rig sees the surface; the desk must show the pixel nevertheless.
         picture.upload(ColourImage(180, 320, cv::Vec4b(40, 90, 140, 0)));
         colour.upload(ColourImage(120, 160, cv::Vec4b(150, 60, 60, 255)));
         preview_picture.upload(ColourImage(90, 160, cv::Vec4b(90, 130, 60, 255)));
@@ -37,12 +37,12 @@ class ExampleDesk {
         state.synthesiser = "mesh";
         state.steps = {{"capture", 2.1, true}, {"match", 18.4, true}, {"decode", 3.2, false}};
         state.figures = {{"ticks, reprojected, repeated, missed", "5520, 40, 3, 0"},
-                         {"between pictures", "33 ms, 99 % 34, at worst 67"},
-                         {"exposure to picture", "82 ms, 99 % 95, at worst 130"},
-                         {"hand to picture", "41 ms, 99 % 62, at worst 66"},
+                         {"between frames", "33 ms, p99 34, max 67"},
+                         {"exposure to picture", "82 ms, p99 95, max 130"},
+                         {"input to picture", "41 ms, p99 62, max 66"},
                          {"instants, skipped", "5498, 2"},
-                         {"rendering, by level", "0 97 %, 1 3 %"},
-                         {"preparing, by level", "0 100 %"}};
+                         {"rendering, by level", "0: 97 %, 1: 3 %"},
+                         {"preparing, by level", "0: 100 %"}};
         state.rigs = {rig("north", RigState::present), rig("south", RigState::late),
                       rig("east", RigState::disconnected)};
         state.rigs[1].lost_on_the_way = 17;
@@ -71,10 +71,10 @@ class ExampleDesk {
         state.plan = plan();
         state.shots.resize(shot_places);
         state.shots[0] = {"north", &colour, false};
-        state.shots[3] = {"kept", &picture, true};
+        state.shots[3] = {"stored", &picture, true};
     }
 
-    /// A camera on preview that is flown to the right of the programme's.
+    /// Adds a camera on preview, to the right of the programme's.
     void show_preview() {
         DeskPreview preview;
         preview.picture = &preview_picture;
@@ -85,7 +85,7 @@ class ExampleDesk {
         state.preview = preview;
     }
 
-    /// A wall and a performer of points.
+    /// Adds points of a wall and a performer.
     void add_points() {
         for (int i = 0; i < 40; ++i)
             for (int j = 0; j < 25; ++j) {
@@ -96,7 +96,7 @@ class ExampleDesk {
             }
     }
 
-    /// A wheel of five buttons with its ring turned a little, and in hand.
+    /// Opens the map of a wheel with five buttons whose ring is turned and selected.
     void open_wheel_map() {
         using Kind = DeskWheel::Kind;
         DeskWheel wheel;
@@ -144,7 +144,7 @@ class ExampleDesk {
         rig.calibration = "12 d, 0.21 px";
         return rig;
     }
-    /// A list that plays its second entry.
+    /// Adds clips and a play list at its second entry.
     void add_replay() {
         DeskReplay& replay = state.replay;
         for (int number = 1; number <= 4; ++number) {

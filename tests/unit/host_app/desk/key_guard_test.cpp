@@ -5,23 +5,23 @@
 namespace vantage {
 namespace {
 
-TEST(KeyGuardTest, ObeysTheSecondPressWithinItsTime) {
+TEST(KeyGuardTest, ConfirmsTheSecondPressInTime) {
     KeyGuard guard;
     EXPECT_FALSE(guard.confirms("end?", 10));
     EXPECT_EQ(guard.question(11), "end?");
     EXPECT_TRUE(guard.confirms("end?", 12));
     EXPECT_EQ(guard.question(12), "") << "it is answered";
-    EXPECT_FALSE(guard.confirms("end?", 12.1)) << "and asked anew the next time";
+    EXPECT_FALSE(guard.confirms("end?", 12.1)) << "and asked again the next time";
 }
 
-TEST(KeyGuardTest, ForgetsWhatNobodyAnswers) {
+TEST(KeyGuardTest, ForgetsAQuestionAfterItsTime) {
     KeyGuard guard;
     EXPECT_FALSE(guard.confirms("end?", 10));
     EXPECT_EQ(guard.question(10 + KeyGuard::asks_for_s), "");
     EXPECT_FALSE(guard.confirms("end?", 10 + KeyGuard::asks_for_s));
 }
 
-TEST(KeyGuardTest, AnotherQuestionTakesThePlaceOfTheFirst) {
+TEST(KeyGuardTest, ANewQuestionReplacesTheFirst) {
     KeyGuard guard;
     EXPECT_FALSE(guard.confirms("end?", 10));
     EXPECT_FALSE(guard.confirms("replace?", 11));

@@ -15,7 +15,7 @@ class WheelPanelTest : public testing::Test {
         wheel_.controls = {{Kind::turns, "jog", "wheel"}, {Kind::button, "b1", "shot 1"}};
         follow();
     }
-    /// As the desk shows it next.
+    /// Passes the wheel to the panel as the desk does.
     DeskWheel follow() {
         std::optional<DeskWheel> shown = wheel_;
         shown->feel =
@@ -32,14 +32,14 @@ class WheelPanelTest : public testing::Test {
     WheelPanel panel_;
 };
 
-TEST_F(WheelPanelTest, TakesControlsInHand) {
+TEST_F(WheelPanelTest, SelectsControls) {
     EXPECT_EQ(panel_.press(Key::down), (WheelCall{What::select_by, 1}));
     EXPECT_EQ(panel_.press(Key::up), (WheelCall{What::select_by, -1}));
     EXPECT_EQ(panel_.press_control(2), (WheelCall{What::select, 0, "b1"}));
     EXPECT_EQ(panel_.press(Key::escape), WheelCall{What::close});
 }
 
-TEST_F(WheelPanelTest, PutsAChosenCommandIntoTheMap) {
+TEST_F(WheelPanelTest, AssignsAChosenCommand) {
     wheel_.selected = 1;
     follow();
     type("mark_");
@@ -52,7 +52,7 @@ TEST_F(WheelPanelTest, PutsAChosenCommandIntoTheMap) {
     EXPECT_FALSE(follow().is_choosing);
 }
 
-TEST_F(WheelPanelTest, OffersAWheelWhatTakesStepsAndAButtonWhatTakesNone) {
+TEST_F(WheelPanelTest, OffersStepCommandsForAWheelAndOthersForAButton) {
     const auto has = [](Kind kind, const std::string& action) {
         for (const DeskWheel::Choice& choice : wheel_choices(kind))
             if (choice.action == action) return true;
@@ -68,11 +68,11 @@ TEST_F(WheelPanelTest, OffersAWheelWhatTakesStepsAndAButtonWhatTakesNone) {
         EXPECT_TRUE(has(kind, "nothing"));
 }
 
-TEST_F(WheelPanelTest, LeavesTheMapWhereNothingIsChosen) {
+TEST_F(WheelPanelTest, LeavesTheMapUnchangedWithoutAChoice) {
     type("no such command");
     EXPECT_TRUE(follow().choices.empty());
     EXPECT_EQ(panel_.press(Key::enter), std::nullopt);
-    EXPECT_EQ(panel_.press(Key::escape), std::nullopt) << "of the list, not of the map";
+    EXPECT_EQ(panel_.press(Key::escape), std::nullopt) << "it closes the list, not the map";
     EXPECT_FALSE(follow().is_choosing);
 }
 
@@ -83,7 +83,7 @@ TEST_F(WheelPanelTest, ForgetsAChoiceForAnotherControl) {
     EXPECT_EQ(panel_.press(Key::enter), std::nullopt) << "it opens the list";
 }
 
-TEST_F(WheelPanelTest, ChangesTheFeelInHand) {
+TEST_F(WheelPanelTest, ChangesTheSelectedPartOfTheResponse) {
     EXPECT_EQ(panel_.press(Key::right), (WheelCall{What::steps, 1}));
     panel_.press(Key::tab);
     panel_.press(Key::tab);
@@ -91,10 +91,10 @@ TEST_F(WheelPanelTest, ChangesTheFeelInHand) {
     EXPECT_EQ(panel_.press(Key::left), (WheelCall{What::curve, -1}));
     wheel_.selected = 1;
     follow();
-    EXPECT_EQ(panel_.press(Key::left), std::nullopt) << "a button has none";
+    EXPECT_EQ(panel_.press(Key::left), std::nullopt) << "a button has no response";
 }
 
-TEST_F(WheelPanelTest, TakesNoLettersWhileTheMapIsClosed) {
+TEST_F(WheelPanelTest, IgnoresLettersWhileTheMapIsClosed) {
     std::optional<DeskWheel> closed;
     panel_.follow(closed);
     type("orb");

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double tick_s = 0.04;
 
-/// On a dolly along x that pans.
+/// A camera on a dolly along x that pans.
 CameraState at(double x_m, double pan_rad) {
     CameraState camera;
     camera.world_from_camera.translation() = Eigen::Vector3d(x_m, 1.5, 4);
@@ -16,21 +16,21 @@ CameraState at(double x_m, double pan_rad) {
     return camera;
 }
 
-TEST(CameraForecast, OfACameraThatStandsIsWhereItStands) {
+TEST(CameraForecast, KeepsACameraThatStands) {
     CameraForecast forecast;
     forecast.see(at(1, 0.2), 10);
-    EXPECT_TRUE(is_same_view(forecast.in(0.5), at(1, 0.2))) << "seen once";
+    EXPECT_TRUE(is_same_view(forecast.in(0.5), at(1, 0.2))) << "one sample has no speed";
     for (int i = 1; i < 10; ++i) forecast.see(at(1, 0.2), 10 + i * tick_s);
     EXPECT_TRUE(is_same_view(forecast.in(0.5), at(1, 0.2)));
 }
 
-TEST(CameraForecast, GoesOnAsTheCameraGoes) {
+TEST(CameraForecast, ExtrapolatesMotionAndTurn) {
     CameraForecast forecast;
-    // 2 m and half a radian a second.
+    // 2 m/s and 0.5 rad/s.
     for (int i = 0; i <= 10; ++i) forecast.see(at(2 * i * tick_s, 0.5 * i * tick_s), i * tick_s);
     EXPECT_TRUE(is_same_view(forecast.in(0), at(0.8, 0.2)));
     EXPECT_TRUE(is_same_view(forecast.in(0.5), at(1.8, 0.45)));
-    EXPECT_TRUE(is_same_view(forecast.in(30), at(2.8, 0.7))) << "a second ahead at most";
+    EXPECT_TRUE(is_same_view(forecast.in(30), at(2.8, 0.7))) << "at most 1 s ahead";
 }
 
 TEST(CameraForecast, FollowsACameraThatStops) {
@@ -41,7 +41,7 @@ TEST(CameraForecast, FollowsACameraThatStops) {
     EXPECT_TRUE(is_same_view(forecast.in(0.5), at(0.8, 0)));
 }
 
-TEST(CameraForecast, BeginsAnewAtACut) {
+TEST(CameraForecast, StartsAgainAfterACut) {
     CameraForecast forecast;
     forecast.see(at(0, 0), 0);
     forecast.see(at(3, 0), tick_s);

@@ -15,7 +15,7 @@ CameraState turned_camera(CameraState camera, double angle_rad) {
     return camera;
 }
 
-TEST(CameraState, SpansItsFieldOfViewOverTheWidthOfAnyPicture) {
+TEST(CameraState, FieldOfViewSpansTheWidthOfAnyFrame) {
     const CameraState camera{.field_of_view_rad = 60 * deg};
     for (const int width_px : {64, 1280, 1921}) {
         const Eigen::Matrix3d K = camera.K(width_px, 720);
@@ -27,7 +27,7 @@ TEST(CameraState, SpansItsFieldOfViewOverTheWidthOfAnyPicture) {
 }
 
 TEST(CameraState, IsTheSameViewAsItself) {
-    // Rounding must not make an angle of a rotation with itself.
+    // Rounding must not give an angle between a rotation and itself.
     CameraState camera;
     for (int i = 0; i < 200; ++i) {
         camera = turned_camera(camera, 0.1 * i);

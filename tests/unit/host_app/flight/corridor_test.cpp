@@ -11,13 +11,13 @@ Coverage coverage(const std::shared_ptr<const Corridor>& corridor, const OrbitVi
     return corridor->of(view.camera());
 }
 
-TEST(Corridor, ARigsOwnPlaceIsCoveredAndSoIsAllBetweenTwo) {
+TEST(Corridor, CoversTheRigsAndEverythingBetweenTwo) {
     const auto corridor = corridor_of({-20, 20});
     for (const double azimuth_deg : {-20, -10, 0, 10, 20})
         EXPECT_GT(coverage(corridor, view_at(azimuth_deg)).share, 0.99) << azimuth_deg;
 }
 
-TEST(Corridor, FallsSteadilyAsideOfTheRigs) {
+TEST(Corridor, CoverageFallsMonotonicallyBesideTheRigs) {
     const auto corridor = corridor_of({-10, 10});
     double last = 1;
     for (int azimuth_deg = 20; azimuth_deg <= 125; azimuth_deg += 5) {
@@ -28,13 +28,13 @@ TEST(Corridor, FallsSteadilyAsideOfTheRigs) {
     }
 }
 
-TEST(Corridor, AHundredDegreesAsideOfTwoRigsIsBeyond) {
+TEST(Corridor, HundredDegreesBesideTwoRigsIsBeyond) {
     const Coverage aside = coverage(corridor_of({-10, 10}), view_at(100));
     EXPECT_EQ(Corridor::place_of(aside.share), CorridorPlace::beyond) << aside.share;
     EXPECT_EQ(aside.loss, CoverageLoss::aside);
 }
 
-TEST(Corridor, ThirtyDegreesAsideIsInsideAndSixtyIsBeyond) {
+TEST(Corridor, ThirtyDegreesBesideIsInsideAndSixtyIsBeyond) {
     const auto corridor = corridor_of({-10, 10});
     EXPECT_EQ(Corridor::place_of(coverage(corridor, view_at(30)).share), CorridorPlace::inside);
     EXPECT_EQ(Corridor::place_of(coverage(corridor, view_at(50)).share), CorridorPlace::edge);
@@ -47,7 +47,7 @@ TEST(Corridor, TheFarSideOfTheStageIsBehind) {
     EXPECT_EQ(behind.loss, CoverageLoss::behind);
 }
 
-TEST(Corridor, RigsAllAroundCoverAllAround) {
+TEST(Corridor, RingOfRigsCoversAllDirections) {
     const auto corridor = corridor_of({0, 60, 120, 180, 240, 300});
     for (double azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 15)
         EXPECT_GT(coverage(corridor, view_at(azimuth_deg)).share, 0.95) << azimuth_deg;
@@ -60,7 +60,7 @@ TEST(Corridor, LookingAwayFromTheStageIsOutside) {
     EXPECT_EQ(outside.loss, CoverageLoss::outside);
 }
 
-TEST(Corridor, ACameraAmongTheRigsThatLooksAwayFromTheStageSeesWhatIsBehindThem) {
+TEST(Corridor, LookingAwayFromTheStageIsBehindTheRigs) {
     const Eigen::Vector3d eye(0, 1.8, 4.4);
     const Coverage away =
         coverage(corridor_of({-10, 10}), view_from_eye(eye, eye + Eigen::Vector3d::UnitZ(), 0.785));
@@ -68,7 +68,7 @@ TEST(Corridor, ACameraAmongTheRigsThatLooksAwayFromTheStageSeesWhatIsBehindThem)
     EXPECT_EQ(away.loss, CoverageLoss::behind);
 }
 
-TEST(Corridor, ATenthOfTheRigsDistanceIsTooNear) {
+TEST(Corridor, TenthOfTheRigsDistanceIsTooNear) {
     const auto corridor = corridor_of({-10, 10});
     EXPECT_GT(coverage(corridor, view_at(0, 10, 1.5)).share, 0.99);
     const Coverage near = coverage(corridor, view_at(0, 10, 0.35));

@@ -31,7 +31,7 @@ class FlightFile : public testing::Test {
     std::filesystem::path path_ = folder_.path() / "flight.toml";
 };
 
-TEST_F(FlightFile, KeepsShotsAndMovesOfEitherPath) {
+TEST_F(FlightFile, WritesAndReadsShotsAndMovesOfBothPaths) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> any(0, 1);
     for (const MovePath path : {MovePath::orbit, MovePath::free}) {
@@ -74,7 +74,7 @@ TEST_F(FlightFile, KeepsShotsAndMovesOfEitherPath) {
     }
 }
 
-TEST_F(FlightFile, TakesBackACameraThatStandsAtItsLimits) {
+TEST_F(FlightFile, ReadsBackACameraAtItsLimits) {
     const FlightLimits limits;
     for (int i = 0; i < 200; ++i) {
         OrbitView view;
@@ -98,7 +98,7 @@ TEST_F(FlightFile, KeepsAStageThatReachesBelowTheOrigin) {
     expect_same(again.shots[0]->view, low);
 }
 
-TEST_F(FlightFile, TakesACamerasHead) {
+TEST_F(FlightFile, ReadsPanAndTilt) {
     const FlightBook book = read(R"(version = 1
 path = "free"
 [[keyframe]]
@@ -121,7 +121,7 @@ tilt_deg = -10
     EXPECT_NEAR(last.world_from_camera.linear().col(2).y(), std::sin(-10 * deg), 1e-9);
 }
 
-TEST_F(FlightFile, RefusesWithFileLineAndReason) {
+TEST_F(FlightFile, RejectsInvalidValuesWithFileLineAndReason) {
     const std::string head = "version = 1\n", key = "[[keyframe]]\ntime_s = 0\n",
                       shot = "[[shot]]\nnumber = 1\n";
     const struct {

@@ -9,7 +9,8 @@
 namespace vantage {
 namespace {
 
-/// A hand that turns, stops, dollies in and lifts; `rolls` as only a tracked camera does.
+/// A flight that turns, stops, dollies in and rises; with `rolls` it also rolls, as a tracked
+/// camera.
 FlightRecording hand_flight(double rate_hz, bool rolls) {
     FlightRecording flight;
     for (int i = 0; i < 20 * rate_hz; ++i) {
@@ -36,7 +37,7 @@ void expect_within(const FlightRecording& flight, const Move& move, const Flight
     }
 }
 
-TEST(SimplifiedFlight, IsAMoveOfFewKeyframesWithinTheTolerance) {
+TEST(SimplifiedFlight, HasFewKeyframesWithinTheTolerance) {
     const FlightTolerance tolerance;
     for (const MovePath path : {MovePath::orbit, MovePath::free}) {
         const FlightRecording flight = hand_flight(50, path == MovePath::free);
@@ -49,7 +50,7 @@ TEST(SimplifiedFlight, IsAMoveOfFewKeyframesWithinTheTolerance) {
     }
 }
 
-TEST(SimplifiedFlight, TakesMoreKeyframesForASmallerTolerance) {
+TEST(SimplifiedFlight, NeedsMoreKeyframesForASmallerTolerance) {
     const FlightRecording flight = hand_flight(50, false);
     const auto keyframes = [&](double factor) {
         const FlightTolerance tolerance{0.01 * factor, 0.0017 * factor};
@@ -81,10 +82,10 @@ TEST(SimplifiedFlight, FollowsTimeInATakeThroughAFreeze) {
         EXPECT_NEAR(*made.move.take_s_at(sample.time_s), *sample.take_s, 0.02 + 1e-9);
     flight[7].take_s.reset();
     EXPECT_FALSE(simplified(flight, {}, {}, MovePath::orbit).move.take_s_at(0))
-        << "partly out of the take: it says nothing of it";
+        << "the flight was partly outside the take, so the move has no take times";
 }
 
-TEST(SimplifiedFlight, GivesUpToleranceBeforeItHasTooManyKeyframes) {
+TEST(SimplifiedFlight, RaisesTheToleranceAtTheMaximumOfKeyframes) {
     FlightRecording flight;
     for (int i = 0; i < 4000; ++i) {
         OrbitView view;

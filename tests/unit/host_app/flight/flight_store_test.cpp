@@ -52,23 +52,23 @@ class FlightStoreTest : public testing::Test {
     MonotonicTime now_{1h};
 };
 
-TEST(FlightStoreFile, LiesBesideTheStageOrTheTake) {
+TEST(FlightStoreFile, IsBesideTheStageOrTheTake) {
     EXPECT_EQ(flight_file_of("a/stage.toml"), "a/stage.flight.toml");
     EXPECT_EQ(flight_file_of("take-2.mkv"), "take-2.flight.toml");
 }
 
-TEST_F(FlightStoreTest, WritesNothingWhereNothingWasChanged) {
+TEST_F(FlightStoreTest, WritesNothingWithoutAChange) {
     FlightStore store(file_);
     EXPECT_FALSE(store.follow(MonotonicClock::now() + 1h));
     store.finish();
     EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(FlightStoreTest, KeepsWhatHandsStoreForTheNextSession) {
+TEST_F(FlightStoreTest, KeepsStoredShotsForTheNextSession) {
     {
         FlightStore store(file_);
         store.keep(shot(0.5));
-        EXPECT_EQ(files(), 0u) << "several changes are one writing";
+        EXPECT_EQ(files(), 0u) << "several changes are written at once";
         (void)store.follow(MonotonicClock::now() + 2s);
         EXPECT_EQ(files(), 1u);
         store.keep(shot(0.7));
@@ -78,7 +78,7 @@ TEST_F(FlightStoreTest, KeepsWhatHandsStoreForTheNextSession) {
     EXPECT_NEAR(FlightStore(file_).book().shots[0]->view.azimuth_rad, 0.7, 1e-7);
 }
 
-TEST_F(FlightStoreTest, PutsAFileAsideThatAnotherHasChanged) {
+TEST_F(FlightStoreTest, KeepsAFileThatAnotherProgramChanged) {
     FlightStore store(file_);
     std::ofstream(file_) << "# by hand\nversion = 1\n";
     store.keep(shot(0.5));
@@ -87,7 +87,7 @@ TEST_F(FlightStoreTest, PutsAFileAsideThatAnotherHasChanged) {
     EXPECT_NE(text().find("wide"), std::string::npos);
 }
 
-TEST_F(FlightStoreTest, PutsAMoveAsideForAFlightThatTakesItsPlace) {
+TEST_F(FlightStoreTest, KeepsTheOldFileWhenARecordedFlightReplacesTheMove) {
     {
         FlightStore first(file_);
         first.keep(move(0.25));
@@ -104,10 +104,10 @@ TEST_F(FlightStoreTest, PutsAMoveAsideForAFlightThatTakesItsPlace) {
     EXPECT_EQ(FlightStore(file_).book().move->keyframes().size(), made->keyframes().size());
     store.keep(move(0.5));
     store.finish();
-    EXPECT_EQ(files(), 2u) << "what hands change of the move is the move";
+    EXPECT_EQ(files(), 2u) << "an edited move is still the file's move";
 }
 
-TEST_F(FlightStoreTest, PutsItsMoveAsideWhenAnotherOneIsFlownAndChanged) {
+TEST_F(FlightStoreTest, KeepsTheOldFileWhenAnotherMoveIsEdited) {
     {
         FlightStore first(file_);
         first.keep(move(0.25));
@@ -127,14 +127,14 @@ TEST_F(FlightStoreTest, PutsItsMoveAsideWhenAnotherOneIsFlownAndChanged) {
                 0.25, 1e-7);
 }
 
-TEST_F(FlightStoreTest, FinishesFlightsThatAreStillSimplified) {
+TEST_F(FlightStoreTest, WaitsForFlightsThatAreBeingSimplified) {
     FlightStore store(file_);
     store.simplify(recording(), {});
     store.finish();
     EXPECT_TRUE(FlightStore(file_).book().move);
 }
 
-TEST_F(FlightStoreTest, GoesOnWhereTheFolderTakesNoFile) {
+TEST_F(FlightStoreTest, ContinuesIfTheFolderIsNotWritable) {
     FlightStore store(folder_.path() / "none" / "stage.flight.toml");
     store.keep(shot(0.5));
     (void)store.follow(MonotonicClock::now() + 2s);
@@ -143,7 +143,7 @@ TEST_F(FlightStoreTest, GoesOnWhereTheFolderTakesNoFile) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "none" / "stage.flight.toml"));
 }
 
-TEST_F(FlightStoreTest, RefusesAFileThatIsNone) {
+TEST_F(FlightStoreTest, RejectsAnInvalidFile) {
     std::ofstream(file_) << "version = 1\nshots = 3\n";
     EXPECT_NE(thrown_sentence([&] { FlightStore store(file_); }).find("stage.flight.toml:2"),
               std::string::npos);

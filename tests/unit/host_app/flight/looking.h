@@ -8,7 +8,7 @@ namespace vantage {
 
 inline constexpr double deg = std::numbers::pi / 180;
 
-/// Views that differ by where they stand alone.
+/// Views on one orbit, which differ in azimuth only.
 inline OrbitView looking(double azimuth_rad) {
     OrbitView view;
     view.azimuth_rad = azimuth_rad;

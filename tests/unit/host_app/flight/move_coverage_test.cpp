@@ -16,11 +16,11 @@ Move move_through(std::initializer_list<double> azimuths_deg, bool loop = false)
     return Move(keyframes, loop);
 }
 
-TEST(MoveCoverage, AMoveAmongTheRigsIsCoveredThroughout) {
+TEST(MoveCoverage, MoveBetweenTheRigsIsCovered) {
     EXPECT_TRUE(uncovered_parts(move_through({-10, 10}), *corridor_of({-10, 10})).empty());
 }
 
-TEST(MoveCoverage, NamesThePartThatIsBeyondWithItsTimesAndItsWorst) {
+TEST(MoveCoverage, ReportsAnUncoveredPartWithItsTimesAndLeastCoverage) {
     const auto corridor = corridor_of({-10, 10});
     const Move move = move_through({0, 100, 0});
     const std::vector<UncoveredPart> parts = uncovered_parts(move, *corridor);
@@ -32,7 +32,7 @@ TEST(MoveCoverage, NamesThePartThatIsBeyondWithItsTimesAndItsWorst) {
     EXPECT_EQ(parts[0].least.loss, CoverageLoss::aside);
 }
 
-TEST(MoveCoverage, NamesEveryPartAndTheLastInstantToo) {
+TEST(MoveCoverage, ReportsEveryPartUpToTheEnd) {
     const std::vector<UncoveredPart> parts =
         uncovered_parts(move_through({100, 0, 100}), *corridor_of({-10, 10}));
     ASSERT_EQ(parts.size(), 2u);
@@ -40,7 +40,7 @@ TEST(MoveCoverage, NamesEveryPartAndTheLastInstantToo) {
     EXPECT_EQ(parts[1].to_s, 20);
 }
 
-TEST(MoveCoverage, TheMovesThatComeWithVantageStayInside) {
+TEST(MoveCoverage, SuppliedMovesAreCovered) {
     const Move demo = Move::load(source_folder() / "hw_config/moves/demo.toml");
     const auto corridor = corridor_of({-30, -10, 10, 30});
     for (double time_s = 0; time_s < demo.duration_s(); time_s += 0.05)

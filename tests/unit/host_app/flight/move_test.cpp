@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/flight/pan_tilt_roll.h"
+#include "host_app/flight/orbit_view.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -49,7 +49,7 @@ TEST(Move, HoldsItsEndsBeyondThem) {
     EXPECT_EQ(move.at(50).azimuth_rad, 2);
 }
 
-TEST(Move, HasNoJerkOfSpeedAtASmoothKeyframe) {
+TEST(Move, SpeedIsContinuousAtASmoothKeyframe) {
     const Move move = move_of({0, 1, -1, 0.5}, Easing::smooth);
     // Catmull-Rom: the speed at a keyframe is the slope between its neighbours.
     EXPECT_NEAR(speed(move, 1 - 1e-4), -0.5, 1e-2);
@@ -102,7 +102,7 @@ TEST(Move, LoopsWithoutASeam) {
     EXPECT_NEAR(speed(move, 1e-4), 0.375 * turn, 1e-2);
 }
 
-TEST(Move, StaysAboveTheFloorWhereTheCurveSwingsBelowIt) {
+TEST(Move, StaysAboveTheFloorWhereTheCurveOvershoots) {
     std::vector<MoveKeyframe> keyframes;
     for (const double elevation : {0.8, -0.18, -0.18, 0.8}) {
         OrbitView view;
@@ -144,7 +144,7 @@ TEST(FreeMove, PassesThroughEveryKeyframeAlsoStraightDown) {
     }
 }
 
-TEST(FreeMove, MovesAndTurnsWithoutAJerkOfSpeed) {
+TEST(FreeMove, SpeedAndTurnRateAreContinuous) {
     const Move move = free_move(Easing::smooth);
     constexpr double h = 1e-4;
     const auto speeds = [&](double time_s) {
@@ -178,7 +178,7 @@ class MoveFile : public testing::Test {
         std::ofstream(path) << text;
         return path;
     }
-    /// The sentence with which the file is refused; empty if it is taken.
+    /// The error message for the file; empty if it is valid.
     std::string refusal(const std::string& text) {
         return thrown_sentence([&] { Move::load(write(text)); });
     }
@@ -199,7 +199,7 @@ time_s = 2
 azimuth_deg = 370
 )";
 
-TEST_F(MoveFile, KeepsWhatAKeyframeLeavesOut) {
+TEST_F(MoveFile, KeyframesInheritOmittedValues) {
     const Move move = Move::load(write(two_keyframes));
     EXPECT_EQ(move.duration_s(), 2);
     EXPECT_FALSE(move.loops());
@@ -210,7 +210,7 @@ TEST_F(MoveFile, KeepsWhatAKeyframeLeavesOut) {
     EXPECT_NEAR(end.field_of_view_rad, 40 * deg, 1e-12);
 }
 
-TEST_F(MoveFile, TakesEyeAndTarget) {
+TEST_F(MoveFile, ReadsEyeAndTarget) {
     const Move move = Move::load(write(R"(version = 1
 [[keyframe]]
 time_s = 0
@@ -223,7 +223,7 @@ eye_m = [0, 1, -3]
     EXPECT_NEAR(move.at(0).azimuth_rad, 90 * deg, 1e-12);
     EXPECT_NEAR(move.at(1).azimuth_rad, 180 * deg, 1e-12);
     EXPECT_TRUE(move.at(1).eye_m().isApprox(Eigen::Vector3d(0, 1, -3)));
-    EXPECT_NEAR(move.at(0.5).distance_m, 3, 1e-12) << "orbits, and does not take the chord";
+    EXPECT_NEAR(move.at(0.5).distance_m, 3, 1e-12) << "an orbit, not the chord";
 }
 
 TEST_F(MoveFile, LoopsOverWholeTurns) {
@@ -231,7 +231,7 @@ TEST_F(MoveFile, LoopsOverWholeTurns) {
     EXPECT_TRUE(move.loops());
 }
 
-TEST_F(MoveFile, RefusesWithFileLineAndReason) {
+TEST_F(MoveFile, RejectsInvalidValuesWithFileLineAndReason) {
     const std::string head = "version = 1\n";
     const std::string first = "[[keyframe]]\ntime_s = 0\n", second = "[[keyframe]]\ntime_s = 1\n";
     const struct {
@@ -258,7 +258,7 @@ TEST_F(MoveFile, RefusesWithFileLineAndReason) {
     }
 }
 
-TEST_F(MoveFile, TheMovesThatComeWithVantageAreTaken) {
+TEST_F(MoveFile, SuppliedMovesAreValid) {
     for (const char* name : {"demo.toml", "freeze.toml", "pair.toml", "sweep.toml"}) {
         const Move move = Move::load(source_folder() / "hw_config/moves" / name);
         EXPECT_GT(move.duration_s(), 5) << name;

@@ -24,14 +24,15 @@ TEST(OrbitCamera, SettlesOnItsGoal) {
     EXPECT_NEAR(camera.view().distance_m, 4.5 * std::exp(-0.4), 1e-9);
 }
 
-TEST(OrbitCamera, DragsAPointAtThePivotByTheWholePicture) {
+TEST(OrbitCamera, PanOfOneWidthMovesThePivotAcrossThePicture) {
     OrbitView start;
     start.azimuth_rad = 0.5;
     start.elevation_rad = 0.3;
     OrbitCamera camera{start};
     camera.pan(1, 0);
     settle(camera);
-    // The old pivot, which was in the middle, is now at the left edge's half picture further on.
+    // The old pivot has moved from the middle of the picture to half a picture beyond its left
+    // edge.
     const OrbitView& view = camera.view();
     const Eigen::Vector3d old_pivot = view.world_from_camera().inverse() * start.pivot_m;
     const double half_width = std::tan(0.5 * view.field_of_view_rad);
@@ -51,10 +52,10 @@ TEST(OrbitCamera, TurnsNoFasterThanTheLimit) {
     EXPECT_NEAR(camera.view().azimuth_rad,
                 (50 * 0.04 - 0.5 * limits.ramp_s) * limits.max_turn_rad_s,
                 0.02 * limits.max_turn_rad_s)
-        << "but for its ramp";
+        << "except for its ramp";
 }
 
-TEST(OrbitCamera, GathersAndLosesSpeedNoFasterThanItsRamp) {
+TEST(OrbitCamera, SpeedChangesNoFasterThanItsRamp) {
     for (const double ramp_s : {0.1, 0.5, 2.0}) {
         FlightLimits limits;
         limits.ramp_s = ramp_s;
@@ -71,11 +72,11 @@ TEST(OrbitCamera, GathersAndLosesSpeedNoFasterThanItsRamp) {
             highest = std::max(highest, before);
         }
         EXPECT_NEAR(before, 2, 1e-4) << ramp_s;
-        EXPECT_LT(highest, 2.02) << "it brakes in time, " << ramp_s;
+        EXPECT_LT(highest, 2.02) << "no overshoot with a ramp of " << ramp_s;
     }
 }
 
-TEST(OrbitCamera, FollowsAsCloselyAsItIsTold) {
+TEST(OrbitCamera, FollowsWithItsTimeConstant) {
     const auto gone = [](double follow_s) {
         FlightLimits limits;
         limits.follow_s = follow_s;
@@ -89,7 +90,7 @@ TEST(OrbitCamera, FollowsAsCloselyAsItIsTold) {
     EXPECT_GT(gone(0.05), gone(0.5));
 }
 
-TEST(OrbitCamera, CranesStraightUpAndLooksAroundWhereItStands) {
+TEST(OrbitCamera, CranesStraightUpAndLooksAroundInPlace) {
     OrbitView start;
     start.elevation_rad = 0.5;
     OrbitCamera camera{start};
@@ -108,7 +109,7 @@ TEST(OrbitCamera, CranesStraightUpAndLooksAroundWhereItStands) {
     EXPECT_LT(there.y(), -0.1) << "up";
 }
 
-TEST(OrbitCamera, RollsAndIsLevelledTheShorterWay) {
+TEST(OrbitCamera, RollsAndLevelsTheShorterWay) {
     OrbitCamera camera{OrbitView()};
     camera.roll(6);
     settle(camera);
@@ -169,7 +170,7 @@ TEST(OrbitCamera, StandsStillWhileNoTimePasses) {
     EXPECT_EQ(camera.view().azimuth_rad, 0);
 }
 
-/// Turns it by a wheel that is turned on and on, and gives how far it came a step.
+/// Turns a camera by steady wheel input, and returns the way of each step.
 std::vector<double> steps_of_a_turning_hand(OrbitCamera& camera, int steps, double turn_deg) {
     std::vector<double> way_deg;
     for (int i = 0; i < steps; ++i) {
@@ -181,7 +182,7 @@ std::vector<double> steps_of_a_turning_hand(OrbitCamera& camera, int steps, doub
     return way_deg;
 }
 
-TEST(OrbitCameraInACorridor, IsSlowedWithoutAJerkAndStandsAtItsEnd) {
+TEST(OrbitCameraInACorridor, SlowsSmoothlyAndStopsAtTheEnd) {
     const auto corridor = corridor_of({-10, 10});
     OrbitCamera camera{view_at(0)};
     camera.keep_within(corridor);
@@ -196,7 +197,7 @@ TEST(OrbitCameraInACorridor, IsSlowedWithoutAJerkAndStandsAtItsEnd) {
     EXPECT_LT(share, Corridor::end + 0.05);
 }
 
-TEST(OrbitCameraInACorridor, ComesBackAtOnceWhenTheHandTurnsBack) {
+TEST(OrbitCameraInACorridor, ReturnsAtOnceWhenInputReverses) {
     OrbitCamera camera{view_at(0)};
     camera.keep_within(corridor_of({-10, 10}));
     steps_of_a_turning_hand(camera, 500, 2);
@@ -204,7 +205,7 @@ TEST(OrbitCameraInACorridor, ComesBackAtOnceWhenTheHandTurnsBack) {
     EXPECT_LT(back_deg.back(), -0.5);
 }
 
-TEST(OrbitCameraInACorridor, MovesFreelyAlongItsEnd) {
+TEST(OrbitCameraInACorridor, MovesFreelyAlongTheEnd) {
     OrbitCamera camera{view_at(0)};
     camera.keep_within(corridor_of({-10, 10}));
     steps_of_a_turning_hand(camera, 500, 0.5);
@@ -223,7 +224,7 @@ TEST(OrbitCameraInACorridor, DoesNotCrossTheEndInOneLongStep) {
     EXPECT_GE(corridor->of(camera.view().camera()).share, Corridor::end);
 }
 
-TEST(OrbitCameraInACorridor, FromBeyondGoesOnlyInwards) {
+TEST(OrbitCameraInACorridor, OutsideItMovesInwardsOnly) {
     OrbitCamera camera{view_at(100)};
     camera.keep_within(corridor_of({-10, 10}));
     steps_of_a_turning_hand(camera, 100, 1);
@@ -232,7 +233,7 @@ TEST(OrbitCameraInACorridor, FromBeyondGoesOnlyInwards) {
     EXPECT_LT(camera.view().azimuth_rad, 70 * deg);
 }
 
-TEST(OrbitCameraInACorridor, FliesToAShotInsideItAcrossWhatNoRigCovers) {
+TEST(OrbitCameraInACorridor, FliesToAShotInsideThroughUncoveredViews) {
     const auto corridor = corridor_of({0, 180});
     ASSERT_LT(corridor->of(view_at(90).camera()).share, Corridor::end);
     OrbitCamera camera{view_at(0)};
@@ -242,7 +243,7 @@ TEST(OrbitCameraInACorridor, FliesToAShotInsideItAcrossWhatNoRigCovers) {
     EXPECT_NEAR(camera.view().azimuth_rad, 179 * deg, 1e-6);
 }
 
-TEST(OrbitCameraInACorridor, FliesOnlyToTheEndForAShotBeyondIt) {
+TEST(OrbitCameraInACorridor, FliesToTheEndForAShotOutside) {
     const auto corridor = corridor_of({-10, 10});
     OrbitCamera camera{view_at(0)};
     camera.keep_within(corridor);
@@ -252,7 +253,7 @@ TEST(OrbitCameraInACorridor, FliesOnlyToTheEndForAShotBeyondIt) {
     EXPECT_GT(camera.view().azimuth_rad, 30 * deg);
 }
 
-TEST(OrbitCameraInACorridor, FliesAnywhereOnceItIsTakenAway) {
+TEST(OrbitCameraInACorridor, FliesAnywhereWithoutACorridor) {
     OrbitCamera camera{view_at(0)};
     camera.keep_within(corridor_of({-10, 10}));
     camera.keep_within(nullptr);

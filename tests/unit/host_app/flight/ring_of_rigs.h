@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// A view of the middle of the stage, (0, 1, 0), from 4.5 m unless another distance is said.
+/// A view of the middle of the stage, (0, 1, 0), from a distance of 4.5 m by default.
 inline OrbitView view_at(double azimuth_deg, double elevation_deg = 10, double distance_m = 4.5) {
     constexpr double rad = std::numbers::pi / 180;
     return {.azimuth_rad = azimuth_deg * rad,
@@ -19,8 +19,8 @@ inline OrbitView view_at(double azimuth_deg, double elevation_deg = 10, double d
             .distance_m = distance_m};
 }
 
-/// The corridor of rigs that stand 4.5 m around the stage and see 50 degrees, 4:3; the virtual
-/// camera's picture is 16:9.
+/// The corridor of rigs on a circle of 4.5 m around the stage, with a field of view of 50 degrees
+/// at 4:3. The virtual camera has 16:9.
 inline std::shared_ptr<const Corridor> corridor_of(std::initializer_list<double> azimuths_deg) {
     std::vector<CorridorRig> rigs;
     const double half_width = std::tan(0.5 * 50 * std::numbers::pi / 180);

@@ -10,13 +10,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(NewestFrameSet, GivesTheNewestAndCountsTheFramesItReplaced) {
+TEST(NewestFrameSet, ReturnsTheNewestAndCountsReplacedFrames) {
     ScriptedFeed feed({"a", "b"});
     NewestFrameSet newest(feed.feed());
     for (std::uint64_t k = 0; k < 10; ++k)
         feed.push(feed.set(
             k, k % 2 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a"}));
-    // All ten end as taken or superseded, whatever the threads' timing.
+    // All ten are either taken or counted as replaced, whatever the timing of the threads.
     RigCounts taken;
     std::uint64_t taken_frame_sets = 0, last = 0;
     while (last < 9) {
@@ -27,17 +27,17 @@ TEST(NewestFrameSet, GivesTheNewestAndCountsTheFramesItReplaced) {
         ++taken_frame_sets;
         count_frames(*set, taken);
     }
-    const NewestFrameSet::Superseded superseded = newest.superseded();
-    EXPECT_EQ(taken_frame_sets + superseded.sets, 10u);
+    const NewestFrameSet::Replaced replaced = newest.replaced();
+    EXPECT_EQ(taken_frame_sets + replaced.sets, 10u);
     const auto frames = [&](const std::string& rig) {
-        const auto found = superseded.frames.find(rig);
-        return taken[rig] + (found == superseded.frames.end() ? 0 : found->second);
+        const auto found = replaced.frames.find(rig);
+        return taken[rig] + (found == replaced.frames.end() ? 0 : found->second);
     };
     EXPECT_EQ(frames("a"), 10u);
     EXPECT_EQ(frames("b"), 5u);
 }
 
-TEST(NewestFrameSet, GivesASetOnlyOnce) {
+TEST(NewestFrameSet, ReturnsAFrameSetOnce) {
     ScriptedFeed feed({"a"});
     NewestFrameSet newest(feed.feed());
     feed.push(feed.set(1, {"a"}));
@@ -45,18 +45,18 @@ TEST(NewestFrameSet, GivesASetOnlyOnce) {
     EXPECT_FALSE(newest.take());
 }
 
-TEST(NewestFrameSet, BalancesItsBooksAtTheEnd) {
+TEST(NewestFrameSet, CountsEveryFrameSetAtTheEnd) {
     ScriptedFeed feed({"a"});
     NewestFrameSet newest(feed.feed());
     for (std::uint64_t k = 0; k < 30; ++k) feed.push(feed.set(k, {"a"}));
     std::uint64_t taken = 0;
     for (int i = 0; i < 3; ++i) taken += newest.take(1ms).has_value();
     EXPECT_EQ(newest.close().sets, 30u);
-    EXPECT_EQ(newest.superseded().sets + taken, 30u);
+    EXPECT_EQ(newest.replaced().sets + taken, 30u);
     EXPECT_FALSE(newest.take());
 }
 
-TEST(NewestFrameSet, HandsOnWhatTheFeedThrew) {
+TEST(NewestFrameSet, ThrowsTheErrorOfTheFeed) {
     ScriptedFeed feed({"a"});
     feed.fail_with("the receiver broke");
     NewestFrameSet newest(feed.feed());

@@ -18,7 +18,7 @@ class ReplayBufferTest : public testing::Test {
     ReplayBuffer ring_{3 * set_bytes};
 };
 
-TEST_F(ReplayBufferTest, FindsTheSetOfAPulseOrTheOneBeforeIt) {
+TEST_F(ReplayBufferTest, FindsTheFrameSetOfAPulseOrTheOneBefore) {
     EXPECT_FALSE(ring_.at(5));
     for (const std::uint64_t k : {10, 11, 14}) ring_.add(set(k));
     EXPECT_EQ(at(10), 10u);
@@ -28,7 +28,7 @@ TEST_F(ReplayBufferTest, FindsTheSetOfAPulseOrTheOneBeforeIt) {
     EXPECT_EQ(at(2), 10u);
 }
 
-TEST_F(ReplayBufferTest, KeepsWithinItsMemoryByLettingTheOldestGo) {
+TEST_F(ReplayBufferTest, DropsTheOldestToStayWithinItsMemory) {
     EXPECT_FALSE(ring_.span());
     for (std::uint64_t k = 1; k <= 100; ++k) {
         ring_.add(set(k));
@@ -39,20 +39,20 @@ TEST_F(ReplayBufferTest, KeepsWithinItsMemoryByLettingTheOldestGo) {
     EXPECT_EQ(ring_.span()->sets, 3u);
 }
 
-TEST_F(ReplayBufferTest, BeginsAnewWhenTheStageDoes) {
+TEST_F(ReplayBufferTest, IsClearedWhenTheStageRestarts) {
     ring_.add(set(1000));
     ring_.add(set(3));
     EXPECT_EQ(ring_.span()->sets, 1u);
     EXPECT_EQ(at(1000), 3u);
 }
 
-TEST_F(ReplayBufferTest, KeepsNothingThatIsLargerThanItAll) {
+TEST_F(ReplayBufferTest, KeepsNoFrameSetLargerThanItsMemory) {
     ReplayBuffer small(set_bytes - 1);
     small.add(set(1));
     EXPECT_FALSE(small.span());
 }
 
-TEST_F(ReplayBufferTest, KeepsFramesAsTheyCameAndDecodesThemWhenTheyAreAskedFor) {
+TEST_F(ReplayBufferTest, KeepsFramesEncodedAndDecodesThemOnAccess) {
     RigFrame sent = make_frame(7);
     const auto packed = std::make_shared<const PackedFrame>(FrameEncoder(85).encode(sent));
     auto frame = std::make_shared<RigFrame>(
@@ -74,7 +74,7 @@ TEST_F(ReplayBufferTest, KeepsFramesAsTheyCameAndDecodesThemWhenTheyAreAskedFor)
     EXPECT_EQ(kept->slots[1].absence, Absence::late);
 }
 
-TEST_F(ReplayBufferTest, KeepsWhatIsTakenFromAFeed) {
+TEST_F(ReplayBufferTest, KeepsFrameSetsTakenFromAFeed) {
     const StageFeed feed = kept_feed(feed_.feed(), ring_);
     feed_.push(set(7));
     EXPECT_EQ(feed.next(std::chrono::seconds(10))->trigger_index, 7u);

@@ -13,13 +13,13 @@
 
 namespace vantage {
 
-/// Stands for the receiver: hands out the sets that a test pushes, and keeps the receiver's books.
+/// A substitute for the receiver: it returns the frame sets that a test pushes, and counts them.
 class ScriptedFeed {
   public:
     explicit ScriptedFeed(std::vector<std::string> rigs) : rigs_(std::move(rigs)) {}
 
-    /// A set of pulse k with the rigs that are named; a rig shows a wall, 2 m off, of `colour` in
-    /// the middle and black at the left and right.
+    /// A frame set of pulse k with frames of the rigs in `present`. They show a wall at 2 m, in
+    /// `colour` in the middle and black at the left and right.
     FrameSet set(std::uint64_t k, const std::vector<std::string>& present,
                  cv::Vec4b colour = {200, 100, 50, 255}) const {
         FrameSet made;
@@ -46,7 +46,7 @@ class ScriptedFeed {
         const std::lock_guard lock(mutex_);
         refused_ = sentence;
     }
-    /// The feed throws this from now on.
+    /// Makes the feed throw from now on.
     void fail_with(std::string sentence) {
         const std::lock_guard lock(mutex_);
         failure_ = std::move(sentence);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/host_app/flight/given_commands.h"
 #include "tests/unit/host_app/hid/decoded.h"
 
 namespace vantage {
@@ -108,34 +109,34 @@ TEST_F(JogMapperTest, RestsWithinTheDeadZoneAndReachesTheEnd) {
 }
 
 TEST_F(JogMapperTest, TurnsButtonsIntoRequests) {
-    EXPECT_EQ(push("b1").recall_shot, 3);
-    EXPECT_TRUE(push("b3").toggle_freeze);
-    EXPECT_TRUE(push("b4").next_wheel_mode);
-    EXPECT_TRUE(push("b5").toggle_move);
-    EXPECT_TRUE(push("b6").reset);
-    EXPECT_TRUE(push("b10").to_live);
-    EXPECT_TRUE(push("b7").next_synthesiser);
-    EXPECT_TRUE(push("in").mark_in);
-    EXPECT_TRUE(push("out").mark_out);
-    EXPECT_TRUE(push("none").clear_marks);
-    EXPECT_TRUE(push("loop").toggle_loop);
-    EXPECT_TRUE(push("cue").cue);
-    EXPECT_EQ(push("slower").speed_steps, -1);
-    EXPECT_EQ(push("faster").speed_steps, 1);
+    EXPECT_EQ(number_of<command::RecallShot>(push("b1")), 3);
+    EXPECT_TRUE(push("b3").find<command::ToggleHold>());
+    EXPECT_TRUE(push("b4").find<command::NextWheelMode>());
+    EXPECT_TRUE(push("b5").find<command::ToggleMove>());
+    EXPECT_TRUE(push("b6").find<command::ResetView>());
+    EXPECT_TRUE(push("b10").find<command::ToLive>());
+    EXPECT_TRUE(push("b7").find<command::NextSynthesiser>());
+    EXPECT_TRUE(push("in").find<command::MarkIn>());
+    EXPECT_TRUE(push("out").find<command::MarkOut>());
+    EXPECT_TRUE(push("none").find<command::ClearMarks>());
+    EXPECT_TRUE(push("loop").find<command::ToggleLoop>());
+    EXPECT_TRUE(push("cue").find<command::CueIn>());
+    EXPECT_EQ(speed_steps(push("slower")), -1);
+    EXPECT_EQ(speed_steps(push("faster")), 1);
     const FlightInput nothing = push("b8");
-    EXPECT_FALSE(nothing.steers() || nothing.toggle_freeze || nothing.turns_wheel());
+    EXPECT_FALSE(nothing.steers() || nothing.find<command::ToggleHold>() || nothing.turns_wheel());
 }
 
 TEST_F(JogMapperTest, StoresTheShotThatFollowsTheStoreButton) {
     push("b2");
     EXPECT_TRUE(mapper_.is_storing());
     const FlightInput stored = push("b1");
-    EXPECT_EQ(stored.store_shot, 3);
-    EXPECT_EQ(stored.recall_shot, 0);
-    EXPECT_EQ(push("b1").recall_shot, 3);
+    EXPECT_EQ(number_of<command::StoreShot>(stored), 3);
+    EXPECT_EQ(number_of<command::RecallShot>(stored), 0);
+    EXPECT_EQ(number_of<command::RecallShot>(push("b1")), 3);
     push("b2");
     push("b2");
-    EXPECT_EQ(push("b1").recall_shot, 3) << "pressed twice it is off again";
+    EXPECT_EQ(number_of<command::RecallShot>(push("b1")), 3) << "pressed twice it is off again";
 }
 
 TEST_F(JogMapperTest, ForgetsOnlyTheWheelThatIsLost) {

@@ -36,7 +36,7 @@ LiveReport example() {
     rig.status.latency_ms = report.programme.latency_ms;
     rig.status.health.temperature_c = 61.5f;
     rig.status.health.refused_connections = 900;
-    rig.set.emplace();
+    rig.background.emplace();
     report.rigs = {rig};
     OutputState output;
     output.name = "srt://0.0.0.0:9000";

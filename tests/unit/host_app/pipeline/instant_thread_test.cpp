@@ -150,13 +150,13 @@ TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
 TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
     orders_->at_warm_up = [&] {
         for (const std::uint64_t pulse : {5, 6}) push(pulse);
-        ASSERT_TRUE(eventually([&] { return thread_->stats().superseded.sets == 1; }));
+        ASSERT_TRUE(eventually([&] { return thread_->stats().replaced.sets == 1; }));
     };
     push(4);
     ASSERT_TRUE(wait_for_pulse(6));
     EXPECT_EQ(orders_->prepared, 1);
-    EXPECT_EQ(thread_->stats().superseded.sets, 2u);
-    EXPECT_EQ(thread_->stats().superseded.frames.at("north"), 2u);
+    EXPECT_EQ(thread_->stats().replaced.sets, 2u);
+    EXPECT_EQ(thread_->stats().replaced.frames.at("north"), 2u);
 }
 
 TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
@@ -226,13 +226,13 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
     go_to(3, 3);
     ASSERT_TRUE(eventually([&] { return orders_->taken == taken + 1; }));
     // A live one that is given up is counted.
-    const std::uint64_t superseded = thread_->stats().superseded.sets;
+    const std::uint64_t replaced = thread_->stats().replaced.sets;
     ASSERT_TRUE(draw_until_the_jump(std::nullopt, 3));
     prepared = orders_->prepared;
     go_to(1, 4);
     ASSERT_TRUE(wait_for_pulse(1));
     EXPECT_EQ(orders_->prepared, prepared + 1);
-    EXPECT_EQ(thread_->stats().superseded.sets, superseded + 1);
+    EXPECT_EQ(thread_->stats().replaced.sets, replaced + 1);
     EXPECT_EQ(thread_->stats().faults, 0);
 }
 
@@ -377,7 +377,7 @@ TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
     EXPECT_EQ(contexts_.losses(), 1);
     EXPECT_EQ(thread_->stats().faults, 1);
     EXPECT_EQ(thread_->close().sets, 3u);
-    EXPECT_EQ(thread_->stats().prepared + thread_->stats().superseded.sets, 3u);
+    EXPECT_EQ(thread_->stats().prepared + thread_->stats().replaced.sets, 3u);
 }
 
 TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
@@ -417,9 +417,9 @@ TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
     ASSERT_TRUE(wait_for_pulse(4));
     EXPECT_EQ(thread_->close().sets, 4u);
     const InstantThread::Stats stats = thread_->stats();
-    EXPECT_EQ(stats.prepared + stats.superseded.sets, 4u);
+    EXPECT_EQ(stats.prepared + stats.replaced.sets, 4u);
     for (const char* rig : {"north", "south"})
-        EXPECT_EQ(stats.frames.at(rig) + stats.superseded.frames.at(rig), 4u);
+        EXPECT_EQ(stats.frames.at(rig) + stats.replaced.frames.at(rig), 4u);
 }
 
 TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {

@@ -3,6 +3,7 @@
 
 #include "host_app/control/ports/messages/osc_message.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/host_app/flight/given_commands.h"
 #include "tests/unit/host_app/ports/bench_test.h"
 
 namespace vantage {
@@ -28,30 +29,38 @@ TEST_F(OscPortTest, ObeysWhatOscsendSends) {
     serve(*port_, 6);
     EXPECT_EQ(port_->stats().obeyed, 6u) << port_->stats().last_refusal;
     const FlightInput input = operator_input_.take().input;
-    EXPECT_EQ(input.recall_shot, 3);
+    EXPECT_EQ(number_of<command::RecallShot>(input), 3);
     EXPECT_NEAR(input.orbit_azimuth_rad, 5 * 3.14159265 / 180, 1e-6);
-    EXPECT_TRUE(input.mark_in);
-    EXPECT_TRUE(input.toggle_freeze) << "once: 0 is the button that is let go";
-    EXPECT_EQ(input.toggle_output, 2);
+    EXPECT_TRUE(input.find<command::MarkIn>());
+    EXPECT_TRUE(input.find<command::ToggleHold>()) << "once: 0 is the button that is let go";
+    EXPECT_EQ(number_of<command::ToggleOutput>(input), 2);
 }
 
 TEST_F(OscPortTest, TakesNumbersOfEveryKind) {
     for (const char* number : {"i 3", "h 3", "f 3.0", "d 3.0"}) {
         oscsend(fmt::format("/vantage/shot {}", number));
         serve(*port_, all(port_->stats()) + 1);
-        EXPECT_EQ(operator_input_.take().input.recall_shot, 3) << number;
+        EXPECT_EQ(number_of<command::RecallShot>(operator_input_.take().input), 3) << number;
     }
+}
+
+TEST_F(OscPortTest, ObeysOldNamesOfCommands) {
+    oscsend("/vantage/learn_set");  // old name
+    serve(*port_, 1);
+    EXPECT_TRUE(operator_input_.take().input.find<command::LearnBackground>());
 }
 
 TEST_F(OscPortTest, TakesWordsWhereACommandHasThem) {
     oscsend("/vantage/cue_time s 20:15:07:12");
     serve(*port_, 1);
-    EXPECT_EQ(operator_input_.take().input.cue_time, "20:15:07:12");
+    EXPECT_EQ(operator_input_.take().input.find<command::CueTime>()->time, "20:15:07:12");
     oscsend("/vantage/name_clip s leap");
     oscsend("/vantage/clip i 12");
     serve(*port_, 3);
-    EXPECT_EQ(operator_input_.take().input.replay.at(0).words, "leap");
-    EXPECT_EQ(operator_input_.take().input.replay.at(0).number, 12) << "in a step of its own";
+    const std::vector<ReplayCall> calls = replay_calls(operator_input_.take().input);
+    ASSERT_EQ(calls.size(), 2u);
+    EXPECT_EQ(calls[0].words, "leap");
+    EXPECT_EQ(calls[1].number, 12);
     for (const char* wrong : {"/vantage/name_clip", "/vantage/name_clip i 3",
                               "/vantage/name_clip ss a b", "/vantage/live s now"})
         oscsend(wrong);
@@ -86,7 +95,7 @@ TEST_F(OscPortTest, OfAFloodCommandsBeyondTheBoundAreCountedAndLeftOut) {
     serve(*port_, flood + 1);
     const PortStats& stats = port_->stats();
     EXPECT_EQ(stats.obeyed + stats.dropped, flood + 1);
-    EXPECT_EQ(stats.obeyed, OperatorInputBox::most_waiting) << "no more wait than that";
+    EXPECT_EQ(stats.obeyed, OperatorInputBox::max_commands) << "no more wait than that";
 }
 
 TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
@@ -98,7 +107,9 @@ TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
     peer_.send(subscribe, number_);
     serve(*port_, 1);
     std::set<std::string> told;
-    for (std::size_t i = 0; i < lamps().size(); ++i) told.insert(peer_.receive());
+    for (const Lamp& lamp : lamps())
+        for (const std::string_view name : {lamp.name, lamp.old_name})
+            if (!name.empty()) told.insert(peer_.receive());
     const auto message = [](const std::string& name, const LampValue& value) {
         const std::vector<std::byte> bytes = encode_osc("/vantage/lamp/" + name, value);
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -106,6 +117,8 @@ TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
     EXPECT_TRUE(told.contains(message("live", true)));
     EXPECT_TRUE(told.contains(message("coverage", 0.5)));
     EXPECT_TRUE(told.contains(message("synthesiser", "")));
+    EXPECT_TRUE(told.contains(message("background", -1.0)));
+    EXPECT_TRUE(told.contains(message("set", -1.0))) << "the old name is still sent";
     show.live = false;
     lamps_.show(show);
     std::string next;
@@ -123,7 +136,7 @@ TEST_F(OscPortTest, TakesBundlesApart) {
     serve(*port_, 2);
     EXPECT_EQ(port_->stats().obeyed, 2u) << port_->stats().last_refusal;
     const FlightInput input = operator_input_.take().input;
-    EXPECT_TRUE(input.to_live && input.cue);
+    EXPECT_TRUE(input.find<command::ToLive>() && input.find<command::CueIn>());
 }
 
 TEST_F(BenchTest, NothingListensBeyondThisComputerUnlessTheUrlSaysSo) {

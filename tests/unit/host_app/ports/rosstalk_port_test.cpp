@@ -3,6 +3,7 @@
 #include "host_app/control/ports/messages/rosstalk_map.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/unit/host_app/flight/given_commands.h"
 #include "tests/unit/host_app/ports/bench_test.h"
 #include "tests/unit/host_app/ports/local_caller.h"
 
@@ -61,7 +62,7 @@ TEST_F(BenchTest, RossTalkGivesTheCommandsOfItsMap) {
     caller.say("GPI 4\r\n");
     serve(*port, 1);
     EXPECT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
-    EXPECT_EQ(operator_input_.take().input.recall_shot, 7);
+    EXPECT_EQ(number_of<command::RecallShot>(operator_input_.take().input), 7);
 }
 
 TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
@@ -84,7 +85,7 @@ TEST_F(BenchTest, RossTalkClosesWhoSendsNoEndAndHearsTheOthers) {
     serve(*port, 2);
     EXPECT_EQ(port->stats().malformed, 1u);
     EXPECT_EQ(port->stats().obeyed, 1u);
-    EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
+    EXPECT_TRUE(operator_input_.take().input.find<command::ToggleHold>());
     std::vector<std::unique_ptr<LocalCaller>> many;
     for (int i = 0; i < 12; ++i) {
         many.push_back(std::make_unique<LocalCaller>(number_));

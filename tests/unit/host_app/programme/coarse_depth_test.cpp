@@ -21,10 +21,10 @@ class CoarseDepthTest : public testing::Test {
     CoarseDepth grid_{library_};
 };
 
-TEST_F(CoarseDepthTest, TakesTheNearestOfACell) {
+TEST_F(CoarseDepthTest, KeepsTheNearestDepthOfACell) {
     cv::Mat1f depth_m(4, 320, 8.0f);
     depth_m(1, 3) = 2;
-    depth_m(2, 319) = -4;  // its magnitude counts
+    depth_m(2, 319) = -4;  // the magnitude counts
     const cv::Mat1f grid = coarse(depth_m);
     ASSERT_EQ(grid.size(), cv::Size(160, 2));
     EXPECT_FLOAT_EQ(grid(0, 0), 0.125f);
@@ -32,7 +32,7 @@ TEST_F(CoarseDepthTest, TakesTheNearestOfACell) {
     EXPECT_FLOAT_EQ(grid(1, 159), 0.25f);
 }
 
-TEST_F(CoarseDepthTest, TellsWhereNothingIs) {
+TEST_F(CoarseDepthTest, CellsWithoutASurfaceAreZero) {
     cv::Mat1f depth_m = cv::Mat1f::zeros(6, 640);
     depth_m(0, 0) = 5;
     const cv::Mat1f grid = coarse(depth_m);
@@ -41,7 +41,7 @@ TEST_F(CoarseDepthTest, TellsWhereNothingIs) {
     EXPECT_EQ(grid(0, 1), 0);
 }
 
-TEST_F(CoarseDepthTest, LeavesSmallPicturesAsTheyAre) {
+TEST_F(CoarseDepthTest, KeepsSmallFramesAtFullSize) {
     cv::Mat1f depth_m(3, 5, 4.0f);
     depth_m(2, 4) = 10;
     const cv::Mat1f grid = coarse(depth_m);

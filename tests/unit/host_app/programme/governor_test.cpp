@@ -12,19 +12,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A chooser among four levels whose works have 10 ms, of which they may take 8.
+/// A chooser among four levels. Work has 10 ms, of which it may take 8.
 class LevelChooserTest : public testing::Test {
   protected:
     static constexpr double time_ms = 10;
     static constexpr std::chrono::milliseconds tick{20};
 
-    /// One work at the level that is chosen.
+    /// Records one work at the present level.
     void work(double ms) {
         chooser_.saw(chooser_.level(), ms, time_ms, now_);
         now_ += tick;
     }
-    /// Works that take what they cost at their levels, for so long; returns the times at which the
-    /// level rose.
+    /// Records work for a given time, each with the cost of its level. Returns the times at which
+    /// the level rose.
     std::vector<MonotonicTime> run_for(std::chrono::nanoseconds time,
                                        const std::function<double(std::size_t)>& cost_ms) {
         std::vector<MonotonicTime> rises;
@@ -43,36 +43,36 @@ class LevelChooserTest : public testing::Test {
     MonotonicTime now_{1h};
 };
 
-TEST_F(LevelChooserTest, FallsAfterThreeWorksInARowThatDoNotFit) {
+TEST_F(LevelChooserTest, FallsAfterThreeMisfitsInARow) {
     work(9);
     work(9);
     work(7);
     work(9);
     work(9);
-    EXPECT_EQ(chooser_.level(), 0u) << "one in between fitted";
+    EXPECT_EQ(chooser_.level(), 0u) << "one work in between fitted";
     work(9);
     EXPECT_EQ(chooser_.level(), 1u);
 }
 
-TEST_F(LevelChooserTest, FallsSoonerAndFurtherForWorksThatAreFarTooLong) {
+TEST_F(LevelChooserTest, FallsSoonerAndFurtherForVeryLongWork) {
     work(40);
-    EXPECT_EQ(chooser_.level(), 0u) << "a single one may have been a compiler's";
+    EXPECT_EQ(chooser_.level(), 0u) << "a single one may include compilation";
     work(40);
     EXPECT_EQ(chooser_.level(), 3u);
 }
 
-TEST_F(LevelChooserTest, FallsNoFurtherForWorksOfTheLevelBefore) {
+TEST_F(LevelChooserTest, IgnoresWorkOfThePreviousLevel) {
     for (int i = 0; i < 3; ++i) work(9);
     for (int i = 0; i < 9; ++i) chooser_.saw(0, 30, time_ms, now_);
-    EXPECT_EQ(chooser_.level(), 1u) << "they were begun before it fell";
+    EXPECT_EQ(chooser_.level(), 1u) << "this work was started before the level fell";
 }
 
-TEST_F(LevelChooserTest, StaysAtTheCheapestWhateverItTakes) {
+TEST_F(LevelChooserTest, StaysAtTheCheapestLevel) {
     for (int i = 0; i < 100; ++i) work(50);
     EXPECT_EQ(chooser_.level(), 3u);
 }
 
-TEST_F(LevelChooserTest, RisesAfterTwoSecondsOfRoom) {
+TEST_F(LevelChooserTest, RisesAfterTwoSecondsWithRoom) {
     for (int i = 0; i < 3; ++i) work(9);
     const MonotonicTime fallen = now_;
     run_for(1900ms, [](std::size_t) { return 2; });
@@ -81,27 +81,27 @@ TEST_F(LevelChooserTest, RisesAfterTwoSecondsOfRoom) {
     EXPECT_EQ(chooser_.level(), 0u) << seconds_since(fallen) << " s after it fell";
 }
 
-TEST_F(LevelChooserTest, ComesBackAsSoonFromTheCheapest) {
+TEST_F(LevelChooserTest, RisesFromTheCheapestLevelAsSoon) {
     while (chooser_.level() < 3) work(50);
     run_for(7s, [](std::size_t) { return 2; });
     EXPECT_EQ(chooser_.level(), 0u)
-        << "nobody rose to what was fallen through, so it was no mistake";
+        << "the level that was skipped in the fall was not a failed rise";
 }
 
 TEST_F(LevelChooserTest, DoesNotRiseWithoutRoom) {
     for (int i = 0; i < 3; ++i) work(9);
     run_for(60s, [](std::size_t) { return 6; });
-    EXPECT_EQ(chooser_.level(), 1u) << "the level above is dearer, and this one just fits";
+    EXPECT_EQ(chooser_.level(), 1u) << "the better level is more expensive, and this one just fits";
 }
 
-/// A picture's way back from the GPU takes as long at every level.
-TEST_F(LevelChooserTest, FindsOutWhatBetterLevelsTakeWhereTheCheapestHasRoom) {
+/// The readback takes the same time at every level.
+TEST_F(LevelChooserTest, TriesBetterLevelsIfTheCheapestHasRoom) {
     chooser_.begin_with_the_cheapest();
     run_for(10s, [](std::size_t level) { return 5.8 - 0.1 * static_cast<double>(level); });
     EXPECT_EQ(chooser_.level(), 0u);
 }
 
-TEST_F(LevelChooserTest, TriesWhatIsNotExpectedToFitOnlyOnce) {
+TEST_F(LevelChooserTest, TriesALevelThatIsExpectedToMissOnlyOnce) {
     chooser_.begin_with_the_cheapest();
     const std::vector<MonotonicTime> rises =
         run_for(60s, [](std::size_t level) { return level == 3 ? 5 : 12; });
@@ -118,18 +118,18 @@ TEST_F(LevelChooserTest, DoesNotRiseWhileRoomComesAndGoes) {
     EXPECT_EQ(chooser_.level(), 1u);
 }
 
-TEST_F(LevelChooserTest, TriesALevelThatHadToBeLeftSoonLaterAndLater) {
+TEST_F(LevelChooserTest, WaitsLongerAfterEachFailedRise) {
     const std::vector<MonotonicTime> rises =
         run_for(600s, [](std::size_t level) { return level == 0 ? 12 : 3; });
-    ASSERT_GE(rises.size(), 4u) << "it goes on trying";
-    EXPECT_LE(rises.size(), 15u) << "and does not pump";
+    ASSERT_GE(rises.size(), 4u) << "it keeps trying";
+    EXPECT_LE(rises.size(), 15u) << "and does not oscillate";
     for (std::size_t i = 2; i < rises.size(); ++i)
         EXPECT_GE(rises[i] - rises[i - 1] + 2 * tick, rises[i - 1] - rises[i - 2]) << i;
     EXPECT_GE(rises.back() - rises[rises.size() - 2], 30s);
-    EXPECT_LE(rises.back() - rises[rises.size() - 2], 62s) << "it is not given up";
+    EXPECT_LE(rises.back() - rises[rises.size() - 2], 62s) << "it does not give up";
 }
 
-TEST_F(LevelChooserTest, IsQuickAgainOnceALevelHasHeld) {
+TEST_F(LevelChooserTest, RisesQuicklyAgainAfterALevelHeld) {
     run_for(100s, [](std::size_t level) { return level == 0 ? 12 : 3; });
     run_for(100s, [](std::size_t) { return 2; });
     ASSERT_EQ(chooser_.level(), 0u);
@@ -139,7 +139,7 @@ TEST_F(LevelChooserTest, IsQuickAgainOnceALevelHasHeld) {
     EXPECT_EQ(chooser_.level(), 0u);
 }
 
-TEST_F(LevelChooserTest, StaysWhereItIsFixed) {
+TEST_F(LevelChooserTest, StaysAtAFixedLevel) {
     chooser_.fix(2);
     run_for(10s, [](std::size_t) { return 50; });
     EXPECT_EQ(chooser_.level(), 2u);
@@ -149,7 +149,7 @@ TEST_F(LevelChooserTest, StaysWhereItIsFixed) {
     EXPECT_EQ(chooser_.level(), 3u) << "there is no cheaper one";
 }
 
-TEST_F(LevelChooserTest, TellsWhatShareOfTheTimeEveryLevelWasTaken) {
+TEST_F(LevelChooserTest, ReportsTheShareOfTimeOfEveryLevel) {
     for (const double share : chooser_.shares(now_)) EXPECT_EQ(share, 0) << "before the first work";
     const MonotonicTime start = now_;
     run_for(30s, [](std::size_t) { return 2; });
@@ -162,7 +162,7 @@ TEST_F(LevelChooserTest, TellsWhatShareOfTheTimeEveryLevelWasTaken) {
     EXPECT_NEAR(shares[1], 1 - shares[0], 1e-9);
 }
 
-TEST(Governor, LetsEveryClockFallByItself) {
+TEST(Governor, LowersBothLevelsIndependently) {
     Governor governor(50, 25, {});
     MonotonicTime now{1h};
     const auto tick = [&](double render_ms, double prepare_ms) {
@@ -170,20 +170,20 @@ TEST(Governor, LetsEveryClockFallByItself) {
         governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
         now += 40ms;
     };
-    EXPECT_EQ(governor.render().rank, static_cast<int>(render_levels().size()) - 1) << "first";
+    EXPECT_EQ(governor.render().rank, static_cast<int>(render_levels().size()) - 1) << "at first";
     for (int i = 0; i < 250; ++i) tick(1, 1);
     ASSERT_EQ(governor.render().rank, 0);
     ASSERT_EQ(governor.prepare().rank, 0);
     for (int i = 0; i < 3; ++i) tick(17, 30);
-    EXPECT_EQ(governor.render().rank, 1) << "of 20 ms it may take 13";
-    EXPECT_EQ(governor.prepare().rank, 0) << "of 40 ms it may take 36";
+    EXPECT_EQ(governor.render().rank, 1) << "13 of 20 ms are available";
+    EXPECT_EQ(governor.prepare().rank, 0) << "36 of 40 ms are available";
     for (int i = 0; i < 3; ++i) tick(5, 39);
     EXPECT_EQ(governor.prepare().rank, 1);
 }
 
-/// Rendering goes first, and would leave instants nothing on a computer that has too little for
+/// Rendering has priority and would leave no time for instants on a computer that is too slow for
 /// both.
-TEST(Governor, LetsRenderingDoWithLessWhereTheCheapestInstantsComeLate) {
+TEST(Governor, ReducesRenderingIfTheCheapestInstantsAreLate) {
     Governor governor(25, 5, {});
     MonotonicTime now{1h};
     const auto run_for = [&](int pulses, double render_ms, double prepare_ms) {
@@ -202,7 +202,7 @@ TEST(Governor, LetsRenderingDoWithLessWhereTheCheapestInstantsComeLate) {
     EXPECT_EQ(governor.render().rank, 0) << "they fit again";
 }
 
-TEST(Governor, LetsAPictureThatIsReprojectedTakeLongerThanATickWherePulsesAreRare) {
+TEST(Governor, AllowsReprojectedFramesMoreThanATickIfPulsesAreRare) {
     const auto rank_after = [](double pulse_rate_hz, bool is_carried_on) {
         Governor governor(25, pulse_rate_hz, {});
         MonotonicTime now{1h};
@@ -211,13 +211,13 @@ TEST(Governor, LetsAPictureThatIsReprojectedTakeLongerThanATickWherePulsesAreRar
         return governor.render().rank;
     };
     const int cheapest = static_cast<int>(render_levels().size()) - 1;
-    EXPECT_EQ(rank_after(4, true), 0) << "of 100 ms it may take 65";
-    EXPECT_EQ(rank_after(4, false), cheapest) << "of 40 ms it may take 26";
-    EXPECT_EQ(rank_after(25, true), cheapest) << "every pulse wants a picture";
+    EXPECT_EQ(rank_after(4, true), 0) << "65 of 100 ms are available";
+    EXPECT_EQ(rank_after(4, false), cheapest) << "26 of 40 ms are available";
+    EXPECT_EQ(rank_after(25, true), cheapest) << "every pulse needs a frame";
 }
 
-/// An instant may take as long as the pulses are apart, a jump may not.
-TEST(Governor, PreparesWhatIsJumpedToCheaplyWhereTheGovernedLevelWouldTakeLong) {
+/// An instant may take the time between two pulses, but after a jump it must be faster.
+TEST(Governor, PreparesTheTargetOfAJumpAtACheapLevel) {
     Governor governor(25, 5, {});
     MonotonicTime now{1h};
     const auto work = [&](double ms) {
@@ -230,15 +230,15 @@ TEST(Governor, PreparesWhatIsJumpedToCheaplyWhereTheGovernedLevelWouldTakeLong) 
     ASSERT_EQ(governor.prepare().rank, 0);
     EXPECT_EQ(governor.prepare_sought().rank, 0);
     for (int i = 0; i < 100; ++i) work(150);
-    EXPECT_EQ(governor.prepare().rank, 0) << "of 200 ms it may take 180";
-    EXPECT_EQ(governor.prepare_sought().rank, 1) << "which took 10 ms";
+    EXPECT_EQ(governor.prepare().rank, 0) << "180 of 200 ms are available";
+    EXPECT_EQ(governor.prepare_sought().rank, 1) << "this level takes 10 ms";
 
     Governor fixed(25, 5, {1});
     for (int i = 0; i < 10; ++i) fixed.saw_prepare(1, 150, now);
-    EXPECT_EQ(fixed.prepare_sought().rank, 1) << "as wished for";
+    EXPECT_EQ(fixed.prepare_sought().rank, 1) << "the requested level";
 }
 
-TEST(Governor, KeepsTheLevelThatIsWishedFor) {
+TEST(Governor, KeepsARequestedLevel) {
     Governor governor(50, 25, {2});
     MonotonicTime now{1h};
     for (int i = 0; i < 300; ++i, now += 20ms) {
@@ -257,7 +257,7 @@ TEST(QualityRequest, ReadsBestAutoAndNumbers) {
         EXPECT_EQ(QualityRequest::parse(std::to_string(level)).level, level);
 }
 
-TEST(QualityRequest, RefusesTheRestWithTheMend) {
+TEST(QualityRequest, RejectsOtherValuesAndNamesTheValidOnes) {
     const std::string beyond = std::to_string(render_levels().size());
     for (const std::string text :
          {"", "high", "-1", "1.5", "2 ", "+1", beyond.c_str(), "99999999999999999999"}) {
@@ -267,18 +267,18 @@ TEST(QualityRequest, RefusesTheRestWithTheMend) {
     }
 }
 
-TEST(GovernorTest, SlowMotionIsDividedAsFarAsThereIsTimeForIt) {
+TEST(GovernorTest, SlowMotionHasAsManyMomentsAsTimeAllows) {
     Governor governor(50, 25, {});
     EXPECT_EQ(governor.moments_a_pulse(0.1), 1) << "nothing is known yet";
     governor.saw_past_instant(10);
     EXPECT_EQ(governor.moments_a_pulse(0.5), 2);
     EXPECT_EQ(governor.moments_a_pulse(0.25), 4);
-    EXPECT_EQ(governor.moments_a_pulse(-0.1), 10) << "no more a second than pulses come live";
+    EXPECT_EQ(governor.moments_a_pulse(-0.1), 10) << "at most as many per second as live pulses";
     EXPECT_EQ(governor.moments_a_pulse(0.75), 1);
     EXPECT_EQ(governor.moments_a_pulse(1), 1);
     EXPECT_EQ(governor.moments_a_pulse(0), 1);
     governor.saw_past_instant(100);
-    EXPECT_EQ(governor.moments_a_pulse(0.1), 3) << "a pulse lasts 400 ms there";
+    EXPECT_EQ(governor.moments_a_pulse(0.1), 3) << "a pulse lasts 400 ms at this speed";
     EXPECT_EQ(governor.moments_a_pulse(0.5), 1);
     for (int i = 0; i < 5; ++i) governor.saw_past_instant(10);
     EXPECT_EQ(governor.moments_a_pulse(0.1), 10);

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "host_app/programme/input_latency.h"
+
+#include <gtest/gtest.h>
 
 namespace vantage {
 namespace {
@@ -9,22 +9,22 @@ using namespace std::chrono_literals;
 
 const MonotonicTime began{1h};
 
-TEST(InputLatency, CountsFromTheEarliestInputToTheFirstPictureWithIt) {
+TEST(InputLatency, MeasuresFromTheEarliestInputToTheFirstFrameWithIt) {
     InputLatency watch;
     watch.saw(began, 3, true);
     watch.saw(began + 40ms, 4, true);
     watch.showed(2, 2, began + 50ms);
     EXPECT_TRUE(watch.is_waiting());
     EXPECT_FALSE(watch.is_waiting_for_rendering());
-    EXPECT_EQ(watch.all_ms().count, 0u) << "a picture of before";
+    EXPECT_EQ(watch.all_ms().count, 0u) << "a frame from before the input";
     watch.showed(4, 4, began + 90ms);
     EXPECT_EQ(watch.all_ms().count, 1u);
     EXPECT_DOUBLE_EQ(watch.all_ms().max, 90);
     watch.showed(5, 5, began + 130ms);
-    EXPECT_EQ(watch.all_ms().count, 1u) << "both were shown";
+    EXPECT_EQ(watch.all_ms().count, 1u) << "one frame showed both";
 }
 
-TEST(InputLatency, TakesAPictureThatWasCarriedOnForWhatOnlyFlies) {
+TEST(InputLatency, ReprojectionShowsInputThatOnlyFlies) {
     InputLatency watch;
     watch.saw(began, 3, true);
     watch.saw(began + 1ms, 4, false);
@@ -34,11 +34,11 @@ TEST(InputLatency, TakesAPictureThatWasCarriedOnForWhatOnlyFlies) {
     EXPECT_TRUE(watch.is_waiting_for_rendering());
     watch.showed(5, 4, began + 101ms);
     EXPECT_FALSE(watch.is_waiting());
-    EXPECT_EQ(watch.all_ms().count, 2u) << "what is more than that waits for one that was rendered";
+    EXPECT_EQ(watch.all_ms().count, 2u) << "other input waits for a rendered frame";
     EXPECT_DOUBLE_EQ(watch.all_ms().max, 100);
 }
 
-TEST(InputLatency, CountsNothingThatChangesNoPicture) {
+TEST(InputLatency, IgnoresInputThatChangesNoFrame) {
     InputLatency watch;
     watch.saw(began, 3, true);
     watch.drop();
@@ -46,7 +46,7 @@ TEST(InputLatency, CountsNothingThatChangesNoPicture) {
     EXPECT_EQ(watch.all_ms().count, 0u);
 }
 
-TEST(InputLatency, HoldsNoMoreThanItCanTell) {
+TEST(InputLatency, KeepsTheEarliestInputsWithinItsBound) {
     InputLatency watch;
     for (int i = 0; i < 100'000; ++i)
         watch.saw(began + std::chrono::milliseconds(i), static_cast<std::uint64_t>(i), true);

@@ -22,11 +22,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Flies as it is told, and counts how often it is asked.
+/// A camera source that a test scripts, and that counts its steps.
 class ScriptedCameraSource final : public CameraSource {
   public:
     ScriptedCameraSource() {
-        // At the rigs' own place, which sees the wall through and through.
+        // The place of the rigs, from where the whole wall is visible.
         next_.view.distance_m = 4.5;
         next_.view.field_of_view_rad = 1.0;
     }
@@ -35,7 +35,7 @@ class ScriptedCameraSource final : public CameraSource {
         const std::lock_guard lock(mutex_);
         if (!failure_.empty()) throw Error(failure_);
         ++steps_;
-        // To and fro: what the rigs see stays in the middle, however long a test takes.
+        // The turn reverses, so that the wall stays in the middle however long a test takes.
         if (std::abs(next_.view.azimuth_rad + turn_rad_) > furthest_rad_) turn_rad_ = -turn_rad_;
         next_.view.azimuth_rad += turn_rad_;
         if (next_.preview) next_.preview->azimuth_rad += preview_turn_rad_;
@@ -50,13 +50,13 @@ class ScriptedCameraSource final : public CameraSource {
         return {.view = next_.view};
     }
 
-    /// Changes the next step; all but its view is for that one only.
+    /// Changes the next step; only its view lasts longer.
     template <class Change>
     void next(Change change) {
         const std::lock_guard lock(mutex_);
         change(next_);
     }
-    /// From now on, at every step; to and fro.
+    /// Turns the camera at every step, back and forth.
     void turn(double rad, double furthest_rad = 0.1) {
         const std::lock_guard lock(mutex_);
         turn_rad_ = rad;
@@ -74,7 +74,7 @@ class ScriptedCameraSource final : public CameraSource {
         const std::lock_guard lock(mutex_);
         return steps_;
     }
-    /// That it was to fly to last; 0: none.
+    /// The last shot that was requested; 0: none.
     int shot() const {
         const std::lock_guard lock(mutex_);
         return shot_;
@@ -88,7 +88,7 @@ class ScriptedCameraSource final : public CameraSource {
     std::string failure_;
 };
 
-/// What a sink was given.
+/// Frames that a sink was given.
 struct Seen {
     std::mutex mutex;
     std::vector<std::uint64_t> ticks;
@@ -122,7 +122,7 @@ class NotingSink final : public PictureSink {
     std::shared_ptr<Seen> seen_;
 };
 
-/// Takes some pictures and fails; or fails at its end.
+/// Fails after some frames, or at its end.
 class FailingSink final : public PictureSink {
   public:
     FailingSink(int pictures, std::shared_ptr<Seen> seen)
@@ -140,7 +140,7 @@ class FailingSink final : public PictureSink {
     std::shared_ptr<Seen> seen_;
 };
 
-/// Holds the programme up once.
+/// Delays the programme once.
 class SlowSink final : public PictureSink {
   public:
     explicit SlowSink(std::chrono::milliseconds time) : time_(time) {}
@@ -153,8 +153,7 @@ class SlowSink final : public PictureSink {
     std::chrono::milliseconds time_;
 };
 
-/// The preparer of a synthesiser that takes as long as it is told to, and whose instants say the
-/// level that they were asked for.
+/// A preparer that takes as long as a test sets, and whose instants have the requested level.
 class SlowPreparer final : public InstantPreparer {
   public:
     SlowPreparer(std::unique_ptr<InstantPreparer> preparer,
@@ -173,11 +172,11 @@ class SlowPreparer final : public InstantPreparer {
     }
 
   private:
-    /// As one that waits for its GPU.
+    /// Waits as a preparer waits for its GPU.
     void sleep() const {
         const DriverLock::Pause pause;
         constexpr int step_ms = 5;
-        // So that the test may end it.
+        // In short steps, so that a test can end it.
         for (int slept_ms = 0; slept_ms < *sleep_ms_; slept_ms += step_ms)
             std::this_thread::sleep_for(std::chrono::milliseconds(step_ms));
     }
@@ -189,22 +188,22 @@ class SlowPreparer final : public InstantPreparer {
 class ProgrammeTest : public testing::Test {
   protected:
     static constexpr double rate_hz = 25;
-    /// A tick's turn that is worth a new picture.
+    /// A turn per tick that is large enough for a new frame.
     static constexpr double rendered_turn_rad = 0.03;
 
     ProgrammeTest() { instants_settings_.pulse_rate_hz = rate_hz; }
 
-    /// Ready to be started, with a sink that notes what it is given.
+    /// A programme that is ready to start, with a sink that notes its frames.
     Programme& make() {
         instants_.emplace(instants_settings_, feed_.feed(), contexts_);
         return make_programme();
     }
-    /// Instants come of a preparer that sleeps as long as `sleep_ms_` says.
+    /// The same with a preparer that sleeps for `sleep_ms_`.
     Programme& make_with_slow_preparer() {
         instants_.emplace(instants_settings_, feed_.feed(), contexts_);
         const auto entry = find_synthesiser(settings_.synthesiser);
         const auto is_made = std::make_shared<std::atomic<bool>>(false);
-        // A synthesiser's preparer is made once.
+        // The preparer of a synthesiser is created once.
         instants_->prepare_for(
             entry.name, [entry, is_made, sleep = sleep_ms_](const ShaderLibrary& shaders) {
                 *is_made = true;
@@ -221,7 +220,7 @@ class ProgrammeTest : public testing::Test {
     void start() {
         programme_->start([](std::uint64_t, double) { return false; });
     }
-    /// That take longer than a tick.
+    /// Frames that take longer than a tick.
     void ask_for_long_pictures() {
         settings_.format = {.width_px = 480, .height_px = 270};
         settings_.rate_hz = 200;
@@ -237,7 +236,7 @@ class ProgrammeTest : public testing::Test {
     bool wait_for_pulse(std::uint64_t pulse) {
         return eventually([&] { return shown_pulse() == pulse; });
     }
-    /// Lets so many ticks go by.
+    /// Waits for so many ticks.
     bool wait_for_ticks(std::size_t ticks) {
         const std::size_t before = seen_->count();
         return eventually([&] { return seen_->count() >= before + ticks; });
@@ -276,10 +275,11 @@ TEST_F(ProgrammeTest, ShowsTheNewestInstant) {
     EXPECT_NEAR(seen_->last_middle[0], 20, 2);
 }
 
-TEST_F(ProgrammeTest, HandsOutNothingBeforeTheFirstPicture) {
+TEST_F(ProgrammeTest, GivesNothingBeforeTheFirstFrame) {
     make();
     start();
-    ASSERT_TRUE(eventually([&] { return camera_source_.steps() > 10; })) << "hands are asked all the same";
+    ASSERT_TRUE(eventually([&] { return camera_source_.steps() > 10; }))
+        << "the camera source is still asked";
     EXPECT_EQ(seen_->count(), 0u);
     EXPECT_EQ(programme_->stats().ticks, 0u);
     push(1);
@@ -287,7 +287,7 @@ TEST_F(ProgrammeTest, HandsOutNothingBeforeTheFirstPicture) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, TicksGoOnWhileNoInstantComes) {
+TEST_F(ProgrammeTest, TicksContinueWithoutANewInstant) {
     make();
     start();
     push(1);
@@ -302,7 +302,7 @@ TEST_F(ProgrammeTest, TicksGoOnWhileNoInstantComes) {
     EXPECT_TRUE(seen_->is_finished);
 }
 
-TEST_F(ProgrammeTest, FliesOnWhileNoInstantComes) {
+TEST_F(ProgrammeTest, CameraFliesOnWithoutANewInstant) {
     make();
     start();
     push(1);
@@ -313,7 +313,7 @@ TEST_F(ProgrammeTest, FliesOnWhileNoInstantComes) {
     EXPECT_EQ(shown_pulse(), 1u);
 }
 
-TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
+TEST_F(ProgrammeTest, SlowPreparerDelaysNoTick) {
     make_with_slow_preparer();
     camera_source_.turn(0.002);
     start();
@@ -336,7 +336,7 @@ TEST_F(ProgrammeTest, APreparerThatSleepsHoldsNoTickUp) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThanTicks) {
+TEST_F(ProgrammeTest, LongFramesLeaveTimeToInstants) {
     ask_for_long_pictures();
     make();
     start();
@@ -353,7 +353,7 @@ TEST_F(ProgrammeTest, LeavesAShareOfTheTimeToInstantsWherePicturesTakeLongerThan
     EXPECT_LT(rendered_ms, 0.75 * passed_ms + 200) << "of " << passed_ms << " ms";
 }
 
-TEST_F(ProgrammeTest, MakesNoPictureOfAPreviewThatNobodyAskedFor) {
+TEST_F(ProgrammeTest, RendersNoPreviewUnlessThereIsOne) {
     make();
     push(1);
     start();
@@ -364,7 +364,7 @@ TEST_F(ProgrammeTest, MakesNoPictureOfAPreviewThatNobodyAskedFor) {
     EXPECT_EQ(programme_->stats().preview_pictures, 0u);
 }
 
-TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
+TEST_F(ProgrammeTest, PreviewIsRenderedWhileTheProgrammeTicks) {
     make();
     push(1);
     start();
@@ -388,7 +388,7 @@ TEST_F(ProgrammeTest, APreviewIsFlownWhileTheProgrammeStandsAndTicks) {
     EXPECT_GT(programme_->stats().preview_ms.count, 0u);
 }
 
-TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
+TEST_F(ProgrammeTest, PreviewCostsTheProgrammeNoFrame) {
     make();
     push(1);
     start();
@@ -404,7 +404,7 @@ TEST_F(ProgrammeTest, APreviewCostsNoTickAndNoPictureOfTheProgramme) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, APreviewGoesOnAfterAResetOfTheGpuAndWithAnotherSynthesiser) {
+TEST_F(ProgrammeTest, PreviewContinuesAfterAGpuResetAndWithAnotherSynthesiser) {
     make();
     push(1);
     start();
@@ -427,7 +427,7 @@ TEST_F(ProgrammeTest, APreviewGoesOnAfterAResetOfTheGpuAndWithAnotherSynthesiser
     }));
 }
 
-TEST_F(ProgrammeTest, CountsWhatItRepeats) {
+TEST_F(ProgrammeTest, CountsRepeatedFrames) {
     make();
     push(1);
     start();
@@ -443,13 +443,13 @@ TEST_F(ProgrammeTest, CountsWhatItRepeats) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
+TEST_F(ProgrammeTest, ReprojectsTheLastFrameIfNoneIsReady) {
     ask_for_long_pictures();
     make();
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    // So slowly that hardly any picture is worth rendering, once it is known that they are long.
+    // So slowly that hardly any frame is worth rendering, once frames are known to be long.
     camera_source_.turn(0.0001);
     const std::uint64_t first = programme_->stats().pictures;
     ASSERT_TRUE(eventually([&] { return programme_->stats().pictures >= first + 25; }));
@@ -468,7 +468,7 @@ TEST_F(ProgrammeTest, ReprojectsThePictureToTheCameraOfATickThatHasNoNewOne) {
     }
 }
 
-TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
+TEST_F(ProgrammeTest, RendersLongFramesForTheCameraOfTheirTicks) {
     ask_for_long_pictures();
     make();
     push(1);
@@ -479,8 +479,8 @@ TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
     const auto azimuth_rad = [](const MadePicture& made) {
         return orbit_view_of(made.job.camera, 0).azimuth_rad;
     };
-    // One of the camera as it was is behind the camera at all ticks that show it, but for where
-    // that turns back.
+    // A frame of an earlier camera would lag behind at all its ticks, except where the turn
+    // reverses.
     int ahead = 0;
     std::shared_ptr<const MadePicture> last;
     EXPECT_TRUE(eventually([&] {
@@ -495,7 +495,7 @@ TEST_F(ProgrammeTest, RendersPicturesForTheCameraOfTheTicksThatShowThem) {
     }));
 }
 
-TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
+TEST_F(ProgrammeTest, RendersALongFrameOnce) {
     ask_for_long_pictures();
     make();
     start();
@@ -507,7 +507,7 @@ TEST_F(ProgrammeTest, RendersAPictureThatIsLongerThanATickOnce) {
     }
 }
 
-TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
+TEST_F(ProgrammeTest, RendersAFrameOnceTheCameraStands) {
     ask_for_long_pictures();
     make();
     push(1);
@@ -527,13 +527,13 @@ TEST_F(ProgrammeTest, RendersWhatWasReprojectedOnceTheCameraStands) {
     }));
 }
 
-TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
+TEST_F(ProgrammeTest, CutShowsTheFrameOfThePreviewFirst) {
     ask_for_long_pictures();
     make();
     push(1);
     start();
     ASSERT_TRUE(wait_for_pulse(1));
-    // To and fro, until the reprojection is there first.
+    // Cut back and forth, until the reprojection is ready first.
     double azimuth_rad = 0.5;
     for (int cut = 0; cut < 100 && programme_->stats().reprojected == 0; ++cut) {
         camera_source_.next([&](CameraStep& step) {
@@ -554,7 +554,7 @@ TEST_F(ProgrammeTest, ShowsThePreviewsPictureOfACutThatIsNotRenderedYet) {
     EXPECT_EQ(seen_->empty_pictures, 0);
 }
 
-TEST_F(ProgrammeTest, CutsToWhereNoPictureCanBeCarried) {
+TEST_F(ProgrammeTest, CutsToAViewOutOfReachOfReprojection) {
     make();
     push(1);
     start();
@@ -565,7 +565,7 @@ TEST_F(ProgrammeTest, CutsToWhereNoPictureCanBeCarried) {
     EXPECT_EQ(programme_->stats().reprojected, 0u);
 }
 
-TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
+TEST_F(ProgrammeTest, GpuResetCostsFramesButNoTick) {
     make();
     push(1, 200);
     start();
@@ -594,7 +594,7 @@ TEST_F(ProgrammeTest, AResetOfTheGpuCostsNewPicturesAndNoTick) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, ASinkThatThrowsIsClosedAndNamedAndTheOthersGoOn) {
+TEST_F(ProgrammeTest, FailingSinkIsClosedAndReported) {
     make();
     const auto broken = std::make_shared<Seen>();
     programme_->add(std::make_unique<FailingSink>(3, broken));
@@ -614,7 +614,7 @@ TEST_F(ProgrammeTest, ASinkThatThrowsIsClosedAndNamedAndTheOthersGoOn) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
+TEST_F(ProgrammeTest, SinkThatFailsAtItsEndIsReported) {
     make();
     programme_->add(std::make_unique<FailingSink>(1'000'000, std::make_shared<Seen>()));
     start();
@@ -625,7 +625,7 @@ TEST_F(ProgrammeTest, ASinkThatDoesNotEndWellIsNamed) {
     EXPECT_TRUE(seen_->is_finished);
 }
 
-TEST_F(ProgrammeTest, CountsTicksThatPassedBeforeItCameToThem) {
+TEST_F(ProgrammeTest, CountsMissedTicks) {
     make();
     programme_->add(std::make_unique<SlowSink>(500ms));
     start();
@@ -638,10 +638,10 @@ TEST_F(ProgrammeTest, CountsTicksThatPassedBeforeItCameToThem) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
+TEST_F(ProgrammeTest, HoldKeepsTheInstantAndRefinesIt) {
     make_with_slow_preparer();
     start();
-    // Instants that come at the stage's rate and take longer than that are prepared worse.
+    // Instants that take longer than a pulse period are prepared at a cheaper level.
     *sleep_ms_ = 45;
     std::uint64_t pulse = 1;
     ASSERT_TRUE(eventually([&] {
@@ -650,7 +650,7 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
         const auto picture = programme_->state().picture;
         return picture && picture->job.instant->instant->level > 0;
     }));
-    camera_source_.next([](CameraStep& step) { step.time.toggle_hold = true; });
+    camera_source_.next([](CameraStep& step) { step.time.commands = {command::ToggleHold{}}; });
     ASSERT_TRUE(eventually([&] { return programme_->state().time.is_held; }));
     *sleep_ms_ = 0;
     ASSERT_TRUE(eventually([&] {
@@ -667,12 +667,12 @@ TEST_F(ProgrammeTest, HoldKeepsTheInstantAndBettersIt) {
     camera_source_.turn(0.01);
     ASSERT_TRUE(eventually([&] { return programme_->stats().pictures > before + 5; }));
     EXPECT_EQ(shown_pulse(), held) << "the camera flies and time stands";
-    camera_source_.next([](CameraStep& step) { step.time.toggle_hold = true; });
+    camera_source_.next([](CameraStep& step) { step.time.commands = {command::ToggleHold{}}; });
     EXPECT_TRUE(wait_for_pulse(pulse + 10)) << "what came meanwhile";
     EXPECT_FALSE(programme_->state().time.is_held);
 }
 
-TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
+TEST_F(ProgrammeTest, GoesThroughThePastAndBackToLive) {
     instants_settings_.replay_bytes = 100'000'000;
     make();
     start();
@@ -694,13 +694,13 @@ TEST_F(ProgrammeTest, GoesBackThroughThePastAndToLiveAgain) {
     ASSERT_TRUE(wait_for_pulse(1));
     camera_source_.next([](CameraStep& step) { step.time.pulses = 100; });
     ASSERT_TRUE(wait_for_pulse(6));
-    camera_source_.next([](CameraStep& step) { step.time.to_live = true; });
+    camera_source_.next([](CameraStep& step) { step.time.commands = {command::ToLive{}}; });
     push(7);
     ASSERT_TRUE(wait_for_pulse(7));
     EXPECT_FALSE(programme_->state().behind_s);
 }
 
-TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndGoesBackToLive) {
+TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndReturnsToLive) {
     instants_settings_.replay_bytes = 1 << 20;
     ClipBook book;
     book.pulse_rate_hz = rate_hz;
@@ -711,11 +711,12 @@ TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndGoesBackToLive) {
     for (std::uint64_t pulse = 1; pulse <= 8; ++pulse) push(pulse);
     ASSERT_TRUE(wait_for_pulse(8));
     const Pose live = programme_->state().picture->job.camera.world_from_camera;
-    camera_source_.next([](CameraStep& step) { step.time.calls = {{ReplayAction::play_clip}}; });
+    camera_source_.next(
+        [](CameraStep& step) { step.time.commands = {ReplayCall{ReplayAction::play_clip}}; });
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(programme_->state().replay.mode, ReplayMode::clip);
     EXPECT_EQ(camera_source_.shot(), 5);
-    camera_source_.next([](CameraStep& step) { step.time.to_live = true; });
+    camera_source_.next([](CameraStep& step) { step.time.commands = {command::ToLive{}}; });
     ASSERT_TRUE(eventually([&] { return !programme_->state().time.pulse; }));
     push(9);
     ASSERT_TRUE(wait_for_pulse(9));
@@ -724,7 +725,7 @@ TEST_F(ProgrammeTest, PlaysAClipWithItsShotAndGoesBackToLive) {
         << "no camera moved";
 }
 
-TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
+TEST_F(ProgrammeTest, MeasuresAJumpInTime) {
     instants_settings_.replay_bytes = 100'000'000;
     make();
     start();
@@ -732,8 +733,8 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
-    // To stand where it is is no jump.
-    camera_source_.next([](CameraStep& step) { step.time.speed_steps = 1; });
+    // Playing from the present position is not a jump.
+    camera_source_.next([](CameraStep& step) { step.time.commands = {command::ChangeSpeed{1}}; });
     ASSERT_TRUE(eventually([&] { return programme_->state().time.pulse.has_value(); }));
     EXPECT_EQ(programme_->stats().seek_ms.count, 0u);
     for (std::uint64_t seek = 1; seek <= 3; ++seek) {
@@ -745,7 +746,7 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
     }
     const ProgrammeStats stats = programme_->stats();
     EXPECT_GT(stats.seek_ms.max, 0);
-    // And where the time went: no step took more than the whole, and preparing takes time.
+    // No part takes more than the whole, and preparing takes time.
     const SeekSteps<Percentiles>& steps = stats.seek_steps_ms;
     for (const Percentiles& step : {steps.wait, steps.fetch, steps.prepare, steps.picture}) {
         EXPECT_EQ(step.count, 3u);
@@ -754,7 +755,7 @@ TEST_F(ProgrammeTest, TellsHowLongAJumpInTimeTookToItsPicture) {
     EXPECT_GT(steps.prepare.max, 0);
 }
 
-TEST_F(ProgrammeTest, APictureThatIsPausedWaitsBetweenItsSlices) {
+TEST_F(ProgrammeTest, PausedFrameWaitsBetweenSlices) {
     make();
     push(1);
     ASSERT_TRUE(eventually([&] { return instants_->newest() != nullptr; }));
@@ -772,13 +773,13 @@ TEST_F(ProgrammeTest, APictureThatIsPausedWaitsBetweenItsSlices) {
     EXPECT_FALSE(still.is_idle());
     still.pause(false);
     EXPECT_TRUE(eventually([&] { return still.take_finished() != nullptr; }));
-    // One that is paused can be ended.
+    // A paused renderer can be ended.
     still.pause(true);
     ASSERT_TRUE(eventually([&] { return still.is_idle(); }));
     still.start(job);
 }
 
-TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
+TEST_F(ProgrammeTest, HeldFrameSetStaysAfterTheReplayBufferDropsIt) {
     constexpr std::size_t set_bytes = 2 * 46 * 62 * (4 + 2);
     instants_settings_.replay_bytes = 3 * set_bytes;
     make();
@@ -797,7 +798,7 @@ TEST_F(ProgrammeTest, WhatIsHeldStaysThoughTheReplayBufferDropsItsSet) {
     EXPECT_EQ(shown_pulse(), 1u);
 }
 
-TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
+TEST_F(ProgrammeTest, SwitchesTheSynthesiserWithoutAGap) {
     make();
     start();
     push(1);
@@ -814,7 +815,7 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     push(2, 20);
     ASSERT_TRUE(wait_for_pulse(2));
     ASSERT_TRUE(wait_for_ticks(3));
-    // And back, and to it again: nothing of when it was last in use is shown.
+    // Back, and to it again: no old frame is shown.
     const std::string after = programme_->state().synthesiser;
     camera_source_.next([](CameraStep& step) { step.next_synthesiser = true; });
     ASSERT_TRUE(eventually([&] { return programme_->state().synthesiser != after; }));
@@ -827,7 +828,7 @@ TEST_F(ProgrammeTest, ChangesTheSynthesiserWithoutAGap) {
     EXPECT_NEAR(seen_->last_middle[0], 120, 2);
 }
 
-TEST_F(ProgrammeTest, ShowsTheSourceMapWhileThatIsAskedFor) {
+TEST_F(ProgrammeTest, ShowsTheSourceMapWhileItIsSwitchedOn) {
     make();
     start();
     push(1);
@@ -844,7 +845,7 @@ TEST_F(ProgrammeTest, ShowsTheSourceMapWhileThatIsAskedFor) {
     ASSERT_TRUE(eventually([&] { return !programme_->state().picture->sources; }));
 }
 
-TEST_F(ProgrammeTest, TellsHowLongAHandTookToThePicture) {
+TEST_F(ProgrammeTest, MeasuresInputLatency) {
     make();
     start();
     push(1);
@@ -852,19 +853,19 @@ TEST_F(ProgrammeTest, TellsHowLongAHandTookToThePicture) {
     EXPECT_EQ(programme_->stats().input_ms.count, 0u);
     camera_source_.next([](CameraStep& step) {
         step.view.azimuth_rad = 0.1;
-        step.hand = MonotonicClock::now();
+        step.input = MonotonicClock::now();
     });
     ASSERT_TRUE(eventually([&] { return programme_->stats().input_ms.count == 1; }));
     EXPECT_GT(programme_->stats().input_ms.max, 0);
 }
 
-TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
-    settings_.quality = {3};  // another level would be another picture
+TEST_F(ProgrammeTest, HasNoLatencyForInputThatChangesNoFrame) {
+    settings_.quality = {3};  // another level would be another frame
     make();
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
-    camera_source_.next([](CameraStep& step) { step.hand = MonotonicClock::now(); });
+    camera_source_.next([](CameraStep& step) { step.input = MonotonicClock::now(); });
     ASSERT_TRUE(wait_for_ticks(3));
     camera_source_.next([](CameraStep& step) { step.view.azimuth_rad = 0.1; });
     const std::uint64_t pictures = programme_->stats().pictures;
@@ -872,16 +873,16 @@ TEST_F(ProgrammeTest, CountsNoInputThatChangesNoPicture) {
     EXPECT_EQ(programme_->stats().input_ms.count, 0u) << "its time is not the later picture's";
 }
 
-TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
+TEST_F(ProgrammeTest, HasNoLatencyForMarks) {
     make();
     start();
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     const auto mark = [](CameraStep& step) {
-        step.hand = MonotonicClock::now();
-        step.time.mark_in = true;
+        step.input = MonotonicClock::now();
+        step.time.commands = {command::MarkIn{}};
     };
-    // At every look, so also at those that begin a picture.
+    // At every step, and so also at those that start a frame.
     for (std::uint64_t pulse = 2; pulse < 8; ++pulse) {
         push(pulse);
         ASSERT_TRUE(eventually([&] {
@@ -892,7 +893,7 @@ TEST_F(ProgrammeTest, CountsNoMarkThatIsSetWhileTheStageMoves) {
     EXPECT_EQ(programme_->stats().input_ms.count, 0u) << "pictures are new, but not of the hand";
 }
 
-TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
+TEST_F(ProgrammeTest, KeepsTheRequestedQuality) {
     settings_.quality = {3};
     make();
     start();
@@ -904,7 +905,7 @@ TEST_F(ProgrammeTest, KeepsToTheQualityThatIsAskedFor) {
     EXPECT_NEAR(picture->picture(24, 32)[0], 200, 3);
 }
 
-TEST_F(ProgrammeTest, PutsTheEyesOfAStereoscopicPictureSideBySide) {
+TEST_F(ProgrammeTest, RendersStereoscopicEyesSideBySide) {
     settings_.format.stereoscopy = Stereoscopy{};
     make();
     start();
@@ -913,11 +914,11 @@ TEST_F(ProgrammeTest, PutsTheEyesOfAStereoscopicPictureSideBySide) {
     const ColourImage picture = programme_->state().picture->picture;
     EXPECT_EQ(picture.size(), cv::Size(64, 48));
     EXPECT_GE(picture(24, 16)[3], 128) << "the middle of the left eye's half";
-    EXPECT_GE(picture(24, 48)[3], 128) << "of the right eye's";
+    EXPECT_GE(picture(24, 48)[3], 128) << "the middle of the right eye's half";
 }
 
-/// A hull of rigs whose set is not known yet: black, and not a fault after which all is made anew.
-TEST_F(ProgrammeTest, GoesOnBlackWhereASynthesiserLacksWhatItNeeds) {
+/// Without a background the hull is black, and not a fault that recreates the renderer.
+TEST_F(ProgrammeTest, StaysBlackIfASynthesiserLacksItsInput) {
     settings_.synthesiser = "hull";
     make();
     start();
@@ -928,7 +929,7 @@ TEST_F(ProgrammeTest, GoesOnBlackWhereASynthesiserLacksWhatItNeeds) {
     EXPECT_EQ(programme_->stats().faults, 0);
 }
 
-TEST_F(ProgrammeTest, EndsWhenItsPlanDoes) {
+TEST_F(ProgrammeTest, EndsWithItsPlan) {
     make();
     push(1);
     programme_->start([](std::uint64_t pictures, double) { return pictures >= 12; });
@@ -940,7 +941,7 @@ TEST_F(ProgrammeTest, EndsWhenItsPlanDoes) {
     expect_every_tick_once();
 }
 
-TEST_F(ProgrammeTest, HandsOnWhatEndedIt) {
+TEST_F(ProgrammeTest, ThrowsTheErrorThatEndedIt) {
     make();
     start();
     EXPECT_FALSE(programme_->is_over());
@@ -954,7 +955,7 @@ TEST_F(ProgrammeTest, HandsOnWhatEndedIt) {
     }));
 }
 
-TEST_F(ProgrammeTest, HandsOnWhatTheFeedThrew) {
+TEST_F(ProgrammeTest, ThrowsTheErrorOfTheFeed) {
     feed_.fail_with("the receiver broke");
     make();
     start();

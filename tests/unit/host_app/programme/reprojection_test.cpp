@@ -11,7 +11,7 @@ constexpr int width_px = 320, height_px = 180;
 const cv::Size size(width_px, height_px);
 constexpr double wall_m = 8, board_m = 4;
 
-/// What a camera sees of a wall and of a board before it, each with waves of its own.
+/// Renders a wall and a board in front of it, each with its own pattern of waves.
 struct CameraPicture {
     ColourImage picture{size};
     cv::Mat1f inverse_depth{size};
@@ -41,7 +41,7 @@ CameraPicture picture_from(const CameraState& camera) {
     return seen;
 }
 
-/// Turned to the right about the vertical, and moved.
+/// A camera that was turned to the right and moved.
 CameraState camera_at(double x_m, double z_m = 0, double turn_rad = 0) {
     CameraState camera;
     camera.world_from_camera.linear() =
@@ -60,7 +60,7 @@ cv::Mat1f coarse(const cv::Mat1f& inverse_depth) {
     return cells;
 }
 
-/// Mean of the grey levels' differences, but for a margin that the first camera did not see.
+/// Mean difference of grey levels, without a margin that the first camera did not see.
 double difference(const ColourImage& a, const ColourImage& b) {
     constexpr int margin_px = 16;
     double sum = 0;
@@ -71,7 +71,7 @@ double difference(const ColourImage& a, const ColourImage& b) {
     return sum / pixels;
 }
 
-/// By how much less the reprojected picture differs from the true one than the first does.
+/// Error of the first frame divided by the error of the reprojected frame.
 double gain(const CameraState& from, const CameraState& to) {
     const CameraPicture first = picture_from(from), second = picture_from(to);
     const auto way = Reprojection::between(from, to, coarse(first.inverse_depth), size);
@@ -80,7 +80,7 @@ double gain(const CameraState& from, const CameraState& to) {
            difference(way->apply(first.picture), second.picture);
 }
 
-TEST(Reprojection, LeavesAPictureOfTheSameCamera) {
+TEST(Reprojection, KeepsAFrameOfTheSameCamera) {
     const CameraPicture seen = picture_from(camera_at(0));
     const auto way =
         Reprojection::between(camera_at(0), camera_at(0), coarse(seen.inverse_depth), size);
@@ -88,7 +88,7 @@ TEST(Reprojection, LeavesAPictureOfTheSameCamera) {
     EXPECT_LT(difference(way->apply(seen.picture), seen.picture), 0.01);
 }
 
-TEST(Reprojection, FollowsATurnAWayAsideAndAWayAhead) {
+TEST(Reprojection, FollowsATurnAndATranslation) {
     EXPECT_GT(gain(camera_at(0), camera_at(0, 0, 0.03)), 8);
     EXPECT_GT(gain(camera_at(0), camera_at(0.1)), 5);
     EXPECT_GT(gain(camera_at(0), camera_at(0, 0.2)), 5);
@@ -97,13 +97,13 @@ TEST(Reprojection, FollowsATurnAWayAsideAndAWayAhead) {
     EXPECT_GT(gain(camera_at(0), nearer), 8);
 }
 
-TEST(Reprojection, KeepsAnOutlineWithWhatStandsBeforeTheWall) {
+TEST(Reprojection, KeepsTheOutlineWithTheForeground) {
     const CameraPicture first = picture_from(camera_at(0)), second = picture_from(camera_at(0.12));
     const auto way =
         Reprojection::between(camera_at(0), camera_at(0.12), coarse(first.inverse_depth), size);
     ASSERT_TRUE(way);
     const ColourImage carried = way->apply(first.picture);
-    // Within a cell of the outline both are mixed.
+    // Within one cell of the outline both surfaces are mixed.
     constexpr int cell_px = 2;
     for (int x = width_px / 4; x < width_px * 3 / 4; ++x)
         if (second.inverse_depth(height_px / 2, x - cell_px) > 0.2f &&
@@ -113,16 +113,16 @@ TEST(Reprojection, KeepsAnOutlineWithWhatStandsBeforeTheWall) {
         }
 }
 
-TEST(Reprojection, GoesNoFurtherThanItsPictureBears) {
+TEST(Reprojection, EndsAtTheMaximumWay) {
     const cv::Mat1f depth = coarse(picture_from(camera_at(0)).inverse_depth);
     EXPECT_FALSE(Reprojection::between(camera_at(0), camera_at(2), depth, size));
     EXPECT_FALSE(Reprojection::between(camera_at(0), camera_at(0, 0, 3.1), depth, size));
     EXPECT_FALSE(Reprojection::between(camera_at(0), camera_at(0, 4), depth, size))
-        << "into what was before it";
+        << "a turn into the foreground";
     EXPECT_FALSE(Reprojection::between(camera_at(0), camera_at(0.1), {}, size)) << "no depth";
 }
 
-TEST(Reprojection, TakesWhereNothingIsForFarAway) {
+TEST(Reprojection, TreatsMissingDepthAsFarAway) {
     const cv::Mat1f nothing = cv::Mat1f::zeros(45, 80);
     const CameraPicture seen = picture_from(camera_at(0));
     const auto way = Reprojection::between(camera_at(0), camera_at(1), nothing, size);
@@ -130,7 +130,7 @@ TEST(Reprojection, TakesWhereNothingIsForFarAway) {
     EXPECT_LT(difference(way->apply(seen.picture), seen.picture), 0.01);
 }
 
-TEST(Reprojection, TellsAboutHowFarSurfacesGo) {
+TEST(Reprojection, EstimatesTheShiftOfSurfaces) {
     CameraState camera = camera_at(0);
     camera.field_of_view_rad = 0.8;
     camera.focus_m = 4;

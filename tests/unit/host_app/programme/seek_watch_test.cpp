@@ -20,12 +20,12 @@ ReadyInstant instant_of(std::uint64_t pulse, MonotonicTime taken_up) {
     return instant;
 }
 
-TEST(SeekWatch, CountsFromAJumpToTheFirstPictureOfWhereItLed) {
+TEST(SeekWatch, MeasuresFromAJumpToTheFirstFrameOfItsTarget) {
     SeekWatch watch;
     watch.follow(1, 40, 20, jumped_at);
     ASSERT_TRUE(watch.is_on());
     watch.saw(instant_of(20, jumped_at), 40, jumped_at + 20ms);
-    EXPECT_TRUE(watch.is_on()) << "what was there before is no answer";
+    EXPECT_TRUE(watch.is_on()) << "frames from before the jump do not count";
     watch.follow(1, 40, 20, jumped_at + 40ms);
     watch.saw(instant_of(40, jumped_at + 5ms), 40, jumped_at + 100ms);
     EXPECT_FALSE(watch.is_on());
@@ -38,14 +38,14 @@ TEST(SeekWatch, CountsFromAJumpToTheFirstPictureOfWhereItLed) {
     EXPECT_DOUBLE_EQ(steps.picture.max, 55);
 }
 
-TEST(SeekWatch, TakesWhereTimeHasGoneMeanwhileAsWell) {
+TEST(SeekWatch, AcceptsAPositionThatHasMovedOn) {
     SeekWatch watch;
     watch.follow(1, 40, 20, jumped_at);
     watch.saw(instant_of(41, jumped_at), 42, jumped_at + 90ms);
     EXPECT_FALSE(watch.is_on());
 }
 
-TEST(SeekWatch, HasNothingToWaitForWhereThePictureIsThere) {
+TEST(SeekWatch, DoesNotWaitForTheFrameOnScreen) {
     SeekWatch watch;
     EXPECT_TRUE(watch.has_jumped(1));
     watch.follow(1, 40, 40, jumped_at);

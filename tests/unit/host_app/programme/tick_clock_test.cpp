@@ -18,27 +18,27 @@ TEST(TickClock, TicksAtTheRate) {
     EXPECT_EQ(clock.time_of(7), 280ms);
 }
 
-TEST(TickClock, PassesTheTicksThatALatePictureMisses) {
+TEST(TickClock, SkipsTicksThatALateFrameMisses) {
     TickClock clock(25, start);
     EXPECT_EQ(clock.next_tick(start), 0u);
     EXPECT_EQ(clock.next_tick(start + 130ms), 3u);
     EXPECT_EQ(clock.next_tick(start + 160ms), 4u);
 }
 
-TEST(TickClock, NeverGivesATickTwice) {
+TEST(TickClock, NeverReturnsATickTwice) {
     TickClock clock(25, start);
     EXPECT_EQ(clock.next_tick(start), 0u);
     EXPECT_EQ(clock.next_tick(start + 1ms), 1u);
     EXPECT_EQ(clock.next_tick(start + 2ms), 2u);
 }
 
-TEST(TickClock, HoldsABroadcastRateForADay) {
+TEST(TickClock, KeepsABroadcastRateForADay) {
     const double rate_hz = 30000.0 / 1001;
     TickClock clock(rate_hz, start);
     const std::uint64_t day = 2'589'408;  // whole ticks of 86400 s - 0.0136 s
     EXPECT_NEAR(static_cast<double>(clock.time_of(day).count()),
                 static_cast<double>(day) * 1001 / 30000 * 1e9, 100);
-    // Waking exactly when a tick is due gives that tick.
+    // A call exactly when a tick is due returns that tick.
     for (std::uint64_t tick = day; tick < day + 100; ++tick)
         EXPECT_EQ(clock.next_tick(start + clock.time_of(tick)), tick);
 }

@@ -22,7 +22,7 @@ int changed(const ColourImage& a, const ColourImage& b) {
     return count;
 }
 
-TEST(MarkUnseen, LeavesWhatWasSeenOrIsRemembered) {
+TEST(MarkUnseen, KeepsSeenAndRememberedPixels) {
     for (const unsigned char alpha : {seen, remembered_alpha}) {
         ColourImage picture = picture_of(alpha);
         mark_unseen(picture);
@@ -30,7 +30,7 @@ TEST(MarkUnseen, LeavesWhatWasSeenOrIsRemembered) {
     }
 }
 
-TEST(MarkUnseen, LeavesHolesThatAreLikelyFilledRight) {
+TEST(MarkUnseen, KeepsSmallInpaintedHoles) {
     ColourImage picture = picture_of(seen);
     picture(cv::Rect(100, 50, 24, 80)).setTo(cv::Vec4b(10, 200, 10, filled));
     const ColourImage before = picture.clone();
@@ -38,21 +38,21 @@ TEST(MarkUnseen, LeavesHolesThatAreLikelyFilledRight) {
     EXPECT_EQ(changed(picture, before), 0);
 }
 
-TEST(MarkUnseen, MarksWhatIsFarFromAllThatWasSeen) {
+TEST(MarkUnseen, MarksPixelsFarFromAllSeenOnes) {
     ColourImage picture = picture_of(filled);
     picture(cv::Rect(0, 0, 160, 179)).setTo(cv::Vec4b(200, 120, 60, seen));
     const ColourImage before = picture.clone();
     mark_unseen(picture);
     EXPECT_EQ(changed(picture(cv::Rect(0, 0, 160, 179)), before(cv::Rect(0, 0, 160, 179))), 0);
     EXPECT_EQ(changed(picture(cv::Rect(160, 0, 12, 179)), before(cv::Rect(160, 0, 12, 179))), 0)
-        << "beside what was seen";
+        << "next to seen pixels";
     for (const cv::Point p : {cv::Point(205, 90), cv::Point(320, 0), cv::Point(320, 178)})
         EXPECT_TRUE(is_marked(picture(p))) << p;
     EXPECT_NE(picture(90, 300), picture(90, 305)) << "hatched";
-    EXPECT_EQ(picture(90, 300)[3], filled) << "it stays what it is";
+    EXPECT_EQ(picture(90, 300)[3], filled) << "alpha stays";
 }
 
-TEST(MarkUnseen, MarksNothingThatWasSeenInTheMidstOfIt) {
+TEST(MarkUnseen, KeepsSeenPixelsWithinAMarkedArea) {
     ColourImage picture = picture_of(filled);
     for (int y = 0; y < picture.rows; ++y) picture(y, 160)[3] = seen;
     mark_unseen(picture);
@@ -60,7 +60,7 @@ TEST(MarkUnseen, MarksNothingThatWasSeenInTheMidstOfIt) {
         EXPECT_EQ(picture(y, 160), cv::Vec4b(200, 120, 60, seen));
 }
 
-TEST(MarkUnseen, MarksAPictureOfNothingAndTakesTheSmallest) {
+TEST(MarkUnseen, MarksAnEmptyFrameAndAcceptsTheSmallest) {
     ColourImage picture = picture_of(0);
     mark_unseen(picture);
     for (const cv::Vec4b& pixel : picture) ASSERT_TRUE(is_marked(pixel));

@@ -12,7 +12,7 @@ namespace {
 class PastTime : public testing::TestWithParam<double> {
   protected:
     PastTime() { use_time_zone("Europe/Stockholm"); }
-    /// Ten minutes before and after midnight there.
+    /// Ten minutes before and after midnight, local time.
     PastFrameSets::Span span() const {
         const PulseGrid grid(GetParam());
         constexpr std::int64_t midnight_s = 1'795'042'800, ns = 1'000'000'000;
@@ -27,25 +27,25 @@ class PastTime : public testing::TestWithParam<double> {
     }
 };
 
-TEST_P(PastTime, FindsEveryPulseByItsCode) {
+TEST_P(PastTime, FindsEveryPulseByItsTimeCode) {
     const TimecodeClock clock(GetParam());
     std::string last;
     for (std::uint64_t pulse = span().oldest; pulse <= span().newest; pulse += 997) {
         const std::string code = clock.of_pulse(pulse, 0);
         const std::uint64_t found = find(code);
         EXPECT_EQ(clock.of_pulse(found, 0), code);
-        EXPECT_LE(pulse - found, 1u) << "two share a number above 60 a second";
+        EXPECT_LE(pulse - found, 1u) << "above 60 fps two pulses share a number";
     }
 }
 
-TEST_P(PastTime, WithoutFramesIsTheFirstOfTheSecond) {
+TEST_P(PastTime, TimeCodeWithoutFramesIsTheFirstOfTheSecond) {
     const std::uint64_t pulse = find("23:55:07");
     const TimecodeClock clock(GetParam());
     EXPECT_TRUE(clock.of_pulse(pulse, 0).starts_with("23:55:07"));
     EXPECT_FALSE(clock.of_pulse(pulse - 1, 0).starts_with("23:55:07"));
 }
 
-TEST_P(PastTime, TakesSecondsFromEitherEnd) {
+TEST_P(PastTime, AcceptsSecondsFromBothEnds) {
     const auto rate = [&](double seconds) {
         return static_cast<std::uint64_t>(std::llround(seconds * GetParam()));
     };
@@ -54,9 +54,10 @@ TEST_P(PastTime, TakesSecondsFromEitherEnd) {
     EXPECT_EQ(find("-0"), span().newest);
 }
 
-TEST_P(PastTime, RefusesWhatIsNoTimeOfThePast) {
-    EXPECT_NE(refusal("12:00:00:00").find("from 23:50"), std::string::npos) << refusal("12:00:00");
-    EXPECT_NE(refusal("-3000").find("not in the past"), std::string::npos);
+TEST_P(PastTime, RejectsTimesOutsideThePast) {
+    EXPECT_NE(refusal("12:00:00:00").find("goes from 23:50"), std::string::npos)
+        << refusal("12:00:00");
+    EXPECT_NE(refusal("-3000").find("outside the past"), std::string::npos);
     for (const char* words : {"", "abc", "1e", "nan", "inf", "5 s", "23:5", "23:55:07:1", ":::::"})
         EXPECT_NE(refusal(words), "") << words;
 }

@@ -9,7 +9,7 @@ using Action = ReplayAction;
 
 constexpr double rate_hz = 25;
 
-/// A stage of 25 pulses a second whose buffer has 1000 to 2000.
+/// A stage with 25 pulses per second, whose buffer has the pulses 1000 to 2000.
 class ReplayTest : public testing::Test {
   protected:
     ReplayTest() : replay_(Transport(), empty_book()) {}
@@ -21,9 +21,9 @@ class ReplayTest : public testing::Test {
     }
     void give(const TransportInput& input) { replay_.take(input, shown_, span_); }
     void ask(Action action, int number = 0, const std::string& words = {}) {
-        give({.calls = {{action, number, words}}});
+        give({.commands = {ReplayCall{action, number, words}}});
     }
-    /// Ticks of a pulse's length each.
+    /// Passes so many ticks of the length of a pulse.
     void pass(int ticks) {
         for (int i = 0; i < ticks; ++i) {
             replay_.advance(1 / rate_hz, rate_hz, span_);
@@ -34,12 +34,12 @@ class ReplayTest : public testing::Test {
     }
     void make_clip(std::uint64_t in, std::uint64_t out) {
         shown_ = in;
-        give({.mark_in = true});
+        give({.commands = {command::MarkIn{}}});
         shown_ = out;
-        give({.mark_out = true});
+        give({.commands = {command::MarkOut{}}});
         ask(Action::make_clip);
     }
-    /// Clips 1 to 3, of 10 pulses each, and all of them in the list.
+    /// Makes clips 1 to 3 of 10 pulses each, and a list of all of them.
     void make_list() {
         for (const std::uint64_t in : {1100, 1200, 1300}) {
             make_clip(in, in + 10);
@@ -61,35 +61,35 @@ class ReplayTest : public testing::Test {
     std::uint64_t shown_ = 2000;
 };
 
-TEST_F(ReplayTest, MakesAClipOfWhatIsBetweenTheMarksAndStaysLive) {
+TEST_F(ReplayTest, MakesAClipFromMarkToMarkAndStaysLive) {
     make_clip(1500, 1525);
     EXPECT_EQ(clip(1).in, 1500u);
-    EXPECT_EQ(clip(1).out, 1525u) << "the first that is left out";
+    EXPECT_EQ(clip(1).out, 1525u) << "the first pulse that is left out";
     EXPECT_EQ(clip(1).speed, 1);
     EXPECT_EQ(state().hand, 1);
     EXPECT_EQ(state().mode, ReplayMode::live);
     shown_ = 1600;
-    give({.mark_in = true});
+    give({.commands = {command::MarkIn{}}});
     shown_ = 1650;
     ask(Action::make_clip);
-    EXPECT_EQ(clip(2).out, 1650u) << "without an out mark up to what is shown";
+    EXPECT_EQ(clip(2).out, 1650u) << "without an out mark the clip ends at the pulse on screen";
 }
 
-TEST_F(ReplayTest, WhereTimeStandsItIsMarkedThoughItsPictureIsOnItsWay) {
+TEST_F(ReplayTest, MarksThePositionBeforeItsFrameIsShown) {
     shown_ = 1990;
     give({.to_pulse = 1200});
-    give({.mark_in = true});
+    give({.commands = {command::MarkIn{}}});
     give({.to_pulse = 1250.7});
     ask(Action::make_clip);
     EXPECT_EQ(clip(1).in, 1200u);
     EXPECT_EQ(clip(1).out, 1250u);
 }
 
-TEST_F(ReplayTest, SaysWhyThereIsNoClip) {
+TEST_F(ReplayTest, ReportsWhyNoClipWasMade) {
     ask(Action::make_clip);
-    EXPECT_NE(state().notice.find("mark in first"), std::string::npos) << state().notice;
+    EXPECT_NE(state().notice.find("set the in mark"), std::string::npos) << state().notice;
     shown_ = 1500;
-    give({.mark_in = true});
+    give({.commands = {command::MarkIn{}}});
     ask(Action::make_clip);
     EXPECT_NE(state().notice.find("out mark"), std::string::npos) << state().notice;
     EXPECT_TRUE(replay_.book().clips.empty());
@@ -103,7 +103,7 @@ TEST_F(ReplayTest, SaysWhyThereIsNoClip) {
     EXPECT_NE(state().notice.find("no clip 7"), std::string::npos) << state().notice;
 }
 
-TEST_F(ReplayTest, PlaysAClipFromItsInToBeforeItsOutAndStops) {
+TEST_F(ReplayTest, PlaysAClipToTheFrameBeforeItsOutAndStops) {
     make_clip(1500, 1510);
     ask(Action::play_clip);
     EXPECT_EQ(state().mode, ReplayMode::clip);
@@ -117,37 +117,37 @@ TEST_F(ReplayTest, PlaysAClipFromItsInToBeforeItsOutAndStops) {
     EXPECT_EQ(*state().clip_left_s, 0);
 }
 
-TEST_F(ReplayTest, AClipThatIsCuedStandsAtItsInAndPlaysAtItsSpeed) {
+TEST_F(ReplayTest, CuedClipStandsAtItsInAndPlaysAtItsSpeed) {
     make_clip(1500, 1510);
     ask(Action::clip_speed, 50);
     ask(Action::cue_clip);
     pass(5);
     EXPECT_EQ(pulse(), 1500);
     EXPECT_DOUBLE_EQ(*state().clip_left_s, 10 / rate_hz / 0.5);
-    give({.toggle_hold = true});
+    give({.commands = {command::ToggleHold{}}});
     pass(4);
     EXPECT_EQ(pulse(), 1502);
     ask(Action::clip_speed, 100);
     pass(1);
-    EXPECT_EQ(pulse(), 1503) << "what plays takes its new speed at once";
+    EXPECT_EQ(pulse(), 1503) << "a clip that is playing takes its new speed at once";
 }
 
-TEST_F(ReplayTest, HandsGoIntoTheGuardBandsAndNoFurther) {
+TEST_F(ReplayTest, JogStaysWithinTheGuardBands) {
     make_clip(1500, 1510);
     ask(Action::cue_clip);
     give({.pulses = -30});
     EXPECT_EQ(pulse(), 1470);
     give({.pulses = -100});
-    EXPECT_EQ(pulse(), 1450) << "two seconds";
+    EXPECT_EQ(pulse(), 1450) << "2 s before the in";
     give({.pulses = +1000});
     EXPECT_EQ(pulse(), 1509 + 50);
     EXPECT_EQ(state().mode, ReplayMode::clip);
     give({.to_pulse = 1800});
     EXPECT_EQ(pulse(), 1800);
-    EXPECT_EQ(state().mode, ReplayMode::past) << "who goes elsewhere leaves the clip";
+    EXPECT_EQ(state().mode, ReplayMode::past) << "a seek leaves the clip";
 }
 
-TEST_F(ReplayTest, TheMarksAreTheClipsUntilItIsLeft) {
+TEST_F(ReplayTest, MarksBelongToTheClipUntilItIsLeft) {
     make_clip(1500, 1510);
     make_clip(1700, 1710);
     ask(Action::hold_clip, 1);
@@ -155,41 +155,41 @@ TEST_F(ReplayTest, TheMarksAreTheClipsUntilItIsLeft) {
     EXPECT_EQ(replay_.transport().state().in, 1500u);
     give({.pulses = 3});
     shown_ = 1503;
-    give({.mark_in = true});
+    give({.commands = {command::MarkIn{}}});
     ask(Action::trim_clip);
     EXPECT_EQ(clip(1).in, 1503u);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     EXPECT_EQ(state().mode, ReplayMode::live);
     EXPECT_EQ(replay_.transport().state().in, 1700u);
     EXPECT_EQ(replay_.transport().state().out, 1710u);
 }
 
-TEST_F(ReplayTest, GoesBackToWhereTheLastPlaybackBegan) {
+TEST_F(ReplayTest, ReturnsToTheStartOfTheLastPlayback) {
     give({.to_pulse = 1200});
-    give({.toggle_hold = true});
+    give({.commands = {command::ToggleHold{}}});
     pass(40);
     EXPECT_EQ(pulse(), 1240);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     EXPECT_EQ(state().mode, ReplayMode::live);
     ask(Action::last_cue);
     EXPECT_EQ(pulse(), 1200);
     EXPECT_EQ(replay_.transport().state().speed, 0);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     make_clip(1500, 1510);
     ask(Action::play_clip);
     pass(5);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     ask(Action::last_cue);
     EXPECT_EQ(pulse(), 1500);
     EXPECT_EQ(state().mode, ReplayMode::clip);
     span_->oldest = 1600;
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     ask(Action::last_cue);
     EXPECT_EQ(state().mode, ReplayMode::live);
     EXPECT_NE(state().notice.find("has left the replay buffer"), std::string::npos);
 }
 
-TEST_F(ReplayTest, ProgrammeSpeedIsAPresetThatAKeyGivesAndTakes) {
+TEST_F(ReplayTest, ProgrammeSpeedTogglesAPreset) {
     ask(Action::preset_speed, 25);
     give({.to_pulse = 1200});
     ask(Action::programme_speed);
@@ -198,14 +198,14 @@ TEST_F(ReplayTest, ProgrammeSpeedIsAPresetThatAKeyGivesAndTakes) {
     EXPECT_EQ(pulse(), 1202);
     ask(Action::preset_speed, 50);
     pass(2);
-    EXPECT_EQ(pulse(), 1203) << "who plays at it follows it";
+    EXPECT_EQ(pulse(), 1203) << "playback at the programme speed follows the preset";
     ask(Action::programme_speed);
     EXPECT_EQ(replay_.transport().state().speed, 1);
     ask(Action::last_cue);
     EXPECT_EQ(pulse(), 1200);
 }
 
-TEST_F(ReplayTest, FastJogGoesTenTimesAsFarAndTheShuttleDoesNot) {
+TEST_F(ReplayTest, FastJogScalesTheJogButNotTheShuttle) {
     give({.to_pulse = 1500});
     ask(Action::fast_jog);
     give({.pulses = -2});
@@ -217,7 +217,7 @@ TEST_F(ReplayTest, FastJogGoesTenTimesAsFarAndTheShuttleDoesNot) {
     EXPECT_EQ(pulse(), 1484);
 }
 
-TEST_F(ReplayTest, PlaysAListWithoutAFrameBetweenItsClips) {
+TEST_F(ReplayTest, PlaysAListWithoutGaps) {
     make_list();
     ask(Action::play_list);
     std::vector<std::uint64_t> shown{shown_ = 1100};
@@ -229,23 +229,23 @@ TEST_F(ReplayTest, PlaysAListWithoutAFrameBetweenItsClips) {
     for (const std::uint64_t in : {1100, 1200, 1300})
         for (std::uint64_t i = 0; i < 10; ++i) expected.push_back(in + i);
     expected.insert(expected.end(), 2, 1309);
-    EXPECT_EQ(shown, expected) << "and stands at the end";
+    EXPECT_EQ(shown, expected) << "and stops at the end";
     EXPECT_EQ(*state().list_left_s, 0);
     ask(Action::add_entry);
     pass(3);
-    EXPECT_EQ(shown_, 1309u) << "what is added to a list that is over does not begin by itself";
+    EXPECT_EQ(shown_, 1309u) << "an entry that is added after the end does not start by itself";
 }
 
-TEST_F(ReplayTest, TimeThatIsOverAtTheEndOfAnEntryIsOfTheNextOne) {
+TEST_F(ReplayTest, CarriesExcessTimeIntoTheNextEntry) {
     make_list();
     ask(Action::entry_speed, 75);
     ask(Action::play_list);
     pass(14);
-    // 14 ticks are 10.5 pulses of the first at 0.75: two thirds of a tick are left.
+    // 14 ticks are 10.5 pulses at 0.75, so two thirds of a tick are left for the next entry.
     EXPECT_NEAR(pulse(), 1200 + 2.0 / 3, 1e-6);
 }
 
-TEST_F(ReplayTest, AListThatLoopsBeginsAgain) {
+TEST_F(ReplayTest, LoopingListStartsAgain) {
     make_list();
     ask(Action::loop_list);
     ask(Action::play_list);
@@ -254,14 +254,14 @@ TEST_F(ReplayTest, AListThatLoopsBeginsAgain) {
     EXPECT_EQ(state().playing, 0u);
 }
 
-TEST_F(ReplayTest, TheListIsEditedWhileItPlays) {
+TEST_F(ReplayTest, ListCanBeEditedWhileItPlays) {
     make_list();
     ask(Action::play_list);
     pass(3);
     ask(Action::select_entry, 2);
     ask(Action::swap_entry, 3);
     EXPECT_EQ(list(), (std::vector{1, 3, 2}));
-    EXPECT_EQ(pulse(), 1103) << "what plays plays on";
+    EXPECT_EQ(pulse(), 1103) << "the edit does not interrupt playback";
     pass(7);
     EXPECT_EQ(pulse(), 1300);
     ask(Action::select_entry, 2);
@@ -276,44 +276,46 @@ TEST_F(ReplayTest, TheListIsEditedWhileItPlays) {
     EXPECT_EQ(state().playing, 1u);
     ask(Action::select_entry, 4);
     ask(Action::remove_entry);
-    EXPECT_EQ(list(), (std::vector{3, 2, 1})) << "one that does not play needs no second time";
+    EXPECT_EQ(list(), (std::vector{3, 2, 1}))
+        << "an entry that is not playing needs no confirmation";
     EXPECT_DOUBLE_EQ(*state().list_left_s, 20 / rate_hz);
 }
 
-TEST_F(ReplayTest, AsksBeforeWhatPlaysIsTakenOut) {
+TEST_F(ReplayTest, AsksBeforeItRemovesThePlayingEntry) {
     make_list();
     ask(Action::play_list);
     pass(2);
     ask(Action::remove_entry);
     EXPECT_EQ(list().size(), 3u);
-    EXPECT_NE(state().question.find("entry 1, which plays"), std::string::npos);
+    EXPECT_NE(state().question.find("entry 1, which is playing"), std::string::npos);
     ask(Action::remove_entry);
     EXPECT_EQ(list(), (std::vector{2, 3}));
-    EXPECT_EQ(pulse(), 1200) << "the one that stands there now";
+    EXPECT_EQ(pulse(), 1200) << "the entry in its place";
     EXPECT_EQ(state().question, "");
     ask(Action::loop_list);
     ask(Action::remove_entry);
-    // Four times through the list, and longer than the question stands.
+    // Four times through the list, which takes longer than the question is open.
     pass(80);
     ask(Action::remove_entry);
-    EXPECT_EQ(list().size(), 2u) << "it is asked anew";
+    EXPECT_EQ(list().size(), 2u) << "it asks again";
 }
 
-TEST_F(ReplayTest, DeletingAClipAsksAndTakesItsEntriesAlong) {
+TEST_F(ReplayTest, DeletingAClipAsksAndRemovesItsEntries) {
     make_list();
     ask(Action::play_list);
     pass(2);
     ask(Action::hold_clip, 1);
     ask(Action::delete_clip);
-    EXPECT_NE(state().question.find("delete clip 1, which plays, which the play list has once"),
-              std::string::npos)
+    EXPECT_NE(
+        state().question.find("delete clip 1, which is playing, which is in the play list once"),
+        std::string::npos)
         << state().question;
     ask(Action::delete_clip);
     EXPECT_FALSE(replay_.book().clips.contains(1));
     EXPECT_EQ(list(), (std::vector{2, 3}));
     EXPECT_EQ(pulse(), 1200);
     EXPECT_EQ(state().hand, 2);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     for (const int number : {2, 3}) {
         ask(Action::hold_clip, number);
         ask(Action::delete_clip);
@@ -323,16 +325,17 @@ TEST_F(ReplayTest, DeletingAClipAsksAndTakesItsEntriesAlong) {
     EXPECT_TRUE(list().empty());
     EXPECT_EQ(state().hand, 0);
     make_clip(1500, 1510);
-    EXPECT_EQ(state().hand, 1) << "the lowest number that is free";
+    EXPECT_EQ(state().hand, 1) << "the lowest free number";
 }
 
-TEST_F(ReplayTest, AClipThatTheBufferHasLetGoOfIsNotPlayed) {
+TEST_F(ReplayTest, DoesNotPlayAClipThatLeftTheBuffer) {
     make_clip(1100, 1110);
     span_->oldest = 1105;
     ask(Action::cue_clip);
-    EXPECT_NE(state().notice.find("a part is not in the replay buffer"), std::string::npos);
+    EXPECT_NE(state().notice.find("a part of clip 1 is not in the replay buffer"),
+              std::string::npos);
     EXPECT_EQ(pulse(), 1105);
-    give({.to_live = true});
+    give({.commands = {command::ToLive{}}});
     span_->oldest = 1110;
     ask(Action::cue_clip);
     EXPECT_EQ(state().notice, "clip 1 is not in the replay buffer");
@@ -340,33 +343,33 @@ TEST_F(ReplayTest, AClipThatTheBufferHasLetGoOfIsNotPlayed) {
     EXPECT_EQ(presence_of(clip(1), span_), ClipPresence::gone);
 }
 
-TEST_F(ReplayTest, AClipThatIsLostWhileItPlaysStandsAndSaysSo) {
+TEST_F(ReplayTest, ClipThatLeavesTheBufferIsHeldAndReported) {
     make_clip(1100, 1110);
     ask(Action::clip_speed, 1);
     ask(Action::play_clip);
     pass(2);
     span_ = PastFrameSets::Span{.oldest = 1105, .newest = 2105};
     pass(1);
-    EXPECT_NE(state().notice.find("the beginning of clip 1 leaves"), std::string::npos);
+    EXPECT_NE(state().notice.find("the beginning of clip 1 has left"), std::string::npos);
     span_ = PastFrameSets::Span{.oldest = 1200, .newest = 2200};
     pass(1);
-    EXPECT_TRUE(replay_.transport().is_held()) << "the last picture, and nothing else";
+    EXPECT_TRUE(replay_.transport().is_held()) << "the last picture";
     EXPECT_FALSE(replay_.transport().pulse());
     EXPECT_NE(state().notice.find("its last picture is held"), std::string::npos);
 }
 
-TEST_F(ReplayTest, WhatStandsKeepsItsPictureWhenTheBufferLetsGoOfIt) {
+TEST_F(ReplayTest, StandingFrameStaysAfterTheBufferDropsIt) {
     make_clip(1100, 1110);
     ask(Action::cue_clip);
     shown_ = 1100;
     span_->oldest = 1101;
     give({});
     EXPECT_TRUE(replay_.transport().is_held());
-    EXPECT_EQ(state().mode, ReplayMode::live) << "held, at no pulse of the past";
+    EXPECT_EQ(state().mode, ReplayMode::live) << "held, and not in the past";
     EXPECT_NE(state().notice.find("clip 1 has left"), std::string::npos);
 }
 
-TEST_F(ReplayTest, AListPassesOverWhatIsGoneAndSaysSo) {
+TEST_F(ReplayTest, ListSkipsLostClipsAndReportsThem) {
     make_list();
     ask(Action::select_entry, 2);
     span_->oldest = 1220;
@@ -376,23 +379,23 @@ TEST_F(ReplayTest, AListPassesOverWhatIsGoneAndSaysSo) {
     EXPECT_EQ(state().notice, "clip 2 is not in the replay buffer");
 }
 
-TEST_F(ReplayTest, TheCameraIsToldTheShotOfWhatBegins) {
+TEST_F(ReplayTest, ReportsTheShotOfAClipThatStarts) {
     make_list();
     ask(Action::hold_clip, 2);
     ask(Action::clip_shot, 4);
     EXPECT_FALSE(replay_.take_shot());
     ask(Action::play_list);
-    EXPECT_FALSE(replay_.take_shot()) << "clip 1 has none";
+    EXPECT_FALSE(replay_.take_shot()) << "clip 1 has no shot";
     pass(10);
     EXPECT_EQ(replay_.take_shot(), 4);
     EXPECT_FALSE(replay_.take_shot()) << "once";
-    give({.to_live = true});
-    EXPECT_FALSE(replay_.take_shot()) << "the way back to live moves no camera";
+    give({.commands = {command::ToLive{}}});
+    EXPECT_FALSE(replay_.take_shot()) << "returning to live moves no camera";
     ask(Action::clip_shot, 4);
     EXPECT_EQ(clip(2).shot, 0);
 }
 
-TEST(ReplayOfATake, KnowsNoLiveAndBeginsWithItsBook) {
+TEST(ReplayOfATake, HasNoLiveAndStartsWithItsBook) {
     ClipBook book;
     book.pulse_rate_hz = rate_hz;
     book.clips[3] = {.in = 30, .out = 40, .speed = 0.5};
@@ -401,13 +404,13 @@ TEST(ReplayOfATake, KnowsNoLiveAndBeginsWithItsBook) {
     const std::optional<PastFrameSets::Span> span = PastFrameSets::Span{.oldest = 0, .newest = 100};
     EXPECT_EQ(replay.state().mode, ReplayMode::past);
     EXPECT_EQ(replay.state().hand, 3);
-    replay.take({.calls = {{Action::play_list}}}, 10, span);
+    replay.take({.commands = {ReplayCall{ReplayAction::play_list}}}, 10, span);
     EXPECT_DOUBLE_EQ(*replay.state().list_left_s, 10 / rate_hz / 0.5 + 10 / rate_hz / 2);
-    replay.take({.to_live = true}, 30, span);
+    replay.take({.commands = {command::ToLive{}}}, 30, span);
     EXPECT_EQ(replay.state().mode, ReplayMode::past);
     EXPECT_EQ(replay.transport().state().speed, 1);
-    EXPECT_EQ(replay.transport().pulse(), 30) << "at normal speed from where it is";
-    replay.take({.calls = {{Action::last_cue}}}, 30, span);
+    EXPECT_EQ(replay.transport().pulse(), 30) << "at normal speed from its position";
+    replay.take({.commands = {ReplayCall{ReplayAction::last_cue}}}, 30, span);
     EXPECT_EQ(replay.state().mode, ReplayMode::list);
 }
 

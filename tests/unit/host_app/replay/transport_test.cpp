@@ -12,40 +12,40 @@ class TransportTest : public testing::Test {
     void travel(double pulses, std::uint64_t shown) {
         transport_.take({.pulses = pulses}, shown, span_);
     }
-    void hold() { transport_.take({.toggle_hold = true}, 155, span_); }
-    void to_live() { transport_.take({.to_live = true}, 155, span_); }
-    void play(int steps) { transport_.take({.speed_steps = steps}, 155, span_); }
+    void hold() { transport_.obey(command::ToggleHold{}, 155, span_); }
+    void to_live() { transport_.obey(command::ToLive{}, 155, span_); }
+    void play(int steps) { transport_.obey(command::ChangeSpeed{steps}, 155, span_); }
     void advance(double dt_s) { transport_.advance(dt_s, 25, span_); }
 
     Transport transport_;
     std::optional<PastFrameSets::Span> span_ = PastFrameSets::Span{.oldest = 100, .newest = 160};
 };
 
-TEST_F(TransportTest, IsLiveUntilSomebodySaysOtherwise) {
+TEST_F(TransportTest, IsLiveAtFirst) {
     EXPECT_TRUE(transport_.is_live());
     EXPECT_FALSE(transport_.is_held());
     EXPECT_FALSE(transport_.pulse());
 }
 
-TEST_F(TransportTest, HoldsAndLetsGo) {
+TEST_F(TransportTest, TogglesHold) {
     hold();
     EXPECT_TRUE(transport_.is_held());
     EXPECT_FALSE(transport_.is_live());
-    EXPECT_FALSE(transport_.pulse()) << "held is the instant that is shown, wherever it is from";
+    EXPECT_FALSE(transport_.pulse()) << "hold keeps the frame set on screen, wherever it is from";
     hold();
     EXPECT_TRUE(transport_.is_live());
 }
 
-TEST_F(TransportTest, GoesFromThePulseThatIsShownAndStaysThere) {
+TEST_F(TransportTest, StepsFromThePulseOnScreenAndStops) {
     travel(-3, 155);
     EXPECT_EQ(transport_.pulse(), 152);
     EXPECT_FALSE(transport_.is_live());
     span_->newest = 170;
     advance(1);
-    EXPECT_EQ(transport_.pulse(), 152) << "the stage goes on and the past does not";
+    EXPECT_EQ(transport_.pulse(), 152) << "the position stays while the stage goes on";
 }
 
-TEST_F(TransportTest, GoesToThePulseThatIsAskedForAndStandsThere) {
+TEST_F(TransportTest, GoesToARequestedPulseAndStops) {
     transport_.take({.to_pulse = 131.5}, 155, span_);
     EXPECT_EQ(transport_.pulse(), 131.5);
     EXPECT_EQ(transport_.jumps(), 1u);
@@ -53,17 +53,17 @@ TEST_F(TransportTest, GoesToThePulseThatIsAskedForAndStandsThere) {
     EXPECT_EQ(transport_.pulse(), 131.5);
     play(1);
     transport_.take({.to_pulse = 90}, 155, span_);
-    EXPECT_EQ(transport_.pulse(), 100) << "the oldest that there is";
+    EXPECT_EQ(transport_.pulse(), 100) << "the oldest pulse";
     EXPECT_EQ(transport_.state().speed, 0);
 }
 
-TEST_F(TransportTest, AddsUpPartsOfAPulse) {
+TEST_F(TransportTest, AddsFractionsOfAPulse) {
     travel(-2, 150);
     for (int i = 0; i < 8; ++i) travel(0.25, 148);
-    EXPECT_DOUBLE_EQ(*transport_.pulse(), 150) << "what is shown meanwhile does not round it";
+    EXPECT_DOUBLE_EQ(*transport_.pulse(), 150) << "the pulse on screen does not round it";
 }
 
-TEST_F(TransportTest, StopsAtBothEndsOfWhatIsKept) {
+TEST_F(TransportTest, StopsAtBothEndsOfThePast) {
     travel(-1000, 155);
     EXPECT_EQ(transport_.pulse(), 100);
     travel(+1000, 100);
@@ -71,23 +71,23 @@ TEST_F(TransportTest, StopsAtBothEndsOfWhatIsKept) {
     EXPECT_FALSE(transport_.is_live()) << "at the newest pulse of the past, not live";
 }
 
-TEST_F(TransportTest, MovesOnFromWhatTheBufferHasDropped) {
+TEST_F(TransportTest, LeavesAPositionThatTheBufferDropped) {
     travel(-1000, 155);
     span_ = PastFrameSets::Span{.oldest = 130, .newest = 190};
     travel(+1, 100);
     EXPECT_EQ(transport_.pulse(), 130);
 }
 
-TEST_F(TransportTest, StaysLiveWhereNoPastIsKept) {
+TEST_F(TransportTest, StaysLiveWithoutAPast) {
     span_.reset();
     travel(-3, 155);
     EXPECT_TRUE(transport_.is_live());
 }
 
-TEST_F(TransportTest, ComesBackToLiveFromHoldAndPast) {
+TEST_F(TransportTest, ReturnsToLiveFromHoldAndPast) {
     hold();
     travel(-3, 155);
-    EXPECT_TRUE(transport_.is_held()) << "going through the past lets go of nothing";
+    EXPECT_TRUE(transport_.is_held()) << "stepping keeps the hold";
     to_live();
     EXPECT_TRUE(transport_.is_live());
     EXPECT_FALSE(transport_.pulse());
@@ -116,12 +116,12 @@ TEST_F(TransportTest, PlaysThePastAtEverySpeedOfTheShuttle) {
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 131);
     EXPECT_FALSE(transport_.is_moving());
     hold();
-    EXPECT_DOUBLE_EQ(transport_.state().speed, -2) << "goes on as it went";
+    EXPECT_DOUBLE_EQ(transport_.state().speed, -2) << "it plays on at its last speed";
     travel(+1, 131);
     EXPECT_DOUBLE_EQ(transport_.state().speed, 0) << "a jog stops it";
 }
 
-TEST_F(TransportTest, IsLiveAgainWherePlayingComesUpToTheStage) {
+TEST_F(TransportTest, ReturnsToLiveAtTheNewestPulse) {
     travel(-5, 155);
     play(+7);
     ASSERT_DOUBLE_EQ(transport_.state().speed, 2);
@@ -150,11 +150,11 @@ TEST_F(TransportTest, StopsAtTheEndsOfATake) {
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 100);
 }
 
-TEST_F(TransportTest, LoopsBetweenItsMarksAndLeavesTheOutFrameOut) {
+TEST_F(TransportTest, LoopsBetweenItsMarksWithoutTheOutFrame) {
     transport_ = Transport::of_take(110, 1);
-    transport_.take({.mark_in = true}, 110, span_);
-    transport_.take({.mark_out = true}, 120, span_);
-    transport_.take({.toggle_loop = true}, 115, span_);
+    transport_.obey(command::MarkIn{}, 110, span_);
+    transport_.obey(command::MarkOut{}, 120, span_);
+    transport_.obey(command::ToggleLoop{}, 115, span_);
     double most = 0, least = 1000;
     for (int i = 0; i < 100; ++i) {
         advance(0.02);
@@ -165,34 +165,35 @@ TEST_F(TransportTest, LoopsBetweenItsMarksAndLeavesTheOutFrameOut) {
     EXPECT_GT(most, 119);
     EXPECT_GE(least, 110);
     EXPECT_FALSE(transport_.is_at_end());
-    transport_.take({.toggle_loop = true}, 115, span_);
+    transport_.obey(command::ToggleLoop{}, 115, span_);
     for (int i = 0; i < 100; ++i) advance(0.02);
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 119) << "stops at the last frame before the out mark";
-    transport_.take({.cue = true}, 119, span_);
+    transport_.obey(command::CueIn{}, 119, span_);
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 110);
-    transport_.take({.clear_marks = true}, 110, span_);
-    transport_.take({.cue = true}, 110, span_);
+    transport_.obey(command::ClearMarks{}, 110, span_);
+    transport_.obey(command::CueIn{}, 110, span_);
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 100);
 }
 
-TEST_F(TransportTest, EntersALoopWhoseOutMarkIsSetWhereItPlays) {
+TEST_F(TransportTest, EntersALoopWhoseOutMarkIsSetAtThePosition) {
     transport_ = Transport::of_take(110, 1);
-    transport_.take({.mark_in = true}, 110, span_);
+    transport_.obey(command::MarkIn{}, 110, span_);
     advance(0.42);
-    transport_.take({.mark_out = true, .toggle_loop = true}, 120, span_);
+    transport_.obey(command::MarkOut{}, 120, span_);
+    transport_.obey(command::ToggleLoop{}, 120, span_);
     advance(0.04);
     EXPECT_DOUBLE_EQ(*transport_.pulse(), 110);
 }
 
-TEST_F(TransportTest, AMarkBeyondTheOtherTakesItAway) {
+TEST_F(TransportTest, MarkBeyondTheOtherRemovesIt) {
     transport_ = Transport::of_take(110, 1);
-    transport_.take({.mark_in = true}, 130, span_);
-    transport_.take({.mark_out = true}, 120, span_);
+    transport_.obey(command::MarkIn{}, 130, span_);
+    transport_.obey(command::MarkOut{}, 120, span_);
     EXPECT_FALSE(transport_.state().in);
     EXPECT_EQ(transport_.state().out, 120u);
 }
 
-TEST_F(TransportTest, IsLedThroughATakeByAFlightAndGoesOnByItselfAfterIt) {
+TEST_F(TransportTest, FollowsAMoveThroughATakeAndPlaysOnAfterIt) {
     transport_ = Transport::of_take(110, 1);
     const auto lead = [&](std::optional<double> pulse) {
         transport_.take({.at_pulse = pulse}, 110, span_);
@@ -204,12 +205,12 @@ TEST_F(TransportTest, IsLedThroughATakeByAFlightAndGoesOnByItselfAfterIt) {
     const std::uint64_t jumps = transport_.jumps();
     lead(120.5);
     EXPECT_EQ(transport_.pulse(), 120.5);
-    EXPECT_FALSE(transport_.is_moving()) << "what stands is worth the best picture";
+    EXPECT_FALSE(transport_.is_moving()) << "a position that stands gets the best frame";
     lead(119);
     EXPECT_EQ(transport_.pulse(), 119);
     EXPECT_EQ(transport_.jumps(), jumps);
     lead(159);
-    EXPECT_EQ(transport_.jumps(), jumps + 1) << "elsewhere";
+    EXPECT_EQ(transport_.jumps(), jumps + 1) << "a jump";
     lead(1000);
     EXPECT_EQ(transport_.pulse(), 160) << "not beyond the take";
     lead(120);
@@ -217,7 +218,7 @@ TEST_F(TransportTest, IsLedThroughATakeByAFlightAndGoesOnByItselfAfterIt) {
     EXPECT_EQ(transport_.pulse(), 121);
 }
 
-TEST_F(TransportTest, IsNotLedOnALiveStage) {
+TEST_F(TransportTest, IgnoresTheTimeOfAMoveOnALiveStage) {
     transport_.take({.at_pulse = 120}, 155, span_);
     EXPECT_TRUE(transport_.is_live());
 }

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// Of two rigs that stand 4 m in front of the stage.
+/// The corridor of two rigs 4 m in front of the stage.
 std::shared_ptr<const Corridor> corridor() {
     std::vector<CorridorRig> rigs;
     for (const double azimuth : {-0.25, 0.25}) {
@@ -19,7 +19,7 @@ std::shared_ptr<const Corridor> corridor() {
     return std::make_shared<const Corridor>(rigs, StageExtent{}, 0.5625);
 }
 
-TEST(CorridorFieldsTest, AreCoveredWhereTheRigsStandAndNotBehindTheStage) {
+TEST(CorridorFieldsTest, AreCoveredAtTheRigsAndNotBehindTheStage) {
     CorridorFields fields;
     const auto there = corridor();
     for (int i = 0; i < 100; ++i) fields.follow(there, OrbitView{}, 6);
@@ -36,7 +36,7 @@ TEST(CorridorFieldsTest, AreCoveredWhereTheRigsStandAndNotBehindTheStage) {
     EXPECT_EQ(place_at(std::numbers::pi, 4.2), CorridorPlace::beyond);
 }
 
-TEST(CorridorFieldsTest, ComeAFewAtATimeAndAreShownWhenTheyAreAll) {
+TEST(CorridorFieldsTest, AreComputedInPartsAndShownWhenComplete) {
     CorridorFields fields;
     const auto there = corridor();
     fields.follow(there, OrbitView{}, 6);
@@ -56,7 +56,7 @@ TEST(CorridorFieldsTest, ComeAFewAtATimeAndAreShownWhenTheyAreAll) {
     EXPECT_EQ(fields.pivot_m().x(), 1);
 }
 
-TEST(CorridorFieldsTest, AreNoneWithoutACorridor) {
+TEST(CorridorFieldsTest, AreEmptyWithoutACorridor) {
     CorridorFields fields;
     fields.follow(nullptr, OrbitView{}, 6);
     EXPECT_TRUE(fields.fields().empty());

@@ -1,5 +1,7 @@
 #include "host_app/session/report/live_report.h"
 
+#include <regex>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +22,7 @@ RigStatus good_rig() {
     return rig;
 }
 
-TEST(LiveReport, AGoodRigGivesNoWorry) {
+TEST(LiveReport, AGoodRigHasNoWorries) {
     EXPECT_THAT(worries_of(good_rig()), IsEmpty());
     RigStatus here = good_rig();
     here.sync.disciplined = false;
@@ -29,7 +31,7 @@ TEST(LiveReport, AGoodRigGivesNoWorry) {
     EXPECT_THAT(worries_of(here), IsEmpty());
 }
 
-TEST(LiveReport, TellsOfHeatSupplyAndClocks) {
+TEST(LiveReport, ReportsHeatSupplyAndClocks) {
     RigStatus rig = good_rig();
     rig.health.temperature_c = 82.6f;
     rig.health.under_voltage = true;
@@ -38,13 +40,13 @@ TEST(LiveReport, TellsOfHeatSupplyAndClocks) {
                                              "clocks not disciplined: skew unknown"));
     LiveReport report;
     report.rigs.push_back({.status = rig});
-    EXPECT_THAT(to_text(report), HasSubstr("north: its supply sags"));
+    EXPECT_THAT(to_text(report), HasSubstr("north: the supply voltage is too low"));
     EXPECT_EQ(to_json(report)["rigs"][0]["health"]["under_voltage"], true);
     rig.connected = false;
-    EXPECT_THAT(worries_of(rig), IsEmpty()) << "what it said last may not hold any more";
+    EXPECT_THAT(worries_of(rig), IsEmpty()) << "its last report may no longer hold";
 }
 
-TEST(LiveReport, NamesARigAtAnotherRateWithBoth) {
+TEST(LiveReport, ReportsARigAtAnotherRateThanTheStage) {
     RigStatus rig = good_rig();
     rig.sync.rate_hz = 2;
     rig.stage_rate_hz = 25;
@@ -56,7 +58,7 @@ TEST(LiveReport, NamesARigAtAnotherRateWithBoth) {
     EXPECT_THAT(std::string(to_json(report)["rigs"][0]["trouble"]), HasSubstr("2 Hz"));
 }
 
-TEST(LiveReport, SaysWhyARigIsAwayAndForHowLongItWas) {
+TEST(LiveReport, ReportsWhyARigIsDisconnectedAndItsOutages) {
     RigStatus rig = good_rig();
     EXPECT_EQ(full_state_of(rig), "connected");
     EXPECT_EQ(outages_of(rig), "");
@@ -64,10 +66,10 @@ TEST(LiveReport, SaysWhyARigIsAwayAndForHowLongItWas) {
     rig.unreachable = "connection refused";
     rig.outages = 1;
     rig.outage_s = 9.25;
-    EXPECT_EQ(outages_of(rig), "was away once, 9.2 s in all");
+    EXPECT_EQ(outages_of(rig), "was disconnected once, 9.2 s in all");
     rig.outages = rig.restarts = 2;
     EXPECT_EQ(outages_of(rig),
-              "was away 2 times, 9.2 s in all; its daemon was started anew 2 times");
+              "was disconnected 2 times, 9.2 s in all; its daemon restarted 2 times");
     rig.outages = 1;
     rig.restarts = 0;
     EXPECT_EQ(state_of(rig), "disconnected");
@@ -76,7 +78,7 @@ TEST(LiveReport, SaysWhyARigIsAwayAndForHowLongItWas) {
     report.rigs.push_back({.status = rig});
     const std::string text = to_text(report);
     EXPECT_THAT(text, HasSubstr("north is disconnected: connection refused\n"));
-    EXPECT_THAT(text, HasSubstr("north: was away once, 9.2 s in all"));
+    EXPECT_THAT(text, HasSubstr("north: was disconnected once, 9.2 s in all"));
     EXPECT_EQ(to_json(report)["rigs"][0]["outages"]["total_s"], 9.25);
 }
 
@@ -86,15 +88,52 @@ TEST(LiveReport, ExplainsEveryHeadingOfItsTables) {
     const std::string text = to_text(report);
     const std::string legend = counters_legend();
     EXPECT_THAT(text, HasSubstr(legend));
-    for (const char* heading : {"missed", "late", "published", "thinned", "pushed out", "sent",
-                                "lost", "damaged", "host busy", "duplicate", "unsynced",
-                                "out of step", "in sets", "fused", "superseded", "set dropped"}) {
-        EXPECT_THAT(legend, HasSubstr(heading));
+    const std::string words = std::regex_replace(legend, std::regex("\\s+"), " ");
+    for (const char* heading :
+         {"missed", "late", "published", "skipped", "dropped at rig", "sent", "lost", "damaged",
+          "dropped at host", "duplicate", "unsynchronised", "out of step", "in frame sets", "fused",
+          "replaced by newer", "dropped at start"}) {
+        EXPECT_THAT(words, HasSubstr(heading));
         EXPECT_THAT(text.substr(0, text.find(legend)), HasSubstr(heading));
     }
 }
 
-TEST(LiveReport, TellsWhatThePictureWasAtTheEnd) {
+TEST(LiveReport, KeepsRenamedKeysForOneRelease) {
+    LiveReport report;
+    report.programme.pictures = 30;
+    report.programme.duration_s = 2;
+    report.programme.replaced = 4;  // old name
+    report.frame_sets_replaced = 3;
+    report.saved_background = "studio.vset";
+    report.source_map.emplace();
+    RigAccount rig{.status = good_rig(), .fused = 5, .replaced = 7};
+    rig.status.in_frame_sets = 12;
+    rig.background.emplace().known = 0.5;
+    report.rigs.push_back(rig);
+    const nlohmann::ordered_json json = to_json(report);
+    const std::pair<const char*, const char*> keys[] = {
+        {"/new_frames_per_second", "/pictures_a_second"},
+        {"/replaced_pictures", "/superseded_pictures"},   // old name
+        {"/input_to_picture_ms", "/hand_to_picture_ms"},  // old name
+        {"/idle_to_best_ms", "/rest_to_best_ms"},
+        {"/frame_sets/replaced", "/sets/superseded"},  // old name
+        {"/instants/per_second", "/instants/a_second"},
+        {"/source_map", "/novelty"},  // old name
+        {"/saved_background", "/saved_set"},
+        {"/rigs/0/background/known", "/rigs/0/set/known"},
+        {"/rigs/0/link/skipped", "/rigs/0/link/thinned"},  // old name
+        {"/rigs/0/host/in_frame_sets", "/rigs/0/host/in_sets"},
+        {"/rigs/0/host/replaced", "/rigs/0/host/superseded"},  // old name
+        {"/rigs/0/host/dropped_at_start", "/rigs/0/host/in_dropped_sets"}};
+    for (const auto& [key, old_key] : keys)
+        EXPECT_EQ(json.at(nlohmann::ordered_json::json_pointer(key)),
+                  json.at(nlohmann::ordered_json::json_pointer(old_key)))
+            << key;
+    EXPECT_EQ(json["new_frames_per_second"], 15);
+    EXPECT_EQ(json["rigs"][0]["host"]["replaced"], 7);
+}
+
+TEST(LiveReport, ReportsTheSignalAtTheEnd) {
     LiveReport report;
     report.signal = SignalState::stale;
     EXPECT_EQ(to_json(report)["signal"], "stale");

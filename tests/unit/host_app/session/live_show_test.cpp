@@ -10,7 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
-#include "host_app/session/corridor_watch.h"
+#include "host_app/session/report/show_log.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"
@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 class LiveShowTest : public testing::Test {
   protected:
     LiveShowTest() {
-        // At the rigs' own place, which sees the wall through and through.
+        // At the rigs' position, from which all of the wall is covered.
         plan_.start = OrbitView{.distance_m = 4.5, .field_of_view_rad = 1.0};
     }
     LiveShow& show() {
@@ -45,7 +45,7 @@ class LiveShowTest : public testing::Test {
         }
         return false;
     }
-    /// From the first set to the end of the plan.
+    /// Runs the show from the first frame set to the end of the plan.
     LiveReport fly() {
         push(1);
         EXPECT_TRUE(show().wait_for_rigs(30s, stop_));
@@ -79,20 +79,20 @@ TEST_F(LiveShowTest, WaitsForAllRigs) {
     EXPECT_EQ(show().newest()->set->present(), 2);
 }
 
-TEST_F(LiveShowTest, GoesOnWithTheRigsThatCame) {
+TEST_F(LiveShowTest, ContinuesWithTheRigsThatSendFrames) {
     feed_.push(feed_.set(1, {"south"}));
     ASSERT_TRUE(wait_for([&] { return show().newest() != nullptr; }));
     EXPECT_TRUE(show().wait_for_rigs(200ms, stop_));
     EXPECT_EQ(show().newest()->set->present(), 1);
 }
 
-TEST_F(LiveShowTest, SaysWhichRigsHaveNotCome) {
+TEST_F(LiveShowTest, NamesTheRigsThatSendNoFrames) {
     const std::string sentence = thrown_sentence([&] { show().wait_for_rigs(100ms, stop_); });
     EXPECT_NE(sentence.find("within 0.1 s"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("north connected; south connected"), std::string::npos) << sentence;
 }
 
-TEST_F(LiveShowTest, EndsTheWaitWhenItIsInterruptedAndSaysWhatItWaitedFor) {
+TEST_F(LiveShowTest, EndsTheWaitOnASignalAndNamesTheMissingRigs) {
     show();
     kill(getpid(), SIGINT);
     testing::internal::CaptureStderr();
@@ -114,7 +114,7 @@ TEST_F(LiveShowTest, RefusesAnUnknownSynthesiserByName) {
     EXPECT_NE(refusal().find("mesh"), std::string::npos);
 }
 
-TEST_F(LiveShowTest, RefusesASourceMapOfWhatCannotTell) {
+TEST_F(LiveShowTest, RefusesASourceMapOfASynthesiserWithoutOne) {
     settings_.source_map = true;
     settings_.synthesiser = "points";
     EXPECT_NE(refusal().find("'points' cannot tell"), std::string::npos) << refusal();
@@ -131,7 +131,7 @@ TEST_F(LiveShowTest, RefusesAFilmThatCannotBeWritten) {
     EXPECT_NE(refusal().find(settings_.outputs[0]), std::string::npos) << refusal();
 }
 
-TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
+TEST_F(LiveShowTest, AccountsForEveryFrame) {
     for (std::uint64_t k = 0; k < 12; ++k)
         feed_.push(feed_.set(k, k % 3 ? std::vector<std::string>{"north", "south"}
                                       : std::vector<std::string>{"north"}));
@@ -141,24 +141,24 @@ TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
         const auto picture = show().state().picture;
         return picture && picture->job.instant->set->trigger_index == 11;
     }));
-    // What comes last may be left lying.
+    // The last frame sets may not be taken any more.
     push(12);
     push(13);
     show().finish();
     const LiveReport report = show().report();
     EXPECT_EQ(report.frame_sets_closed, 14u);
     EXPECT_EQ(report.frame_sets_complete, 10u);
-    EXPECT_EQ(report.instants_prepared + report.frame_sets_superseded, 14u);
+    EXPECT_EQ(report.instants_prepared + report.frame_sets_replaced, 14u);
     ASSERT_EQ(report.rigs.size(), 2u);
-    EXPECT_EQ(report.rigs[0].fused + report.rigs[0].superseded, 14u);
-    EXPECT_EQ(report.rigs[1].fused + report.rigs[1].superseded, 10u);
+    EXPECT_EQ(report.rigs[0].fused + report.rigs[0].replaced, 14u);
+    EXPECT_EQ(report.rigs[1].fused + report.rigs[1].replaced, 10u);
     EXPECT_GE(report.programme.latency_ms.count, 1u);
     EXPECT_EQ(report.rig_steps.match_ms.p50, 3);
 
     const nlohmann::ordered_json json = to_json(report);
-    EXPECT_EQ(json["sets"]["partial"], 4);
-    EXPECT_EQ(json["sets"]["fused"], report.instants_prepared);
-    EXPECT_EQ(json["instants"]["skipped"], report.frame_sets_superseded);
+    EXPECT_EQ(json["frame_sets"]["partial"], 4);
+    EXPECT_EQ(json["frame_sets"]["fused"], report.instants_prepared);
+    EXPECT_EQ(json["instants"]["skipped"], report.frame_sets_replaced);
     EXPECT_EQ(json["rigs"][0]["name"], "north");
     EXPECT_EQ(json["rigs"][0]["host"]["fused"], report.rigs[0].fused);
     EXPECT_NEAR(json["rigs"][0]["colour"]["gains"][1], 1, 0.01) << "both show one colour";
@@ -169,10 +169,10 @@ TEST_F(LiveShowTest, KeepsBooksThatAddUp) {
     EXPECT_EQ(json["faults"], 0);
     const std::string text = to_text(report);
     EXPECT_NE(text.find("14 frame sets, 10 complete and 4 partial"), std::string::npos) << text;
-    EXPECT_NE(text.find("superseded"), std::string::npos);
+    EXPECT_NE(text.find("replaced by newer"), std::string::npos);
 }
 
-TEST_F(LiveShowTest, DoesNotCountAgainWhatIsLookedAtAgain) {
+TEST_F(LiveShowTest, CountsAnInstantOnceThoughItIsReplayed) {
     settings_.replay_bytes = 100'000'000;
     show().start();
     const auto shows = [&](std::uint64_t pulse) {
@@ -187,7 +187,8 @@ TEST_F(LiveShowTest, DoesNotCountAgainWhatIsLookedAtAgain) {
     }
     for (const double steps : {-2, +1, -2}) {
         const std::uint64_t before = show().state().picture->job.instant->set->trigger_index;
-        show().controls().operator_input().put({.past_steps = steps}, MonotonicClock::now());
+        show().controls().operator_input().put({.commands = {command::StepFrames{steps}}},
+                                               MonotonicClock::now());
         ASSERT_TRUE(shows(before + static_cast<std::uint64_t>(static_cast<std::int64_t>(steps))));
     }
     show().finish();
@@ -222,7 +223,7 @@ TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
         }
         EXPECT_GT(film.middle_lumas[i], 60) << "black at " << film.times_s[i] << " s";
     }
-    // Title, five moments of three stills each.
+    // A title and five instants with three stills each.
     const ColourImage sheet = read_colour_image(settings_.contact_sheet);
     EXPECT_GT(sheet.cols, 3 * 480);
     EXPECT_GT(sheet.rows, 5 * 360);
@@ -231,7 +232,7 @@ TEST_F(LiveShowTest, WritesFilmAndContactSheetOfAFlight) {
     EXPECT_TRUE(json["stages_ms"].contains("encode"));
 }
 
-TEST_F(LiveShowTest, AFilmDoesNotBeginBeforeTheFirstPicture) {
+TEST_F(LiveShowTest, AFilmStartsWithTheFirstPicture) {
     settings_.outputs = {folder_.path() / "flight.mkv"};
     show().start();
     std::this_thread::sleep_for(400ms);
@@ -244,7 +245,7 @@ TEST_F(LiveShowTest, AFilmDoesNotBeginBeforeTheFirstPicture) {
     EXPECT_GT(film.middle_lumas.front(), 60);
 }
 
-TEST_F(LiveShowTest, SaysThatNoFilmCouldBeMadeOfNoPicture) {
+TEST_F(LiveShowTest, ReportsAFilmWithoutAPictureAsFailed) {
     settings_.outputs = {folder_.path() / "flight.mkv"};
     show().start();
     show().finish();
@@ -268,12 +269,12 @@ TEST_F(LiveShowTest, ReportsTheSourceMapAndTheEyesOfTheLastPicture) {
     const nlohmann::ordered_json json = to_json(report);
     EXPECT_EQ(json["stereoscopic"]["convergence_m"], 4.5);
     EXPECT_GT(json["stereoscopic"]["interaxial_m"], 0.05);
-    EXPECT_TRUE(json.contains("novelty"));
+    EXPECT_TRUE(json.contains("source_map"));
 }
 
-TEST_F(LiveShowTest, TellsOfNoSourceMapThatWasNotShown) {
+TEST_F(LiveShowTest, ReportsNoSourceMapThatWasNotShown) {
     plan_.frames = 1;
-    EXPECT_FALSE(to_json(fly()).contains("novelty"));
+    EXPECT_FALSE(to_json(fly()).contains("source_map"));
 }
 
 TEST_F(LiveShowTest, EndsAfterTheSecondsOfThePlan) {
@@ -283,7 +284,7 @@ TEST_F(LiveShowTest, EndsAfterTheSecondsOfThePlan) {
     EXPECT_LE(report.programme.ticks, 26u) << "of 40 ms";
 }
 
-TEST_F(LiveShowTest, KnowsTheCorridorOfTheRigsThatAreThere) {
+TEST_F(LiveShowTest, ComputesTheCorridorOfThePresentRigs) {
     plan_.frames = 3;
     const LiveReport report = fly();
     ASSERT_TRUE(show().corridor());
@@ -295,7 +296,7 @@ TEST_F(LiveShowTest, KnowsTheCorridorOfTheRigsThatAreThere) {
 }
 
 TEST_F(LiveShowTest, WarnsWhereAPlannedMoveLeavesTheCorridorAndFliesIt) {
-    // The rigs' place again, about a point of the wall.
+    // The rigs' position again, with the pivot on the wall.
     plan_.start = OrbitView{.pivot_m = {0, 1, 2.5}, .distance_m = 2, .field_of_view_rad = 1.0};
     OrbitView aside = *plan_.start;
     aside.azimuth_rad = 1.9;
@@ -312,10 +313,11 @@ TEST_F(LiveShowTest, WarnsWhereAPlannedMoveLeavesTheCorridorAndFliesIt) {
     }));
     show().finish();
     const std::string log = testing::internal::GetCapturedStderr();
-    EXPECT_NE(log.find("the planned move is beyond what the rigs cover from 0."), std::string::npos)
+    EXPECT_NE(log.find("the planned move leaves the area the rigs cover from 0."),
+              std::string::npos)
         << log;
-    EXPECT_NE(log.find("the camera is beyond what the rigs cover"), std::string::npos) << log;
-    EXPECT_EQ(log.find("the camera is beyond"), log.rfind("the camera is beyond")) << "once";
+    EXPECT_NE(log.find("the camera is outside the area the rigs cover"), std::string::npos) << log;
+    EXPECT_EQ(log.find("the camera is outside"), log.rfind("the camera is outside")) << "once";
     LiveReport report = show().report();
     report.uncovered = watch.uncovered_parts();
     EXPECT_NEAR(report.view.azimuth_rad, 1.9, 1e-6);
@@ -325,7 +327,7 @@ TEST_F(LiveShowTest, WarnsWhereAPlannedMoveLeavesTheCorridorAndFliesIt) {
     EXPECT_EQ(json["corridor"]["move_beyond"].at(0)["loss"], "aside");
 }
 
-TEST_F(LiveShowTest, HandsOnWhatTheFeedThrew) {
+TEST_F(LiveShowTest, RethrowsAnErrorOfTheFeed) {
     feed_.fail_with("the receiver broke");
     EXPECT_EQ(thrown_sentence([&] { show().wait_for_rigs(1h, stop_); }), "the receiver broke");
 }

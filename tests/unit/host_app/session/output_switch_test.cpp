@@ -18,24 +18,24 @@ class OutputSwitchTest : public testing::Test {
     const MonotonicTime now_ = MonotonicClock::now();
 };
 
-TEST_F(OutputSwitchTest, AsksBeforeItEndsOne) {
+TEST_F(OutputSwitchTest, AsksBeforeItStopsAnOutput) {
     switch_.press(2, now_);
     EXPECT_TRUE(desk_.is_wanted(1));
-    EXPECT_EQ(switch_.question(now_), "F6 again to end udp://127.0.0.1:5999");
+    EXPECT_EQ(switch_.question(now_), "Press F6 again to stop udp://127.0.0.1:5999");
     switch_.press(2, now_ + 1s);
     EXPECT_FALSE(desk_.is_wanted(1));
     EXPECT_TRUE(desk_.is_wanted(0));
     EXPECT_EQ(switch_.question(now_ + 1s), "");
 }
 
-TEST_F(OutputSwitchTest, BeginsOneAtOnce) {
+TEST_F(OutputSwitchTest, StartsAnOutputAtOnce) {
     desk_.stop(0);
     switch_.press(1, now_);
     EXPECT_TRUE(desk_.is_wanted(0));
     EXPECT_EQ(switch_.question(now_), "");
 }
 
-TEST_F(OutputSwitchTest, ForgetsAPressAfterAWhileOrAnotherOne) {
+TEST_F(OutputSwitchTest, ForgetsAPressAfterThreeSecondsOrAnotherKey) {
     switch_.press(1, now_);
     EXPECT_EQ(switch_.question(now_ + 4s), "");
     switch_.press(1, now_ + 4s);
@@ -46,9 +46,9 @@ TEST_F(OutputSwitchTest, ForgetsAPressAfterAWhileOrAnotherOne) {
     EXPECT_TRUE(desk_.is_wanted(1));
 }
 
-TEST_F(OutputSwitchTest, SaysThatThereIsNoSuchOutput) {
+TEST_F(OutputSwitchTest, ReportsAnOutputThatDoesNotExist) {
     for (const int number : {0, -1, 8, 3}) switch_.press(number, now_);
-    EXPECT_EQ(switch_.question(now_), "there is no output 3: --output adds one");
+    EXPECT_EQ(switch_.question(now_), "There is no output 3; add it with --output");
     EXPECT_EQ(switch_.question(now_ + 4s), "");
 }
 

@@ -10,7 +10,7 @@
 #include "common/gl/context/egl_context.h"
 #include "host_app/desk/feed/desk_feed.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/progress_log.h"
+#include "host_app/session/report/show_log.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"
 
 namespace vantage {
@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A show whose rigs give one set, and then nothing more.
+/// A show whose rigs send frames until the test stops them.
 class SignalLoss : public testing::Test {
   protected:
     SignalLoss() {
@@ -36,7 +36,7 @@ class SignalLoss : public testing::Test {
     bool comes_true(const std::function<bool()>& condition) {
         for (int i = 0; i < 15000; ++i) {
             if (condition()) return true;
-            // What the rigs give goes on until the test lets it end.
+            // The rigs send frames until the test stops them.
             if (goes_on_) feed_.push(feed_.set(++pulse_, {"north", "south"}));
             std::this_thread::sleep_for(goes_on_ ? 40ms : 2ms);
         }
@@ -68,10 +68,10 @@ class NoPictureYet : public SignalLoss {
     void SetUp() override { feed_.push(feed_.set(1, {"north", "south"})); }
 };
 
-TEST_F(NoPictureYet, IsWhatTheLogSaysWhileTheRendererIsMade) {
+TEST_F(NoPictureYet, IsExplainedByTheRendererInTheLog) {
     ASSERT_TRUE(show_->wait_for_rigs(30s, stop_));
     EXPECT_EQ(ProgressLog(plan_).line(*show_),
-              "no picture yet: the renderer compiles its shaders, 2 of 2 rigs give pictures");
+              "no picture yet: the renderer compiles its shaders, 2 of 2 rigs send frames");
     EXPECT_TRUE(desk().has_frame_sets);
 }
 
@@ -79,15 +79,15 @@ class NoFrameYet : public SignalLoss {
     void SetUp() override {}
 };
 
-TEST_F(NoFrameYet, IsNotTakenForARendererThatIsNotReady) {
-    EXPECT_EQ(ProgressLog(plan_).line(*show_), "no picture yet: no rig has sent one");
+TEST_F(NoFrameYet, IsExplainedByTheRigsInTheLog) {
+    EXPECT_EQ(ProgressLog(plan_).line(*show_), "no picture yet: no rig has sent a frame");
     const DeskState state = desk();
     EXPECT_TRUE(state.waiting);
     EXPECT_FALSE(state.has_frame_sets);
     for (const DeskRig& rig : state.rigs) EXPECT_EQ(rig.state, RigState::starting) << rig.name;
 }
 
-TEST_F(SignalLoss, IsInTheLogInPlaceOfAnOldLatency) {
+TEST_F(SignalLoss, ReplacesTheLatencyInTheLog) {
     ProgressLog log(plan_);
     ASSERT_TRUE(comes_true([&] { return show_->state().latency_ms > 0; }));
     std::string line;
@@ -106,7 +106,7 @@ TEST_F(SignalLoss, IsInTheLogInPlaceOfAnOldLatency) {
     }
 }
 
-TEST_F(SignalLoss, TakesWhatWasOfNowFromTheDesk) {
+TEST_F(SignalLoss, RemovesLatencyAndCoverageFromTheDesk) {
     DeskState state;
     ASSERT_TRUE(comes_true([&] {
         state = desk();
@@ -119,10 +119,10 @@ TEST_F(SignalLoss, TakesWhatWasOfNowFromTheDesk) {
     }));
     EXPECT_EQ(state.latency_ms, 0);
     EXPECT_FALSE(state.coverage);
-    EXPECT_FALSE(state.latencies_ms.empty()) << "how long it took before stays";
+    EXPECT_FALSE(state.latencies_ms.empty()) << "the earlier latencies stay";
 }
 
-TEST_F(SignalLoss, OfWhatComesAfterTheShowIsNotInItsReport) {
+TEST_F(SignalLoss, AfterTheEndIsNotInTheReport) {
     ASSERT_TRUE(comes_true([&] { return show_->state().picture != nullptr; }));
     feed_.push(feed_.set(++pulse_, {"north", "south"}));
     show_->finish();

@@ -9,11 +9,11 @@
 namespace vantage {
 namespace {
 
-TEST(SyncProof, says_how_old_it_is_and_how_far_apart_sensors_were) {
+TEST(SyncProof, DescribesAgeAndSkewOfTheLastMeasurement) {
     const TemporaryFolder folder;
     const std::filesystem::path stage = folder.path() / "stage.toml";
     const auto now = std::chrono::sys_days(std::chrono::year(2026) / 11 / 23);
-    EXPECT_EQ(sync_words(sync_proof_of(stage), now), "not proven by light (vantage-calib sync)");
+    EXPECT_EQ(sync_words(sync_proof_of(stage), now), "not measured (run vantage-calib sync)");
     EXPECT_TRUE(is_doubtful(sync_proof_of(stage), now));
     EXPECT_TRUE(to_json(sync_proof_of(stage), now).is_null());
 
@@ -26,7 +26,7 @@ TEST(SyncProof, says_how_old_it_is_and_how_far_apart_sensors_were) {
                                   {"A", false, 0.04, 0.01, 5, 24, 0, 0},
                                   {"B", true, -0.12, 0.01, 5, 24, 0, 0}}};
     save_sync(sync_file_of(stage), record);
-    EXPECT_EQ(sync_words(sync_proof_of(stage), now), "proven by light 3 d ago, 0.16 ms");
+    EXPECT_EQ(sync_words(sync_proof_of(stage), now), "measured 3 d ago, 0.16 ms");
     EXPECT_FALSE(is_doubtful(sync_proof_of(stage), now));
     EXPECT_TRUE(is_doubtful(sync_proof_of(stage), now + std::chrono::days(40)));
     EXPECT_EQ(to_json(sync_proof_of(stage), now)["furthest"]["sensor"], "B left");
@@ -35,7 +35,7 @@ TEST(SyncProof, says_how_old_it_is_and_how_far_apart_sensors_were) {
     save_sync(sync_file_of(stage), record);
     EXPECT_TRUE(is_doubtful(sync_proof_of(stage), now));
     std::ofstream(sync_file_of(stage)) << "kind: another\n";
-    EXPECT_NE(sync_words(sync_proof_of(stage), now).find("its proof cannot be read: "),
+    EXPECT_NE(sync_words(sync_proof_of(stage), now).find("the measurement cannot be read: "),
               std::string::npos);
 }
 

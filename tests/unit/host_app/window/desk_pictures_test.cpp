@@ -13,19 +13,19 @@
 namespace vantage {
 namespace {
 
-/// The desk as a person has looked at it. Where it is to look otherwise, VANTAGE_WRITE_PICTURES in
-/// the environment writes the pictures anew, for another look.
+/// Compares the desk with reviewed pictures. After an intended change, run the test with
+/// VANTAGE_WRITE_PICTURES in the environment to write new pictures, and review them.
 class DeskPictures : public testing::TestWithParam<cv::Size> {
   protected:
     void SetUp() override {
         if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
     }
-    static void expect_as_looked_at(const std::string& name, void (*change)(ExampleDesk&) = nullptr,
-                                    const DeskSwitches& switches = {});
+    static void expect_as_reviewed(const std::string& name, void (*change)(ExampleDesk&) = nullptr,
+                                   const DeskSwitches& switches = {});
 };
 
-void DeskPictures::expect_as_looked_at(const std::string& name, void (*change)(ExampleDesk&),
-                                       const DeskSwitches& switches) {
+void DeskPictures::expect_as_reviewed(const std::string& name, void (*change)(ExampleDesk&),
+                                      const DeskSwitches& switches) {
     const cv::Size size = GetParam();
     const VirtualScreen screen(size.width, size.height);
     setenv("DISPLAY", screen.display().c_str(), 1);
@@ -37,46 +37,46 @@ void DeskPictures::expect_as_looked_at(const std::string& name, void (*change)(E
     window.show(desk.state);
     const ColourImage shown = window.screenshot();
     ASSERT_EQ(shown.size(), size);
-    const std::filesystem::path file = source_folder() / "tests/unit/window/pictures" /
+    const std::filesystem::path file = source_folder() / "tests/unit/host_app/window/pictures" /
                                        fmt::format("{}_{}x{}.png", name, size.width, size.height);
     if (std::getenv("VANTAGE_WRITE_PICTURES")) write_colour_image(file, shown);
     const ColourImage expected = read_colour_image(file);
     ASSERT_EQ(expected.size(), size);
-    // Drivers and versions of fonts differ by shades at the edges of letters and lines.
+    // Drivers and font versions differ slightly at the edges of letters and lines.
     constexpr int visible = 60;
-    constexpr double most_differing = 0.01;
+    constexpr double max_differing_share = 0.01;
     ColourImage difference;
     cv::absdiff(shown, expected, difference);
     const auto differing =
         std::count_if(difference.begin(), difference.end(),
                       [](const cv::Vec4b& d) { return d[0] + d[1] + d[2] > visible; });
-    EXPECT_LT(static_cast<double>(differing), most_differing * size.area());
+    EXPECT_LT(static_cast<double>(differing), max_differing_share * size.area());
 }
 
-TEST_P(DeskPictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk"); }
+TEST_P(DeskPictures, MatchTheReviewedOnes) { expect_as_reviewed("desk"); }
 
-TEST_P(DeskPictures, OfAWheelsMapAreThoseThatWereLookedAt) {
-    expect_as_looked_at("jog", [](ExampleDesk& desk) { desk.open_wheel_map(); });
+TEST_P(DeskPictures, OfAWheelMapMatchTheReviewedOnes) {
+    expect_as_reviewed("jog", [](ExampleDesk& desk) { desk.open_wheel_map(); });
 }
 
-/// As large as displays are.
+/// The largest usual display.
 class DeskLargePictures : public DeskPictures {};
 
-TEST_P(DeskLargePictures, AreThoseThatWereLookedAt) { expect_as_looked_at("desk"); }
+TEST_P(DeskLargePictures, MatchTheReviewedOnes) { expect_as_reviewed("desk"); }
 
-/// States in which the desk is laid out as in another one, but for a part.
+/// States that change only a part of the desk.
 class DeskStatePictures : public DeskPictures {};
 
-TEST_P(DeskStatePictures, OfAPreviewAreThoseThatWereLookedAt) {
-    expect_as_looked_at("preview", [](ExampleDesk& desk) { desk.show_preview(); });
+TEST_P(DeskStatePictures, OfAPreviewMatchTheReviewedOnes) {
+    expect_as_reviewed("preview", [](ExampleDesk& desk) { desk.show_preview(); });
 }
 
-TEST_P(DeskStatePictures, OfTheFiguresAreThoseThatWereLookedAt) {
-    expect_as_looked_at("figures", nullptr, {.figures = true});
+TEST_P(DeskStatePictures, OfTheFiguresMatchTheReviewedOnes) {
+    expect_as_reviewed("figures", nullptr, {.figures = true});
 }
 
-TEST_P(DeskStatePictures, OfTheStageFromOutsideAreThoseThatWereLookedAt) {
-    expect_as_looked_at("outside", [](ExampleDesk& desk) { desk.add_points(); }, {.outside = true});
+TEST_P(DeskStatePictures, OfTheStageFromOutsideMatchTheReviewedOnes) {
+    expect_as_reviewed("outside", [](ExampleDesk& desk) { desk.add_points(); }, {.outside = true});
 }
 
 std::string name_of_size(const testing::TestParamInfo<cv::Size>& size) {

@@ -24,7 +24,7 @@ class GlWindow : public testing::Test {
     }
     void TearDown() override { unsetenv("LIBGL_ALWAYS_INDIRECT"); }
 
-    /// The API that makes a new window's context, which draws.
+    /// Returns the API of a new window's context after drawing with it.
     static int context_api(GLFWwindow* shared) {
         hint_gl_window();
         GLFWwindow* window = create_gl_window(64, 48, "", nullptr, shared);
@@ -45,7 +45,7 @@ TEST_F(GlWindow, HasAContextOfTheWindowSystem) {
     EXPECT_EQ(context_api(nullptr), GLFW_NATIVE_CONTEXT_API);
 }
 
-/// An indirect GLX has none.
+/// An indirect GLX has no OpenGL ES.
 TEST_F(GlWindow, HasOneOfEglsWhereTheWindowSystemHasNoOpenGlEs) {
     setenv("LIBGL_ALWAYS_INDIRECT", "1", 1);
     const GlfwLibrary library;

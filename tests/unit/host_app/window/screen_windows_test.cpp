@@ -28,7 +28,7 @@ class ScreenWindowsTest : public testing::Test {
         unsetenv("WAYLAND_DISPLAY");
     }
 
-    /// The pixel that the X server shows there.
+    /// Reads a pixel from the X server.
     cv::Vec4b pixel_at(int x, int y) const {
         const std::string file = (folder_.path() / "shot.png").string();
         const ProgramResult shot =
@@ -45,7 +45,7 @@ class ScreenWindowsTest : public testing::Test {
     std::shared_ptr<ScreenFeed> feed_ = std::make_shared<ScreenFeed>(1);
 };
 
-TEST_F(ScreenWindowsTest, ShowsThePictureOnTheWholeMonitorInItsShape) {
+TEST_F(ScreenWindowsTest, FillsTheMonitorInTheShapeOfThePicture) {
     ScreenWindows windows(false);
     const std::vector feeds{feed_};
     windows.follow(feeds);
@@ -69,13 +69,13 @@ TEST_F(ScreenWindowsTest, ShowsThePictureOnTheWholeMonitorInItsShape) {
     EXPECT_EQ(pixel_at(320, 100), cv::Vec4b(0, 0, 0, 255)) << "the window is gone";
 }
 
-TEST_F(ScreenWindowsTest, TellsThatItsMonitorIsGoneAndIsOpenedAgain) {
+TEST_F(ScreenWindowsTest, ReportsThatItsMonitorIsGoneAndOpensAgain) {
     ScreenWindows windows(false);
     const std::vector feeds{feed_};
     feed_->ask();
     windows.follow(feeds);
     ASSERT_EQ(feed_->state(), ScreenFeed::State::shown) << feed_->failure();
-    // What GLFW does with the windows of a monitor that is unplugged.
+    // GLFW turns the windows of an unplugged monitor into ordinary ones.
     glfwSetWindowMonitor(glfwGetCurrentContext(), nullptr, 0, 0, 64, 48, GLFW_DONT_CARE);
     windows.follow(feeds);
     EXPECT_EQ(feed_->state(), ScreenFeed::State::failed);
@@ -86,7 +86,7 @@ TEST_F(ScreenWindowsTest, TellsThatItsMonitorIsGoneAndIsOpenedAgain) {
     EXPECT_EQ(feed_->state(), ScreenFeed::State::shown) << feed_->failure();
 }
 
-TEST_F(ScreenWindowsTest, StandsBesideTheOperatorsWindow) {
+TEST_F(ScreenWindowsTest, WorksBesideTheOperatorsWindow) {
     OperatorWindow window("Vantage", 320, 240);
     ScreenWindows windows(true);
     const std::vector feeds{feed_};
@@ -101,7 +101,7 @@ TEST_F(ScreenWindowsTest, StandsBesideTheOperatorsWindow) {
     EXPECT_FALSE(window.screenshot().empty());
 }
 
-TEST_F(ScreenWindowsTest, TellsThatThereIsNoSuchMonitor) {
+TEST_F(ScreenWindowsTest, ReportsAMonitorThatDoesNotExist) {
     const auto far = std::make_shared<ScreenFeed>(7);
     ScreenWindows windows(false);
     far->ask();
@@ -110,7 +110,7 @@ TEST_F(ScreenWindowsTest, TellsThatThereIsNoSuchMonitor) {
     EXPECT_EQ(far->failure(), "there is no monitor 7: this display has 1");
 }
 
-TEST(ScreenWindowsWithoutADisplay, TellTheFeedWhy) {
+TEST(ScreenWindowsWithoutADisplay, ReportTheReasonToTheFeed) {
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
     const auto feed = std::make_shared<ScreenFeed>(1);
@@ -118,8 +118,7 @@ TEST(ScreenWindowsWithoutADisplay, TellTheFeedWhy) {
     feed->ask();
     windows.follow(std::vector{feed});
     EXPECT_EQ(feed->state(), ScreenFeed::State::failed);
-    EXPECT_NE(feed->failure().find("no window can be opened"), std::string::npos)
-        << feed->failure();
+    EXPECT_NE(feed->failure().find("cannot open a window"), std::string::npos) << feed->failure();
 }
 
 }  // namespace

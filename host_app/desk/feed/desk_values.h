@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_app/control/hid/wheel_input.h"
+#include "host_app/desk/desk_state.h"
+#include "host_app/desk/feed/bin_pictures.h"
+#include "host_app/programme/programme.h"
+#include "host_app/session/report/live_report.h"
+
+namespace vantage {
+
+/// Formats the running summary for the side panel: ticks, durations, instants and levels of
+/// quality. Measurements without samples are left out.
+std::vector<DeskFigure> desk_figures(const LiveReport& report);
+
+/// Converts clips and play list to the desk's values. `tai_offset_s` is as in TimecodeClock.
+DeskReplay desk_replay(const ProgrammeState& programme, const ClipPictures& pictures,
+                       int tai_offset_s);
+
+/// Converts an open wheel map to the desk's values; nothing if the map is closed.
+std::optional<DeskWheel> desk_wheel(const std::optional<WheelMapView>& view);
+
+}  // namespace vantage
