@@ -7,21 +7,21 @@
 
 namespace vantage {
 
-/// What a preparer of instants has learnt of the stage's set, as a thing of its own. Belongs to the
-/// preparer's thread and context.
+/// Access to the background that a preparer of instants learns. Belongs to the preparer's thread
+/// and GL context.
 class BackgroundAccess {
   public:
     virtual ~BackgroundAccess() = default;
 
-    /// Rigs that have no past, now and later, begin with what this set has of them, if it was
-    /// learnt with their calibration; states() tells of those that it does not fit. Null: with
-    /// nothing.
-    virtual void begin_with(std::shared_ptr<const Background> set) = 0;
-    /// What the rigs see from now on is the set, whatever was known: for a stage that is empty.
+    /// Rigs without a history, present and future ones, begin with their part of this background if
+    /// their calibration is the one that it was learnt with; states() reports those that it does
+    /// not fit. Null: they begin without.
+    virtual void begin_with(std::shared_ptr<const Background> background) = 0;
+    /// Forgets the background and learns it again from the next instants: for an empty stage.
     virtual void learn_anew() = 0;
-    /// Reads all of it back. Waits for the GPU.
+    /// Reads the background back. Waits for the GPU.
     virtual Background learnt() const = 0;
-    /// Of the rigs of the newest instant, a second old at most.
+    /// The states of the newest instant's rigs, at most a second old.
     virtual std::vector<RigBackgroundState> states() const = 0;
 };
 

@@ -15,14 +15,16 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view first_line = "vantage learnt set\n";
+/// Files of all versions begin with this.
+constexpr std::string_view first_line = "vantage learnt set\n";  // old name
 constexpr std::uint32_t version = 1;
-constexpr int most_rigs = 64;
-/// Of all rigs' pictures: ninety of 960x720.
-constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
-/// What those are where nothing compresses.
-constexpr std::size_t most_bytes = most_pixels * (sizeof(cv::Vec4b) + sizeof(float) + 1);
-constexpr float farthest_m = 1e6f;
+constexpr int max_rigs = 64;
+/// Limits the memory for all rigs' pictures: ninety of 960x720.
+constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
+/// Size of a file whose pictures do not compress at all.
+constexpr std::size_t max_bytes = max_pixels * (sizeof(cv::Vec4b) + sizeof(float) + 1);
+/// A larger depth is no measurement.
+constexpr float max_depth_m = 1e6f;
 
 template <class Picture>
 std::span<const std::byte> bytes_of(const Picture& picture) {
@@ -69,21 +71,21 @@ RigBackground decode_rig(const learnt::RigBackground& from) {
     rig.certainty = unpacked<cv::Mat1b>(zstd, from.certainty(), depth_size, "certainty");
     rig.depth_m = unpacked<DepthImage>(zstd, from.depth(), depth_size, "depth");
     for (const float z : rig.depth_m)
-        if (!(z >= 0 && z <= farthest_m))
-            fail("a depth of {} m of rig {} is outside 0..{:g}", z, rig.rig, farthest_m);
+        if (!(z >= 0 && z <= max_depth_m))
+            fail("a depth of {} m of rig {} is outside 0..{:g}", z, rig.rig, max_depth_m);
     rig.colour = LosslessColourDecoder().decode(bytes_in(from.colour()), width_px, height_px);
     return rig;
 }
 
 }  // namespace
 
-std::vector<std::byte> encode_frame_set(const Background& set) {
+std::vector<std::byte> encode_background(const Background& background) {
     learnt::Background message;
     message.set_version(version);
-    message.set_learnt_tai_ns(to_ns(set.learnt));
+    message.set_learnt_tai_ns(to_ns(background.learnt));
     PayloadCompressor zstd;
     LosslessColourEncoder colours;
-    for (const RigBackground& rig : set.rigs) {
+    for (const RigBackground& rig : background.rigs) {
         learnt::RigBackground& to = *message.add_rigs();
         to.set_rig(rig.rig);
         to.set_calibration(rig.calibration);
@@ -100,49 +102,54 @@ std::vector<std::byte> encode_frame_set(const Background& set) {
     return {bytes.begin(), bytes.end()};
 }
 
-Background decode_frame_set(std::span<const std::byte> bytes) {
+Background decode_background(std::span<const std::byte> bytes) {
     if (bytes.size() < first_line.size() ||
         std::memcmp(bytes.data(), first_line.data(), first_line.size()) != 0)
-        fail("it is no learnt set: it does not begin with '{}'",
+        fail("it is not a background file: it does not begin with '{}'",
              first_line.substr(0, first_line.size() - 1));
     const std::span<const std::byte> rest = bytes.subspan(first_line.size());
     keep_protobuf_quiet();
     learnt::Background message;
-    if (rest.size() > most_bytes ||
+    if (rest.size() > max_bytes ||
         !message.ParseFromArray(rest.data(), static_cast<int>(rest.size())))
-        fail("it is a damaged learnt set");
+        fail("the background file is damaged");
     if (message.version() != version)
-        fail("it is a learnt set of version {}; this program knows version {}: learn it anew",
-             message.version(), version);
-    if (message.rigs_size() < 1 || message.rigs_size() > most_rigs)
-        fail("it is the set of {} rigs, which is outside 1..{}", message.rigs_size(), most_rigs);
-    Background set;
-    if (message.learnt_tai_ns() < 0) fail("it was learnt before 1970");
-    set.learnt = tai_from_ns(message.learnt_tai_ns());
+        fail(
+            "it is a background file of version {}, this program reads version {}: learn the "
+            "background again",
+            message.version(), version);
+    if (message.rigs_size() < 1 || message.rigs_size() > max_rigs)
+        fail("it has the background of {} rigs, which is outside 1..{}", message.rigs_size(),
+             max_rigs);
+    Background background;
+    if (message.learnt_tai_ns() < 0) fail("its time is before 1970");
+    background.learnt = tai_from_ns(message.learnt_tai_ns());
     std::int64_t pixels = 0;
     for (const learnt::RigBackground& rig : message.rigs()) {
         pixels += std::max(
             std::int64_t{side("picture", rig.width_px())} * side("picture", rig.height_px()),
             std::int64_t{side("depth map", rig.depth_width_px())} *
                 side("depth map", rig.depth_height_px()));
-        if (pixels > most_pixels)
-            fail("its pictures have more than the {} pixels that a set may have", most_pixels);
+        if (pixels > max_pixels)
+            fail("its pictures have more than the {} pixels that a background file may have",
+                 max_pixels);
     }
-    for (const learnt::RigBackground& rig : message.rigs()) set.rigs.push_back(decode_rig(rig));
-    return set;
+    for (const learnt::RigBackground& rig : message.rigs())
+        background.rigs.push_back(decode_rig(rig));
+    return background;
 }
 
-Background load_set(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path, most_bytes);
+Background load_background(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = read_file(path, max_bytes);
     try {
-        return decode_frame_set(bytes);
+        return decode_background(bytes);
     } catch (const Error& error) {
-        fail("{} cannot be used: {}", path.string(), error.what());
+        fail("could not load {}: {}", path.string(), error.what());
     }
 }
 
-void save_background(const Background& set, const std::filesystem::path& path) {
-    write_file_atomically(path, encode_frame_set(set));
+void save_background(const Background& background, const std::filesystem::path& path) {
+    write_file_atomically(path, encode_background(background));
 }
 
 }  // namespace vantage

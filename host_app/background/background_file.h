@@ -9,17 +9,18 @@
 
 namespace vantage {
 
-/// A learnt set as one file: a line that names the format, then a message of learnt_set.proto.
-inline constexpr const char* set_file_extension = ".vset";
+// A background file: a line that names the format, then a message of background.proto.
 
-std::vector<std::byte> encode_frame_set(const Background& set);
-/// Throws Error for bytes that are no whole set of this version, before memory is taken for what
-/// they claim.
-Background decode_frame_set(std::span<const std::byte> bytes);
+inline constexpr const char* background_file_extension = ".vset";
 
-/// Throws Error with the path: missing, unreadable, no set, a damaged one.
-Background load_set(const std::filesystem::path& path);
-/// Whole or not at all. Throws Error with the path and the system's reason.
-void save_background(const Background& set, const std::filesystem::path& path);
+std::vector<std::byte> encode_background(const Background& background);
+/// Throws Error if the bytes are no complete background of this version, before it allocates the
+/// memory that they ask for.
+Background decode_background(std::span<const std::byte> bytes);
+
+/// Throws Error with the path if the file is missing, unreadable, damaged or no background file.
+Background load_background(const std::filesystem::path& path);
+/// Writes the file completely or not at all. Throws Error with the path and the system's reason.
+void save_background(const Background& background, const std::filesystem::path& path);
 
 }  // namespace vantage

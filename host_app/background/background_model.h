@@ -9,13 +9,14 @@
 
 namespace vantage {
 
-/// Tells a rig's set, which stands still, from the performers before it. The set's depth and colour
-/// are learnt along time, and what performers hide now is remembered; performers get a matte.
+/// The background model: separates a rig's background, which stands still, from the foreground. It
+/// learns depth and colour of the background over time, remembers them where foreground hides them,
+/// and draws the foreground's matte. Belongs to the GL context that it was made on.
 class BackgroundModel {
   public:
     explicit BackgroundModel(const ShaderLibrary& library)
-        : see_(library, "background_compare.frag"),
-          see_alike_(library, "background_compare.frag", {{"SAME_SIZE", "1"}}),
+        : compare_(library, "background_compare.frag"),
+          compare_same_size_(library, "background_compare.frag", {{"SAME_SIZE", "1"}}),
           tiles_(library, "matte_tiles.frag"),
           matte_(library, "matte.frag"),
           edges_(library, "matte_edges.frag"),
@@ -23,38 +24,39 @@ class BackgroundModel {
           colour_(library, "background_colour.frag"),
           known_(library, "background_sample.frag") {}
 
-    /// Makes the rig's colour() and steady_depth() those of its set, and fills its matte(). Once an
-    /// upload.
+    /// Updates the background from the rig's last upload: colour() and steady_depth() become those
+    /// of the background, and matte() is drawn. At most once for each upload.
     void learn(RigHistory& rig);
 
-    /// What was learnt, read back. Precondition: learn() of the last upload.
+    /// Reads the background back. Precondition: learn() of the last upload.
     static RigBackground learnt(const RigHistory& rig);
-    /// Goes on from that; before learn(), of an upload without a past. Precondition: it is of the
-    /// rig's camera and sizes.
-    static void restore(RigHistory& rig, const RigBackground& set);
-    /// Where a set is known that was read back from instants `dt_s` apart; of its depth's size.
-    static cv::Mat1b known(const RigBackground& set, double dt_s);
-    /// What is to be matched of it, read back, of its depth's size or a part of that. Precondition
-    /// as learnt().
+    /// Continues from a saved background; to be called before learn(), for an upload without a
+    /// history. Precondition: camera and sizes are the rig's.
+    static void restore(RigHistory& rig, const RigBackground& background);
+    /// Where a background that was learnt from instants `dt_s` apart is known; of its depth's size.
+    static cv::Mat1b known(const RigBackground& background, double dt_s);
+    /// Reads back the input of background stereo, in the depth's size or smaller. Precondition as
+    /// for learnt().
     static BackgroundView picture(const RigHistory& rig);
     struct Look {
-        double known_share = 0;  ///< of the rig's pixels: the set is known there
-        cv::Mat1b matte;         ///< the performers' share of its picture, small, 0..255
+        double known_share = 0;  ///< of the rig's pixels, those whose background is known
+        cv::Mat1b matte;         ///< reduced, 0..255
     };
-    /// Reads it back. Precondition as learnt().
+    /// Reads back a summary for operators. Precondition as for learnt().
     Look look_at(const RigHistory& rig);
 
     /// Sets the inputs and uniforms of background_now.glsl from a rig; `state` is the state of its
     /// background.
     static void set_background_now(Program& program, const RigHistory& rig, const Texture& state);
 
-    /// Instants that a pixel's depth counts at most.
-    static float most_votes(const RigHistory& rig);
-    /// Instants that a pixel has to have been still for before it is known to show the set.
+    /// Instants in the mean of a pixel's depth, at most.
+    static float max_instants(const RigHistory& rig);
+    /// Instants without change after which a pixel's background is known.
     static float known_after(const RigHistory& rig);
 
   private:
-    TwoStagePass see_, see_alike_;  ///< the latter where depth is as large as the picture
+    TwoStagePass compare_;
+    TwoStagePass compare_same_size_;  ///< if the depth map has the picture's size
     FullscreenPass tiles_;
     TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
@@ -62,7 +64,7 @@ class BackgroundModel {
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 
-/// How many instants `dt_s` apart `seconds` span, within bounds.
-float instants_of(double seconds, double dt_s, int fewest, int most);
+/// The number of instants `dt_s` apart in `seconds`, within min and max.
+float instants_of(double seconds, double dt_s, int min, int max);
 
 }  // namespace vantage

@@ -14,36 +14,36 @@
 
 namespace vantage {
 
-/// What one rig has learnt of its set. Both pictures have one size.
+/// One rig's background, as input of background stereo. Colour and depth have one size.
 struct BackgroundView {
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
     Pose world_from_camera = Pose::Identity();
     double baseline_m = 0;  ///< of the rig's own two cameras
-    ColourImage colour;     ///< alpha 0: the set is not known there
-    DepthImage depth_m;     ///< of the rig's own matcher, 0 = unknown
-    /// The rig's rectified right pictures, as they came; of one size, which has the same field of
-    /// view. Where there are fewer than three the set is matched without.
+    ColourImage colour;     ///< alpha 0: the background is unknown there
+    DepthImage depth_m;     ///< from the rig's own matcher, 0 = unknown
+    /// The rig's rectified right images, all of one size, with the field of view of `colour`. With
+    /// fewer than three, they are not used.
     std::vector<SharedBytes> right_jpegs = {};
     cv::Size right_px = {};
-    ColourCorrection right_correction = {};  ///< brings their colours to the stage's
-    double doffs_px = 0;                     ///< their cx is so much more, pixels of `colour`
+    ColourCorrection right_correction = {};  ///< of the right images
+    double doffs_px = 0;                     ///< their cx less that of `colour`, px of `colour`
 };
 
-/// Matches the sets of rigs against each other. A stereo rig's baseline is short, and its matcher
-/// works against time; a set stands still, its colours are free of noise, and other rigs look at it
-/// from metres aside. So every depth of the stage is tried at every pixel (a plane sweep, Collins
-/// 1996): its cost is how unlike the pictures of the two rigs are that are most like this one's
-/// there, how unlike the rig's own right picture is, which tells apart what stands alike in a row
-/// and sees what no other rig does, and how far it is from the depth of the rig's own matcher.
-/// Surfaces are found by semi-global matching (Hirschmueller, 2008) over these costs. That is done
-/// twice: the second time each rig's depths tell the others what is hidden from it, what it sees
-/// through, and what it agrees with.
+/// Background stereo: multi-view stereo over the backgrounds of several rigs. A stereo rig's
+/// baseline is short and its matcher works in real time; the background stands still, its colours
+/// are free of noise, and other rigs see it from metres to the side. So every depth of the stage is
+/// tried at every pixel (plane sweep; Collins, 1996). The cost of a depth combines the two other
+/// rigs whose pictures match best, the rig's own right image, which resolves repetitive structure
+/// and surfaces that no other rig sees, and the distance from the depth of the rig's own matcher.
+/// Semi-global matching (Hirschmueller, 2008) selects surfaces from these costs. A second pass uses
+/// the depths of the first for occlusions and consistency between rigs.
 ///
-/// Takes 1 s a rig of 320x240 on one thread, and 150 MB.
+/// Takes 1 s for each rig of 320x240 on one thread, and 150 MB.
 ///
-/// @return each rig's depth, metres, 0 where its set is not known, or where no other rig stands
-/// farther from it than its own two cameras from each other; nothing if `stop` was asked for.
-std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> sets,
+/// @return each rig's depth, metres; 0 where its background is unknown, or everywhere if no other
+/// rig
+///     stands farther away than twice its baseline. Nothing if `stop` was requested.
+std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> views,
                                                          const std::stop_token& stop = {});
 
 }  // namespace vantage

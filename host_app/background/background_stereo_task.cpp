@@ -6,15 +6,15 @@
 
 namespace vantage {
 
-void BackgroundStereoTask::begin(std::vector<BackgroundView> sets, Manner manner) {
-    auto match = [sets = std::move(sets), stop = stop_.get_token()] {
-        return match_backgrounds(sets, stop);
+void BackgroundStereoTask::begin(std::vector<BackgroundView> views, Manner manner) {
+    auto match = [views = std::move(views), stop = stop_.get_token()] {
+        return match_backgrounds(views, stop);
     };
     if (manner == Manner::when_waited_for)
         result_ = std::async(std::launch::deferred, std::move(match));
     else
         result_ = std::async(std::launch::async, [match = std::move(match)] {
-            name_this_thread("set matching");
+            name_this_thread("bg stereo");
             make_this_thread_idle();
             return match();
         });

@@ -9,24 +9,25 @@
 
 namespace vantage {
 
-/// Matches sets beside other work, or for who waits for them.
+/// Runs background stereo, on a thread of its own or on the thread that waits for its result.
 class BackgroundStereoTask {
   public:
     enum class Manner {
-        beside,           ///< on a thread of its own, which leaves the processor to all others
-        when_waited_for,  ///< on the thread that waits for it
+        beside,           ///< on a thread of its own, at idle priority
+        when_waited_for,  ///< on the thread that calls take(true)
     };
 
     BackgroundStereoTask() = default;
-    /// Gives up what is under way.
+    /// Abandons a run that is under way and waits for its thread.
     ~BackgroundStereoTask() { stop_.request_stop(); }
     BackgroundStereoTask(const BackgroundStereoTask&) = delete;
     BackgroundStereoTask& operator=(const BackgroundStereoTask&) = delete;
 
     bool is_under_way() const { return result_.valid(); }
-    /// Precondition: nothing is under way.
-    void begin(std::vector<BackgroundView> sets, Manner manner);
-    /// What match_sets() made of them, once; empty before it is done. `waits`: until it is.
+    /// Starts match_backgrounds(). Precondition: no run is under way.
+    void begin(std::vector<BackgroundView> views, Manner manner);
+    /// Returns the result of match_backgrounds(), once; nothing before it is ready. With `waits`,
+    /// waits until it is.
     std::optional<std::vector<DepthImage>> take(bool waits = false);
 
   private:

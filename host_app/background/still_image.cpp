@@ -9,9 +9,10 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t fewest_pictures = 3;
+/// With fewer images a person who passes by could be in the result.
+constexpr std::size_t min_pictures = 3;
 
-/// Sorts them.
+/// The mean of the middle half of the values, which it sorts.
 uchar middle_of(std::vector<uchar>& values) {
     std::sort(values.begin(), values.end());
     const std::size_t from = values.size() / 4, to = values.size() - from;
@@ -32,7 +33,7 @@ ColourImage still_picture(std::span<const SharedBytes> jpegs, cv::Size size) {
             continue;
         }
     }
-    if (pictures.size() < fewest_pictures) return {};
+    if (pictures.size() < min_pictures) return {};
     ColourImage still(size);
     std::vector<uchar> values(pictures.size());
     for (int y = 0; y < size.height; ++y)

@@ -7,11 +7,11 @@
 
 namespace vantage {
 
-/// What stands still in a rig's right pictures, which came at different times: of every channel of
-/// a pixel the mean of the middle half. What passed by is not in it, nor noise.
+/// The picture of everything that stands still in a rig's right images of different times: for each
+/// channel of a pixel, the mean of the middle half of its values. Moving people and noise vanish.
 ///
-/// @param jpegs as they came, all of `size`; one that is damaged is left out.
-/// @return empty if there are fewer than three.
+/// @param jpegs images of `size`; damaged ones are ignored
+/// @return empty if fewer than three are intact
 ColourImage still_picture(std::span<const SharedBytes> jpegs, cv::Size size);
 
 }  // namespace vantage

@@ -1,7 +1,7 @@
 #include "host_app/foreground/foreground_depth.h"
 
-#include "host_app/views/depth_edges.h"
 #include "host_app/views/projection.h"
+#include "host_app/views/tolerances.h"
 #include "host_app/views/view_ranking.h"
 
 namespace vantage {

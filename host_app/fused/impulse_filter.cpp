@@ -1,6 +1,6 @@
 #include "host_app/fused/impulse_filter.h"
 
-#include "host_app/views/depth_edges.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/views/depth_spread.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/view_ranking.h"
 
 namespace vantage {

@@ -1,6 +1,6 @@
 #include "host_app/gallery/layer_splitter.h"
 
-#include "host_app/views/depth_edges.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 namespace {

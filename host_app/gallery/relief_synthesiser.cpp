@@ -10,9 +10,9 @@
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"
-#include "host_app/views/depth_edges.h"
-#include "host_app/views/depth_spread.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 namespace {

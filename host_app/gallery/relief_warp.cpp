@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/gl/context/limits.h"
-#include "host_app/views/depth_edges.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 namespace {

@@ -20,7 +20,7 @@ struct PrepareLevel {
     /// carved away, and depth is moved to where the rigs' images match.
     bool is_refined = true;
     bool has_fine_grid = true;  ///< surfaces may be drawn with one vertex per pixel, with rims
-    float bend = TriangleBuilder::least_bend;  ///< least bend that splits a cell of a coarse grid
+    float bend = TriangleBuilder::default_bend;  ///< least bend that splits a cell of a coarse grid
 };
 
 /// All preparation levels from the best to the cheapest, ordered by rank.

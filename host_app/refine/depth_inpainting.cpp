@@ -1,11 +1,9 @@
 #include "host_app/refine/depth_inpainting.h"
 
-#include "host_app/views/depth_edges.h"
-
 namespace vantage {
 namespace {
 
-/// Holes up to about 2^halvings pixels wide are closed.
+/// The pyramid closes holes up to about 2^halvings pixels wide.
 constexpr std::size_t halvings = 6;
 
 }  // namespace
@@ -35,7 +33,6 @@ void DepthInpainting::close(const Texture& depth_m, const Texture& measured_m,
     inpaint.input("depth_map", depth_m);
     inpaint.input("measured", measured_m);
     inpaint.input("picture", picture);
-    inpaint.set("edge_ratio", depth_edge_ratio);
     inpaint_.draw(pyramid.inpainted.target());
     const Texture& inpainted = pyramid.inpainted.texture();
     const Texture* fine = &inpainted;

@@ -8,22 +8,27 @@
 
 namespace vantage {
 
-/// Guesses the depth of a rig's pixels that have none, so that their colour can be shown where no
-/// rig knows better: from the nearest known pixels of like colour, the farther side's first, for
-/// what a stereo rig cannot match is mostly background that one of its two cameras does not see;
-/// where none is near, by pull and push on inverse depth.
+/// Depth inpainting: gives depth to pixels of a rig that have none, so that their colour can be
+/// shown where no rig has measured the place. The depth comes from the nearest known pixels of
+/// similar colour, the farther side's first: a place that a stereo rig cannot match is mostly
+/// background that only one of its cameras sees. Where none is near it comes from pull and push
+/// (Gortler et al., 1996) on inverse depth.
 class DepthInpainting {
   public:
     explicit DepthInpainting(const ShaderLibrary& library);
 
-    /// `depth_m`: r32f, 0 = unknown, negative = guessed, and left so; `measured_m`: before other
-    /// rigs carved some of it away; `picture`: the same rig's.
-    /// Into `closed`, r32f of the same size: what was known, and the guesses with a negative sign.
+    /// Draws into `closed` (r32f, the size of `depth_m`) the known depth and, with a negative sign,
+    /// the inpainted depth.
+    ///
+    /// @param depth_m r32f, metres, 0 = unknown; negative (inpainted before) is kept
+    /// @param measured_m the depth before other rigs carved some of it away; where it has any, none
+    ///     is taken from pixels beside
+    /// @param picture the rig's colours
     void close(const Texture& depth_m, const Texture& measured_m, const Texture& picture,
                const Framebuffer& closed);
 
   private:
-    /// The first level is of half the map's size, every next one of half the last one's.
+    /// The first level has half the map's size, every other one half the size of the one before.
     struct Level {
         DrawnTexture pulled{TextureFormat::r32f}, pushed{TextureFormat::r32f};
     };
@@ -34,7 +39,7 @@ class DepthInpainting {
     Pyramid& pyramid(cv::Size size);
 
     FullscreenPass inpaint_, pull_, push_;
-    std::map<std::pair<int, int>, Pyramid> pyramids_;  ///< by size; rigs of one size share theirs
+    std::map<std::pair<int, int>, Pyramid> pyramids_;  ///< by size; rigs of one size share one
 };
 
 }  // namespace vantage

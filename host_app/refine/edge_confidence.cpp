@@ -1,7 +1,5 @@
 #include "host_app/refine/edge_confidence.h"
 
-#include "host_app/views/depth_edges.h"
-
 namespace vantage {
 
 void EdgeConfidence::judge(RigSurface& surface) {
@@ -10,7 +8,6 @@ void EdgeConfidence::judge(RigSurface& surface) {
     program.input("depth_map", surface.depth());
     program.set("picture_size",
                 Eigen::Vector2i(surface.colour().width_px(), surface.colour().height_px()));
-    program.set("edge_ratio", depth_edge_ratio);
     pass_.draw(surface.confidence().target());
 }
 

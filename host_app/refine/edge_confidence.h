@@ -5,16 +5,16 @@
 
 namespace vantage {
 
-/// Lens and sensor mix the colours of both sides of a depth edge. Carried to another viewpoint,
-/// such mixed pixels are the halos around the foreground and its ghosts on the background. This
-/// notes how far each pixel's colour can be trusted, so that a rig that sees the place clear of
-/// edges prevails over one that does not.
+/// Edge confidence: how reliable the colour of each pixel is, from its distance to a depth edge.
+/// Lens and sensor mix the colours of both sides of an edge; seen from another viewpoint, mixed
+/// pixels are halos around the foreground and ghosts on the background. With the confidence, a rig
+/// that sees a place clear of edges prevails over one that does not.
 class EdgeConfidence {
   public:
     explicit EdgeConfidence(const ShaderLibrary& library)
         : pass_(library, "edge_confidence.frag") {}
 
-    /// Fills the surface's trust(), from its depth.
+    /// Fills the surface's confidence() from its depth.
     void judge(RigSurface& surface);
 
   private:

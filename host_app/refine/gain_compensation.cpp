@@ -16,21 +16,22 @@
 namespace vantage {
 namespace {
 
+/// Grid of surface points that are sampled at one instant.
 constexpr int grid_columns = 40, grid_rows = 30;
-/// A neighbourhood whose depths differ by more than this ratio is an edge.
+/// Ratio of depths in a neighbourhood from which on it is an edge and no sample.
 constexpr float smooth_ratio = 1.02f;
-/// Two rigs show the same surface where their depths agree within this share.
+/// Relative difference of depths up to which two rigs see the same surface. Smaller than
+/// surface_share, since a wrong pair does more harm than a missing one.
 constexpr double same_surface = 0.015;
-/// Codes outside these are noise or clipped.
+/// 8-bit values below are noise, above clipped.
 constexpr int darkest = 10, brightest = 245;
-/// The cosine of the largest angle between two lines of sight that are compared: gloss and shape
-/// change with the angle.
-const double least_cosine = std::cos(0.9);
-/// A pair whose ratios spread more than this is not looking at one surface.
-constexpr double largest_spread = 0.3;
-/// Logarithms of ratios this near to the typical one are of one surface in one light.
+/// Cosine of the largest angle between two lines of sight: gloss changes with the angle.
+const double min_cosine = std::cos(0.9);
+/// Median deviation of the logarithms of ratios from which on a pair does not see one surface.
+constexpr double max_spread = 0.3;
+/// Deviation of a ratio's logarithm from the typical one up to which it is an inlier.
 constexpr double inlier = 0.08;
-/// What a rig is held back by, in samples, so that one without evidence has a solution: 0.
+/// Weight of a rig's present gain, in samples, so that a rig without samples has a solution: 0.
 constexpr double inertia = 1;
 
 const std::array<double, 256>& decoded() {
@@ -43,7 +44,7 @@ const std::array<double, 256>& decoded() {
     return table;
 }
 
-/// A view with what is needed to look points up in it.
+/// A view that surface points can be looked up in.
 class Lookup {
   public:
     explicit Lookup(const DepthView& view)
@@ -61,8 +62,8 @@ class Lookup {
         Eigen::Vector3d point;   ///< in the world
         Eigen::Vector3d colour;  ///< linear, after the calibration's correction
     };
-    /// What is at a pixel of the depth map; nothing at an edge, where depth is unknown, or where
-    /// the colour says nothing.
+    /// The sample at a pixel of the depth map; nothing at an edge, where depth is unknown, or where
+    /// the colour is too dark or clipped.
     std::optional<Sample> at(int x, int y) const {
         if (x < 1 || y < 1 || x >= size().width - 1 || y >= size().height - 1) return std::nullopt;
         const float here_m = view_->depth_m_at(x, y);
@@ -80,7 +81,7 @@ class Lookup {
         return Sample{view_->world_from_camera * point, *colour};
     }
 
-    /// The same surface in this view, if it shows it.
+    /// The sample of the same surface point in this view; nothing if the view does not show it.
     std::optional<Sample> at(const Eigen::Vector3d& world) const {
         const Eigen::Vector3d point = camera_from_world_ * world;
         if (point.z() <= 0) return std::nullopt;
@@ -96,7 +97,7 @@ class Lookup {
     }
 
   private:
-    /// The mean of 3x3 pixels, so that rigs are compared on a patch and not on a grain.
+    /// The mean of 3x3 pixels, so that noise and fine texture do not count.
     std::optional<Eigen::Vector3d> colour_at(int x, int y) const {
         const ColourImage& picture = view_->colour;
         const int u = static_cast<int>((x + 0.5) / scale_x_),
@@ -131,7 +132,7 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-/// The logarithms of the ratios between two rigs' colours of the same surface points.
+/// Logarithms of the ratios between two rigs' colours of the same surface points.
 class Ratios {
   public:
     void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -141,15 +142,15 @@ class Ratios {
         }
     }
     int count() const { return static_cast<int>(logs_[0].size()); }
-    /// Nothing if there are too few, or if they do not agree.
+    /// The robust mean of a channel; nothing if there are too few samples or they spread too far.
     std::optional<double> typical(int channel) {
         std::vector<double>& values = logs_[static_cast<std::size_t>(channel)];
-        if (count() < GainCompensation::least_samples) return std::nullopt;
+        if (count() < GainCompensation::min_samples) return std::nullopt;
         const double middle = median(values);
         std::vector<double> off = values;
         for (double& value : off) value = std::abs(value - middle);
-        if (median(off) > largest_spread) return std::nullopt;
-        // What is outlying lies mostly on one side, and draws the median there.
+        if (median(off) > max_spread) return std::nullopt;
+        // Outliers lie mostly on one side and move the median there.
         double centre = middle;
         for (int round = 0; round < 4; ++round) {
             std::vector<double> near;
@@ -165,12 +166,13 @@ class Ratios {
     std::array<std::vector<double>, 3> logs_;
 };
 
-/// A view with some of its surface points: one a cell of a grid, another one at every look.
-struct Looked {
+/// A view with samples of its surface: one for each cell of a grid, at a place that `shift`
+/// selects.
+struct SampledView {
     Lookup view;
     std::vector<Lookup::Sample> samples;
 
-    Looked(const DepthView& seen, int shift) : view(seen) {
+    SampledView(const DepthView& seen, int shift) : view(seen) {
         const cv::Size size = view.size();
         for (int row = 0; row < grid_rows; ++row)
             for (int column = 0; column < grid_columns; ++column)
@@ -181,11 +183,11 @@ struct Looked {
     }
 };
 
-/// How one view's surface points compare with another's.
-void compare(const Looked& from, const Lookup& to, bool swapped, Ratios& ratios) {
+/// Adds the ratios of one view's surface points to another view's colours of them.
+void compare(const SampledView& from, const Lookup& to, bool swapped, Ratios& ratios) {
     for (const Lookup::Sample& a : from.samples) {
         const Eigen::Vector3d ray = (a.point - from.view.centre()).normalized();
-        if (ray.dot((a.point - to.centre()).normalized()) < least_cosine) continue;
+        if (ray.dot((a.point - to.centre()).normalized()) < min_cosine) continue;
         const auto b = to.at(a.point);
         if (!b) continue;
         if (swapped)
@@ -198,24 +200,23 @@ void compare(const Looked& from, const Lookup& to, bool swapped, Ratios& ratios)
 }  // namespace
 
 void GainCompensation::see(std::span<const DepthView> views, double dt_s) {
-    since_look_s_ += std::max(dt_s, 0.0);
-    if (since_look_s_ < look_period_s) return;
-    // After a long pause the light may be another one; that is no reason to jump.
-    const double passed_s = std::min(since_look_s_, 5 * look_period_s);
-    since_look_s_ = 0;
-    const int shift = 11 * looks_++;
+    since_sample_s_ += std::max(dt_s, 0.0);
+    if (since_sample_s_ < sample_period_s) return;
+    // After a long pause the light may have changed; the gains must not jump even then.
+    const double passed_s = std::min(since_sample_s_, 5 * sample_period_s);
+    since_sample_s_ = 0;
+    const int shift = 11 * samplings_++;
 
-    std::vector<Looked> looked;
+    std::vector<SampledView> sampled;
     std::vector<Rig*> rigs;
     for (const DepthView& view : views) {
         if (!view.has_depth() || view.colour.empty()) continue;
-        looked.emplace_back(view, shift);
+        sampled.emplace_back(view, shift);
         rigs.push_back(&rigs_[view.name]);
         rigs.back()->samples = 0;
     }
-    // Least squares over all pairs: what to add to the gains so that ratios become 1. Both sides of
-    // a pair enter with opposite signs, so that the changes of rigs that see each other add up to
-    // 0.
+    // Least squares over all pairs for the changes of the gains that make all ratios 1. Both rigs
+    // of a pair enter with opposite signs, so that the changes of connected rigs add up to 0.
     const auto count = static_cast<Eigen::Index>(rigs.size());
     std::array<Eigen::MatrixXd, 3> normal;
     normal.fill(inertia * Eigen::MatrixXd::Identity(count, count));
@@ -224,22 +225,22 @@ void GainCompensation::see(std::span<const DepthView> views, double dt_s) {
         for (Eigen::Index j = i + 1; j < count; ++j) {
             const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
             Ratios ratios;
-            compare(looked[a], looked[b].view, false, ratios);
-            compare(looked[b], looked[a].view, true, ratios);
+            compare(sampled[a], sampled[b].view, false, ratios);
+            compare(sampled[b], sampled[a].view, true, ratios);
             rigs[a]->samples += ratios.count();
             rigs[b]->samples += ratios.count();
             const double weight = ratios.count();
             for (int c = 0; c < 3; ++c) {
                 const std::optional<double> measured = ratios.typical(c);
                 if (!measured) continue;
-                const double left = *measured + rigs[a]->log_gain[c] - rigs[b]->log_gain[c];
+                const double remaining = *measured + rigs[a]->log_gain[c] - rigs[b]->log_gain[c];
                 Eigen::MatrixXd& n = normal[static_cast<std::size_t>(c)];
                 n(i, i) += weight;
                 n(j, j) += weight;
                 n(i, j) -= weight;
                 n(j, i) -= weight;
-                right(i, c) -= weight * left;
-                right(j, c) += weight * left;
+                right(i, c) -= weight * remaining;
+                right(j, c) += weight * remaining;
             }
         }
     if (count == 0) return;
@@ -247,19 +248,19 @@ void GainCompensation::see(std::span<const DepthView> views, double dt_s) {
     for (int c = 0; c < 3; ++c) {
         Eigen::VectorXd step =
             part * normal[static_cast<std::size_t>(c)].ldlt().solve(right.col(c));
-        // All by the same factor, so that the mean stays.
+        // One factor for all rigs, so that the mean stays.
         const double fastest = step.cwiseAbs().maxCoeff(), limit = slew_per_s * passed_s;
         if (fastest > limit) step *= limit / fastest;
         for (Eigen::Index i = 0; i < count; ++i) {
             double& gain = rigs[static_cast<std::size_t>(i)]->log_gain[c];
-            gain = std::clamp(gain + step[i], -std::log(largest), std::log(largest));
+            gain = std::clamp(gain + step[i], -std::log(max_gain), std::log(max_gain));
         }
     }
 }
 
 void GainCompensation::apply(DepthView& view) const {
     const auto rig = rigs_.find(view.name);
-    if (rig == rigs_.end() || rig->second.log_gain.cwiseAbs().maxCoeff() <= unseen) return;
+    if (rig == rigs_.end() || rig->second.log_gain.cwiseAbs().maxCoeff() <= negligible) return;
     Eigen::Matrix3d& matrix = view.colour_correction.matrix;
     matrix = rig->second.gain().asDiagonal() * Eigen::Matrix3d(matrix);
 }

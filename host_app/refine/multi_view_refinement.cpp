@@ -4,28 +4,26 @@
 
 #include <Eigen/LU>
 
-#include "host_app/views/depth_edges.h"
-#include "host_app/views/depth_spread.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
 #include "host_app/views/view_ranking.h"
 
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float agreeing_softness = 0.02f;
-/// Other rigs tell something new from this many of a rig's own parallaxes on.
-constexpr double least_news = 2;
-/// Steps of the two sweeps: parallax in pixels of the depth map.
+/// Parallax of the other rigs, in parallaxes of the rig's own two cameras, from which on they
+/// measure depth better than it does itself.
+constexpr double min_parallax_ratio = 2;
+/// Steps of the two plane sweeps: parallax in px of the depth map.
 constexpr double coarse_step_px = 2, fine_step_px = 1;
-/// Parallax that does not show, and that depth is not moved for.
-constexpr double exact_px = 0.7, least_change_px = 0.5;
-/// Of all points, those that lie on a floor that can be seen.
+/// Parallax errors up to the first are invisible; moves up to the second would only lose detail.
+constexpr double exact_px = 0.7, min_change_px = 0.5;
+/// Share of the surface points that must lie on the floor for the rigs to see one.
 constexpr double floor_share = 0.05;
-/// Relative uncertainty of depth that does not come of stereo.
-constexpr double least_sigma = 0.002;
+/// Relative uncertainty of exact depth, which does not come from stereo.
+constexpr double min_sigma = 0.002;
 
-/// The view's camera for a depth map of some size.
+/// The view's camera, for a depth map of this size.
 VirtualView depth_camera(const ComparedView& view, cv::Size size) {
     return {size.width, size.height,
             scaled_intrinsics(view.camera().K,
@@ -65,7 +63,7 @@ bool shows_floor(std::span<const ComparedView> views) {
         for (const Eigen::Vector3d& point_m : view.sample_points_m()) {
             const Eigen::Vector3d away_m = point_m - pose.translation();
             const double z_m = pose.linear().col(2).dot(away_m);
-            const double sigma_m = std::abs(away_m.y()) * std::max(z_m * spread, least_sigma);
+            const double sigma_m = std::abs(away_m.y()) * std::max(z_m * spread, min_sigma);
             ++all;
             if (std::abs(point_m.y()) < sigma_m) ++on_floor;
         }
@@ -87,7 +85,7 @@ MultiViewRefinement::MultiViewRefinement(const ShaderLibrary& library)
     for (std::size_t others = 1; others <= max_others; ++others) {
         const std::pair<std::string, std::string> count{"OTHERS", std::to_string(others)};
         sweep_.emplace_back(library, "rig_sweep.frag", ShaderDefines{count});
-        agreement_pass_.emplace_back(library, "rig_agreement.frag", ShaderDefines{count});
+        consistency_pass_.emplace_back(library, "rig_consistency.frag", ShaderDefines{count});
         carve_.emplace_back(library, "rig_carve.frag", ShaderDefines{count, {"MOVES", "0"}});
         move_and_carve_.emplace_back(library, "rig_carve.frag",
                                      ShaderDefines{count, {"MOVES", "1"}});
@@ -113,24 +111,23 @@ void MultiViewRefinement::then(Step step) {
         step();
 }
 
-void MultiViewRefinement::draw(TilePass& pass, const Framebuffer& target, const Look& look) {
-    pass.draw(target, *look->tiles, look->picture);
+void MultiViewRefinement::draw(TilePass& pass, const Framebuffer& target, const Group& group) {
+    pass.draw(target, *group->tiles, group->picture);
 }
 
 void MultiViewRefinement::set_view(Program& program, const Texture& depth_m,
                                    const ComparedView& view) {
     program.input("depth_map", depth_m);
     program.input("picture", *view.colour);
-    program.set("edge_ratio", depth_edge_ratio);
 }
 
-void MultiViewRefinement::set_others(Program& program, const Texture& depth_m, const Look& look) {
-    const ComparedView& view = look->view;
+void MultiViewRefinement::set_others(Program& program, const Texture& depth_m, const Group& group) {
+    const ComparedView& view = group->view;
     set_view(program, depth_m, view);
     const VirtualView camera = depth_camera(view, depth_m.size());
     program.set("spread", depth_spread(view.camera()));
-    for (std::size_t i = 0; i < look->others.size(); ++i) {
-        const ComparedView& other = look->others[i];
+    for (std::size_t i = 0; i < group->others.size(); ++i) {
+        const ComparedView& other = group->others[i];
         program.input("other_depth", i, *other.depth_m);
         program.input("other_colour", i, *other.colour);
         program.set("other_from_pixel", i,
@@ -142,180 +139,169 @@ void MultiViewRefinement::set_others(Program& program, const Texture& depth_m, c
     }
 }
 
-double MultiViewRefinement::parallax_px(const Look& look) {
-    constexpr double small = 0.01;
-    const ComparedView& view = look->view;
+double MultiViewRefinement::parallax_px(const Group& group) {
+    const ComparedView& view = group->view;
     const VirtualView camera = depth_camera(view, view.depth_m->size());
-    const double z = view.median_depth_m();
+    const Eigen::Vector2d middle_px(0.5 * camera.width_px, 0.5 * camera.height_px);
     double largest = 0;
-    for (const ComparedView& other : look->others) {
-        const Eigen::Matrix4d map = pixel_from_target_pixel(other.camera(), camera);
-        const auto project = [&](double depth_m) {
-            const Eigen::Vector4d q =
-                map * Eigen::Vector4d(0.5 * camera.width_px * depth_m,
-                                      0.5 * camera.height_px * depth_m, depth_m, 1);
-            return Eigen::Vector2d(q.head<2>() / q.z());
-        };
-        const double moved_px = (project(z * (1 + small)) - project(z)).norm() / small;
-        if (std::isfinite(moved_px)) largest = std::max(largest, moved_px);
-    }
+    for (const ComparedView& other : group->others)
+        largest =
+            std::max(largest, vantage::parallax_px(pixel_from_target_pixel(other.camera(), camera),
+                                                   middle_px, view.median_depth_m()));
     return largest;
 }
 
-bool MultiViewRefinement::tell_news(const ComparedView& view, double parallax_px) {
+bool MultiViewRefinement::has_wide_baseline(const ComparedView& view, double parallax_px) {
     const double own_px = own_parallax_px(view);
-    return own_px > 0 && parallax_px > least_news * own_px;
+    return own_px > 0 && parallax_px > min_parallax_ratio * own_px;
 }
 
-void MultiViewRefinement::smooth(TilePass& pass, const Texture& depth_m, const Look& look,
+void MultiViewRefinement::smooth(TilePass& pass, const Texture& depth_m, const Group& group,
                                  const Framebuffer& target) {
-    set_view(pass.use(), depth_m, look->view);
-    draw(pass, target, look);
+    set_view(pass.use(), depth_m, group->view);
+    draw(pass, target, group);
 }
 
-void MultiViewRefinement::sweep(const Look& look, double relative_step) {
-    const ComparedView& view = look->view;
+void MultiViewRefinement::sweep_once(const Group& group, double relative_step) {
+    const ComparedView& view = group->view;
     const cv::Size size = half_.texture().size();
-    // Asked for before anything is bound: making a texture binds it.
+    // Before the inputs, since making a texture binds it.
     const Framebuffer& refined = half_.next_target(size);
-    TilePass& comparing = sweep_[look->others.size() - 1];
+    TilePass& comparing = sweep_[group->others.size() - 1];
     Program& compare = comparing.use();
-    set_others(compare, half_.texture(), look);
+    set_others(compare, half_.texture(), group);
     compare.set("relative_step", static_cast<float>(relative_step));
     compare.set("lod", std::log2(static_cast<float>(view.colour->width_px()) /
                                  static_cast<float>(size.width)));
-    draw(comparing, costs_->target, look);
+    draw(comparing, costs_->target, group);
 
     Program& refine = refine_.use();
     set_view(refine, half_.texture(), view);
     refine.set("relative_step", static_cast<float>(relative_step));
     for (std::size_t i = 0; i < costs_->cost.size(); ++i) refine.input("costs", i, costs_->cost[i]);
-    draw(refine_, refined, look);
+    draw(refine_, refined, group);
     half_.finish();
 }
 
-void MultiViewRefinement::refine(const Look& look, double parallax_px) {
-    const cv::Size size = look->view.depth_m->size(),
+void MultiViewRefinement::sweep(const Group& group, double parallax_px) {
+    const cv::Size size = group->view.depth_m->size(),
                    half((size.width + 1) / 2, (size.height + 1) / 2);
     then([=, this] {
         half_before_.resize(half);
         if (!costs_ || costs_->cost[0].size() != half) costs_ = std::make_unique<Sweep>(half);
-        smooth(halve_, *look->view.depth_m, look, half_before_.target());
-        smooth(smooth_, half_before_.texture(), look, half_.next_target(half));
+        smooth(halve_, *group->view.depth_m, group, half_before_.target());
+        smooth(smooth_, half_before_.texture(), group, half_.next_target(half));
         half_.finish();
     });
-    then([=, this] { sweep(look, coarse_step_px / parallax_px); });
+    then([=, this] { sweep_once(group, coarse_step_px / parallax_px); });
     then([=, this] {
-        smooth(smooth_, half_.texture(), look, half_.next_target(half));
+        smooth(smooth_, half_.texture(), group, half_.next_target(half));
         half_.finish();
-        sweep(look, fine_step_px / parallax_px);
+        sweep_once(group, fine_step_px / parallax_px);
     });
 }
 
-void MultiViewRefinement::compare(const Look& look, double parallax_px) {
-    const Texture& depth_m = *look->view.depth_m;
-    agreement_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
-    TilePass& comparing = agreement_pass_[look->others.size() - 1];
-    Program& agreement = comparing.use();
-    set_others(agreement, depth_m, look);
-    agreement.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
-    draw(comparing, agreement_.target(), look);
-    agreement_.generate_mipmaps();
+void MultiViewRefinement::check_consistency(const Group& group, double parallax_px) {
+    const Texture& depth_m = *group->view.depth_m;
+    consistency_.resize({(depth_m.width_px() + 1) / 2, (depth_m.height_px() + 1) / 2});
+    TilePass& comparing = consistency_pass_[group->others.size() - 1];
+    Program& consistency = comparing.use();
+    set_others(consistency, depth_m, group);
+    consistency.set("exact", static_cast<float>(exact_px / std::max(parallax_px, 1.0)));
+    draw(comparing, consistency_.target(), group);
+    consistency_.generate_mipmaps();
 }
 
-MultiViewRefinement::Look MultiViewRefinement::look_at(const ComparedView& view,
-                                                       std::span<const ComparedView> all,
-                                                       std::size_t most,
-                                                       const Texture* tiles) const {
-    std::vector<const ComparedView*> looked_at;
+MultiViewRefinement::Group MultiViewRefinement::group(const ComparedView& view,
+                                                      std::span<const ComparedView> all,
+                                                      const Texture* tiles) const {
+    std::vector<const ComparedView*> others;
     for (const ComparedView& one : all)
-        if (one.seen_by != view.seen_by) looked_at.push_back(&one);
-    auto look = std::make_shared<LookedAt>();
-    look->view = view;
+        if (one.seen_by != view.seen_by) others.push_back(&one);
+    auto group = std::make_shared<ViewGroup>();
+    group->view = view;
     for (const ComparedView* other :
-         most_useful(looked_at, depth_camera(view, view.depth_m->size()), most))
-        look->others.push_back(*other);
-    look->tiles = tiles ? tiles : &whole_;
-    look->picture = tiles ? view.colour->size() : cv::Size(TilePass::side_px, TilePass::side_px);
-    return look;
+         most_useful(others, depth_camera(view, view.depth_m->size()), max_others))
+        group->others.push_back(*other);
+    group->tiles = tiles ? tiles : &whole_;
+    group->picture = tiles ? view.colour->size() : cv::Size(TilePass::side_px, TilePass::side_px);
+    return group;
 }
 
-const Texture& MultiViewRefinement::move_and_carve(const Look& look) {
-    const Texture& depth_m = *look->view.depth_m;
-    if (look->others.empty()) return depth_m;
-    // Before anything is bound: making a texture binds it.
+const Texture& MultiViewRefinement::move_and_carve(const Group& group) {
+    const Texture& depth_m = *group->view.depth_m;
+    if (group->others.empty()) return depth_m;
+    // Before the inputs, since making a texture binds it.
     result_.resize(depth_m.size());
     judged_.resize(depth_m.size());
 
-    const double parallax = parallax_px(look);
-    const bool doubts = !look->view.is_matched, moves = tell_news(look->view, parallax);
+    const double parallax = parallax_px(group);
+    const bool is_single_rig = !group->view.is_matched,
+               moves = has_wide_baseline(group->view, parallax);
     const Texture& carved = moves ? judged_.texture() : result_.texture();
-    if (doubts) then([=, this] { compare(look, parallax); });
-    if (doubts && moves) refine(look, parallax);
+    if (is_single_rig) then([=, this] { check_consistency(group, parallax); });
+    if (is_single_rig && moves) sweep(group, parallax);
     then([=, this] {
-        TilePass& carving = (moves ? move_and_carve_ : carve_)[look->others.size() - 1];
+        TilePass& carving = (moves ? move_and_carve_ : carve_)[group->others.size() - 1];
         Program& carve = carving.use();
-        set_others(carve, *look->view.depth_m, look);
-        carve.set("softness", agreeing_softness);
-        carve.set("doubts", doubts);
+        set_others(carve, *group->view.depth_m, group);
+        carve.set("is_single_rig", is_single_rig);
         // A sampler that is not read needs an input too, which must not be the target.
-        const auto input_if_doubted = [&](const char* name, const auto& drawn) {
-            carve.input(name, doubts ? drawn.texture() : *look->view.depth_m);
+        const auto input_if_read = [&](const char* name, const auto& drawn) {
+            carve.input(name, is_single_rig ? drawn.texture() : *group->view.depth_m);
         };
-        input_if_doubted("agreement", agreement_);
+        input_if_read("consistency", consistency_);
         if (moves) {
-            input_if_doubted("half_before", half_before_);
-            input_if_doubted("half_after", half_);
-            carve.set("least_change", static_cast<float>(least_change_px / parallax));
+            input_if_read("half_before", half_before_);
+            input_if_read("half_after", half_);
+            carve.set("min_change", static_cast<float>(min_change_px / parallax));
         }
-        draw(carving, moves ? judged_.target() : result_.target(), look);
+        draw(carving, moves ? judged_.target() : result_.target(), group);
     });
     return carved;
 }
 
-const Texture& MultiViewRefinement::better(const Look& look) {
-    const Texture& judged = move_and_carve(look);
-    if (look->others.empty() || &judged == &result_.texture()) return judged;
+const Texture& MultiViewRefinement::refine(const Group& group) {
+    const Texture& judged = move_and_carve(group);
+    if (group->others.empty() || &judged == &result_.texture()) return judged;
     then([=, this] {
-        TilePass& adopting = adopt_[look->others.size() - 1];
+        TilePass& adopting = adopt_[group->others.size() - 1];
         Program& adopt = adopting.use();
-        set_others(adopt, *look->view.depth_m, look);
-        adopt.set("softness", agreeing_softness);
+        set_others(adopt, *group->view.depth_m, group);
         adopt.input("judged", judged_.texture());
-        draw(adopting, result_.target(), look);
+        draw(adopting, result_.target(), group);
     });
     return result_.texture();
 }
 
-const Texture& MultiViewRefinement::better(const ComparedView& view,
+const Texture& MultiViewRefinement::refine(const ComparedView& view,
                                            std::span<const ComparedView> all) {
-    return better(look_at(view, all, max_others));
+    return refine(group(view, all));
 }
 
 const Texture& MultiViewRefinement::refine_foreground(const ComparedView& view,
                                                       std::span<const ComparedView> all,
                                                       const Texture& tiles) {
-    return move_and_carve(look_at(view, all, max_others, &tiles));
+    return move_and_carve(group(view, all, &tiles));
 }
 
 const Texture& MultiViewRefinement::refine_background(const ComparedView& view,
                                                       std::span<const ComparedView> all) {
-    const Look look = look_at(view, all, max_others);
-    const Texture& refined = better(look);
-    if (look->others.empty() || !shows_floor(all)) return refined;
+    const Group group = this->group(view, all);
+    const Texture& refined = refine(group);
+    if (group->others.empty() || !shows_floor(all)) return refined;
     with_floor_.resize(refined.size());
     then([=, this, &refined] {
-        TilePass& standing = floor_[look->others.size() - 1];
+        TilePass& standing = floor_[group->others.size() - 1];
         Program& program = standing.use();
-        set_others(program, *look->view.depth_m, look);
-        // Of the points where z times the ray from the camera is at y = 0.
-        const Pose& pose = look->view.camera().world_from_camera;
+        set_others(program, *group->view.depth_m, group);
+        // The inverse depth at which each pixel's ray from the camera meets y = 0.
+        const Pose& pose = group->view.camera().world_from_camera;
         const Eigen::RowVector3d inverse_z =
-            pose.linear().row(1) * look->view.K_depth().inverse() / -pose.translation().y();
+            pose.linear().row(1) * group->view.K_depth().inverse() / -pose.translation().y();
         program.set("floor_plane", Eigen::Vector3f(inverse_z.transpose().cast<float>()));
-        program.set("softness", agreeing_softness);
         program.input("before", refined);
-        draw(standing, with_floor_.target(), look);
+        draw(standing, with_floor_.target(), group);
     });
     return with_floor_.texture();
 }

@@ -24,7 +24,7 @@ void BackgroundSaver::save() {
         return;
     }
     const std::filesystem::path path =
-        free_path(path_.empty() ? name_for_now("background", set_file_extension) : path_);
+        free_path(path_.empty() ? name_for_now("background", background_file_extension) : path_);
     work_ = std::async(std::launch::async, [this, background = show_.background(), path]() mutable {
         write(std::move(background), path);
     });

@@ -9,9 +9,9 @@
 
 namespace vantage {
 
-/// What a rig has learnt of the depth of its set, rgba32f in two copies, of which the one before is
-/// read while the next is drawn, and what the newest instant shows against it, rgba8 (see
-/// background_compare.frag). The first channel of the former is the set's depth in metres.
+/// GPU state of a rig's background depth: the state (rgba32f, see background_learn.frag; red is the
+/// depth in metres), of which the old copy is read while the new one is drawn, and the kinds of the
+/// newest instant's pixels (rgba8, see background_compare.frag).
 class BackgroundState {
   public:
     /// Whether state() and seen() hold anything.
@@ -19,7 +19,7 @@ class BackgroundState {
     const Texture& state() const { return sized_->states[sized_->now]; }
     const Texture& seen() const { return seen_.texture(); }
 
-    /// Another size begins anew.
+    /// Starts again if the size changes.
     void resize(cv::Size size) {
         if (sized_ && seen().size() == size) return;
         seen_.resize(size);
@@ -28,7 +28,7 @@ class BackgroundState {
     }
     const Framebuffer& seen_target() const { return seen_.target(); }
     const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
-    /// Goes on from a state, rgba32f of the size, that was read back before.
+    /// Continues from a state that was read back: rgba32f, of the same size.
     void restore(const cv::Mat4f& state) {
         sized_->states[sized_->now].upload(state);
         is_drawn_ = true;

@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// A rig's picture without the noise that stands still, and the mean of instants that it is made
-/// of: rgba8 with a mip chain, and rgba16f in two copies, of which the one before is read while the
-/// next is drawn. The mean's alpha counts its instants, and falls where the picture changes.
+/// GPU state of temporal denoising: the denoised picture (rgba8, with mip levels) and the mean
+/// (rgba16f), of which the old copy is read while the new one is drawn. The mean's alpha counts its
+/// instants and falls where the picture changes.
 class DenoisedColour {
   public:
     /// Whether picture() and mean() hold anything.
@@ -18,18 +18,18 @@ class DenoisedColour {
     const Texture& picture() const { return sized_->picture; }
     const Texture& mean() const { return sized_->means[sized_->now]; }
 
-    /// Another size begins anew.
+    /// Starts again if the size changes.
     void resize(cv::Size size) {
         if (sized_ && sized_->picture.size() == size) return;
         sized_.emplace(size);
         is_drawn_ = false;
     }
-    /// Goes on from a mean, rgba16f of the size, that was read back before.
+    /// Continues from a mean that was read back: rgba16f, of the same size.
     void restore(const cv::Mat& mean) {
         sized_->means[sized_->now].upload(mean);
         is_drawn_ = true;
     }
-    /// Of the picture and the next mean.
+    /// The target of the next draw: the picture and the new mean.
     const Framebuffer& next_target(cv::Size size) {
         resize(size);
         return sized_->targets[1 - sized_->now];

@@ -10,11 +10,11 @@ int triangle_indices(cv::Size depth_size) {
     return 6 * (depth_size.width - 1) * (depth_size.height - 1);
 }
 
-IndirectTriangles::IndirectTriangles(int most_indices)
-    : indices(static_cast<std::size_t>(std::max(most_indices, 1)) * sizeof(std::uint32_t),
+IndirectTriangles::IndirectTriangles(int max_indices)
+    : indices(static_cast<std::size_t>(std::max(max_indices, 1)) * sizeof(std::uint32_t),
               GL_DYNAMIC_DRAW),
       command(5 * sizeof(std::uint32_t), GL_DYNAMIC_DRAW),
-      capacity(most_indices) {}
+      capacity(max_indices) {}
 
 void IndirectTriangles::begin() const {
     const std::array<std::uint32_t, 5> none = {0, 1, 0, 0, 0};

@@ -7,12 +7,12 @@
 
 namespace vantage {
 
-/// A picture of the virtual view with its depth, to draw into: rgba8 colour (alpha 0 = nothing
-/// there), r32f depth in metres and, where wanted, the rigs' shares in the colour (PixelOrigins).
+/// A render target of the virtual view: rgba8 colour (alpha 0 = empty), r32f depth in metres and,
+/// on request, the rigs' shares in the colour (PixelOrigins).
 class DepthPicture {
   public:
-    /// Keeps what there is if the size stays. `depth_test`: the target's depth texture, if it is to
-    /// have one.
+    /// Allocates the textures; keeps their content if nothing changes. `depth_test` is the target's
+    /// depth texture, or null.
     void resize(cv::Size size, bool with_shares = false, const Texture* depth_test = nullptr) {
         if (colour_ && colour_->size() == size && shares_.has_value() == with_shares &&
             depth_test_ == (depth_test ? depth_test->name() : 0))
@@ -42,7 +42,7 @@ class DepthPicture {
 
     const Texture& colour() const { return *colour_; }
     const Texture& depth_m() const { return *depth_m_; }
-    /// Null: none were wanted.
+    /// Null if the picture has no shares.
     const Texture* shares() const { return shares_ ? &*shares_ : nullptr; }
     const Framebuffer& target() const { return *target_; }
 

@@ -5,9 +5,10 @@
 namespace vantage {
 namespace {
 
+/// Side of the square table of all 65536 disparities.
 constexpr int table_side = 256;
-/// More geometries than a stage has rigs were left behind by rigs that were calibrated anew.
-constexpr std::size_t most_tables = 64;
+/// Limits the tables, one for each geometry, that rigs leave behind when they are calibrated again.
+constexpr std::size_t max_tables = 64;
 
 }  // namespace
 
@@ -15,7 +16,7 @@ const Texture& DepthUploader::table_of(const DisparityScale& scale) {
     const auto known = std::find_if(tables_.begin(), tables_.end(),
                                     [&](const auto& table) { return table.first == scale; });
     if (known != tables_.end()) return known->second;
-    if (tables_.size() >= most_tables) tables_.clear();
+    if (tables_.size() >= max_tables) tables_.clear();
     DepthImage depths_m(table_side, table_side);
     for (int steps = 0; steps < table_side * table_side; ++steps)
         depths_m(steps / table_side, steps % table_side) =

@@ -12,13 +12,13 @@
 
 namespace vantage {
 
-/// Brings a view's depth to the GPU: disparities as they came, 16 bits a pixel, turned into metres
-/// there by a table of all 65536, so that every GPU gives the processor's very bits. The context
-/// that was current at construction must be current at every call.
+/// Uploads a view's depth. Disparities are uploaded as 16 bits for each pixel and converted to
+/// metres by a table of all 65536 values, so that every GPU gives the same bits as the CPU. The
+/// context that was current at construction must be current at every call.
 class DepthUploader {
   public:
-    /// `into`: r32f, takes the size of the view's depth: metres, 0 = unknown. Precondition: the
-    /// view has depth.
+    /// Uploads to `into` (r32f, metres, 0 = unknown), which gets the size of the view's depth.
+    /// Precondition: the view has disparities.
     void upload(const DepthView& view, DrawnTexture& into);
 
   private:
@@ -27,10 +27,11 @@ class DepthUploader {
     ShaderLibrary library_;
     FullscreenPass pass_{library_, "disparity_depth.frag"};
     std::optional<Texture> steps_;
-    std::vector<std::pair<DisparityScale, Texture>> tables_;  ///< of the rigs' geometries
+    std::vector<std::pair<DisparityScale, Texture>> tables_;  ///< one for each geometry
 };
 
-/// `uploader` is made when a view first needs one.
+/// Uploads a view's depth map or disparities to `into`, as DepthUploader does. Creates `uploader`
+/// when a view first has disparities. Precondition: the view has depth.
 void upload_depth(const DepthView& view, std::unique_ptr<DepthUploader>& uploader,
                   DrawnTexture& into);
 

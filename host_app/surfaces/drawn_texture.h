@@ -8,10 +8,10 @@
 
 namespace vantage {
 
-/// What else the target of a DrawnTexture has.
+/// The other attachments of a DrawnTexture's target.
 enum class DrawnWith { nothing, depth_test };
 
-/// A texture to draw into, allocated anew only when the size changes.
+/// A texture with a framebuffer to draw into it; allocated when its size changes.
 class DrawnTexture {
   public:
     explicit DrawnTexture(TextureFormat format, Filter filter = Filter::nearest,
@@ -29,7 +29,7 @@ class DrawnTexture {
     }
     bool empty() const { return !texture_; }
     const Texture& texture() const { return *texture_; }
-    /// To be uploaded to.
+    /// For uploads.
     Texture& texture() { return *texture_; }
     const Framebuffer& target() const { return *target_; }
     /// Precondition: mipmapped.
@@ -44,15 +44,15 @@ class DrawnTexture {
     std::optional<Framebuffer> target_;
 };
 
-/// Two textures in turn: what was drawn last is read while the other one is drawn.
+/// Two textures that take turns: the last result is read while the next one is drawn.
 class DrawnInTurn {
   public:
     explicit DrawnInTurn(TextureFormat format)
         : textures_{DrawnTexture(format), DrawnTexture(format)} {}
 
-    /// Whether texture() holds anything.
+    /// Whether texture() has content.
     bool is_drawn() const { return is_drawn_; }
-    /// What was drawn when finish() was last called.
+    /// The result that was finished last.
     const Texture& texture() const { return textures_[now_].texture(); }
     const Framebuffer& next_target(cv::Size size) {
         textures_[1 - now_].resize(size);
@@ -70,7 +70,7 @@ class DrawnInTurn {
     bool is_drawn_ = false;
 };
 
-/// The same as DrawnTexture for depth alone: depth24.
+/// A depth24 texture with a framebuffer to draw into it; allocated when its size changes.
 class DrawnDepth {
   public:
     void resize(cv::Size size) {

@@ -6,13 +6,14 @@
 
 namespace vantage {
 
-/// Objects that take long to make (textures, buffers): one that nobody holds any more is handed out
-/// again, as it is. Objects come back from any thread; they are made and destroyed by whoever owns
-/// the pool, which must outlive all but the last of them.
+/// A pool of objects that are slow to create (textures, buffers). An object whose last holder lets
+/// go of it returns to the pool, with its content, from any thread, and is handed out again. The
+/// owner of the pool creates and destroys objects; one that outlives the pool is destroyed when its
+/// holder lets go.
 template <class T>
 class RecyclePool {
   public:
-    /// `arguments`: of one that has to be made.
+    /// Returns a free object, or a new one made from `arguments`.
     template <class... Arguments>
     std::shared_ptr<T> take(const Arguments&... arguments) {
         std::unique_ptr<T> one;

@@ -5,14 +5,14 @@
 namespace vantage {
 namespace {
 
-/// So many that what stands still is seen through what passes by: of 8 s.
-constexpr std::size_t most_right_pictures = 16;
+/// Right images that are kept: 8 s, in which a passing person hides no place most of the time.
+constexpr std::size_t max_right_pictures = 16;
 
 }  // namespace
 
 void RigHistory::forget() {
     denoised_colour_.forget();
-    set_.forget();
+    background_.forget();
     learnt_instants_ = 0;
     model_.reset();
     right_jpegs_.clear();
@@ -39,7 +39,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     is_colour_denoised_ = is_background_learnt_ = false;
     if (view.right_jpeg && (right_jpegs_.empty() || right_jpegs_.back() != view.right_jpeg))
         right_jpegs_.push_back(view.right_jpeg);
-    if (right_jpegs_.size() > most_right_pictures) right_jpegs_.pop_front();
+    if (right_jpegs_.size() > max_right_pictures) right_jpegs_.pop_front();
     camera_ = view;
     camera_.release_pictures();
     if (!colour_ || colour_->size() != view.colour.size())
@@ -50,7 +50,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
 }
 
 void RigHistory::set_background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
-                           const ColourImage& colour) {
+                                      const ColourImage& colour) {
     const auto texture = [](TextureFormat format, const cv::Mat& image) {
         Texture filled(format, image.cols, image.rows);
         filled.upload(image);

@@ -8,28 +8,27 @@
 
 namespace vantage {
 
-/// How long a rig takes to fade in or out.
+/// Time in which a rig fades in or out, s: short, but no visible jump.
 inline constexpr double fade_s = 1.0 / 6;
 
-/// The rigs of a stage: those that are shown, and those that are away, of which what was learnt is
-/// kept until they come back.
+/// The rigs of a stage, by name. A rig that disappears keeps its background until it comes back.
+/// Belongs to the preparer's thread and GL context.
 class RigRoster {
   public:
-    /// Uploads the views of an instant that have depth, filmed `dt_s` after the one before. Rigs
-    /// fade instead of popping: one that is missing is shown as it was last seen, less and less;
-    /// one that comes takes part more and more. Views of other rigs altogether replace all. Returns
-    /// those that were uploaded.
+    /// Uploads the views of an instant that have depth, filmed `dt_s` after the one before, and
+    /// returns their rigs. A rig that appears fades in; a rig that is missing fades out with its
+    /// last surfaces. If no view belongs to a known rig, all rigs are replaced.
     std::vector<RigHistory*> upload(std::span<const DepthView> views, double dt_s);
-    /// What was shown is not shown any more, also not of rigs that fade.
+    /// Hides all rigs at once, also those that are fading.
     void cut();
-    /// Nothing that was learnt is of use any more.
+    /// Forgets all that was learnt of all rigs.
     void forget();
 
-    /// Those of the last upload, and those that fade.
+    /// The rigs of the last upload and those that are fading out.
     const std::vector<RigHistory*>& shown() const { return shown_; }
-    /// Those that are away too.
+    /// All rigs, also those that are away.
     std::vector<RigHistory*> known() const;
-    /// Whether it is one of them, and its set was learnt.
+    /// Whether `rig` is one of them and has a background.
     bool has_learnt(const RigHistory* rig) const;
 
   private:

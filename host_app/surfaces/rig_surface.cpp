@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "host_app/views/depth_spread.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {
@@ -54,8 +53,8 @@ void RigSurface::upload(const DepthView& view, std::unique_ptr<ColourCorrector>&
 }
 
 const IndirectTriangles& RigSurface::rims_to_build() {
-    // A quarter of a quad takes as many indices as a quad of the grid: enough for a picture a
-    // quarter of whose pixels lie at edges.
+    // A quarter of a quad needs as many indices as a whole quad, so this suffices for a picture
+    // with a quarter of its pixels at edges.
     if (!shape_->rims) shape_->rims.emplace(std::max(triangle_indices(depth().size()), 24));
     shape_->has_rims = true;
     return *shape_->rims;

@@ -15,11 +15,12 @@
 
 namespace vantage {
 
-/// What is drawn of one rig at one instant. Made on the context that prepares instants; once its
-/// instant is published nothing of it changes, and any context that shares objects may read it.
+/// The surface of one rig at one instant: depth, triangles and colour on the GPU. Made on the GL
+/// context that prepares instants. It does not change after its instant is published, and any
+/// context that shares objects may read it.
 class RigSurface {
   public:
-    /// What does not change with the colours.
+    /// The part that does not depend on the colours; surfaces may share it.
     struct Shape {
         DrawnTexture depth{TextureFormat::r32f};
         DrawnTexture confidence{TextureFormat::r8};
@@ -30,49 +31,50 @@ class RigSurface {
 
     using Shapes = RecyclePool<Shape>;
 
-    /// Surfaces that share shapes share where those come from.
+    /// `shapes` is the pool that shapes come from and return to.
     explicit RigSurface(std::shared_ptr<Shapes> shapes = std::make_shared<Shapes>())
         : shapes_(std::move(shapes)) {}
 
-    /// Trust in a colour that is not seen now but was before: less than in any that is.
+    /// Confidence of a colour that is hidden now and was seen before: lower than of any visible
+    /// one.
     static constexpr float remembered_confidence = 4.0f / 255;
 
-    /// Camera, name and sizes; its pictures are empty.
+    /// Camera and name, without pictures.
     const DepthView& camera() const { return camera_; }
-    /// Metres in the first channel, 0 = unknown, negative = guessed.
+    /// Metres in the first channel, 0 = unknown, negative = inpainted.
     const Texture& depth() const { return shape_->depth.texture(); }
-    /// rgba8, trilinear; alpha says how far the colour can be trusted.
+    /// rgba8, trilinear; alpha is the confidence of the colour.
     const Texture& colour() const { return colour_.texture(); }
 
-    /// Of the depth map.
+    /// The triangles of the depth map.
     const IndirectTriangles& triangles(QuadGrid grid = QuadGrid::fine) const {
         return grid == QuadGrid::fine ? *shape_->triangles : *shape_->coarse_triangles;
     }
     /// Whether triangles of the fine grid were built.
     bool has_fine_grid() const { return shape_->has_fine_grid; }
-    /// Null where none were built.
+    /// Null if none were built.
     const IndirectTriangles* rims() const { return shape_->has_rims ? &*shape_->rims : nullptr; }
     Eigen::Matrix3d K_depth() const;
     DepthGrid grid(QuadGrid grid) const;
 
-    /// A few known surface points in world coordinates, evenly over the picture.
+    /// A few surface points in world coordinates, evenly over the picture.
     std::span<const Eigen::Vector3d> sample_points_m() const { return samples_.points_m; }
     double median_depth_m() const { return samples_.median_depth_m; }
     const SurfaceSamples& samples() const { return samples_; }
 
-    // For those that make it.
+    // For the preparer.
 
-    /// Begins anew for an instant of this camera, whose picture and depth map have these sizes.
+    /// Starts a surface of this camera with a picture and a depth map of these sizes.
     void begin(const DepthView& camera, cv::Size colour_size, cv::Size depth_size,
                const SurfaceSamples& samples);
-    /// Likewise, with the depth, the triangles and the trust of another one of this camera, of
-    /// which nothing may change from then on.
+    /// Starts a surface that shares the shape of another one of this camera; the shape must not
+    /// change from then on.
     void begin_like(const RigSurface& other, const SurfaceSamples& samples);
-    /// The view as it came; without depth, its map is one unknown pixel.
+    /// Uploads a view without processing; without depth, the depth map is one unknown pixel.
     void upload(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                 std::unique_ptr<DepthUploader>& uploader);
     const Framebuffer& depth_target() const { return shape_->depth.target(); }
-    /// r8, of the picture's size: how far the depth lets its colours be trusted (see EdgeTrust).
+    /// r8, of the picture's size: the edge confidence (see EdgeConfidence).
     DrawnTexture& confidence() { return shape_->confidence; }
     const Framebuffer& colour_target() const { return colour_.target(); }
     void finish_colour() { colour_.generate_mipmaps(); }
@@ -87,8 +89,8 @@ class RigSurface {
     DrawnTexture colour_{TextureFormat::rgba8, Filter::linear, true};
 };
 
-/// A view's picture, with its colour correction, into a texture of its size.
-/// `corrector` is made when a view first needs one.
+/// Uploads a view's picture, with its colour correction, to a texture of its size. Creates
+/// `corrector` when a view first needs it.
 void upload_colour(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                    Texture& into);
 

@@ -8,10 +8,10 @@
 namespace vantage {
 namespace {
 
-/// Steeper than this against the line of sight, a step in depth is taken for two surfaces.
-constexpr double steepest_slope = 8.0;
-/// A step below this share of the depth never is (depth codes are quantised).
-constexpr double smallest_step = 0.0075;
+/// Slope of a surface against the line of sight from which on a step in depth is an edge.
+constexpr double max_slope = 8.0;
+/// A smaller share of the depth is never an edge, since disparities are quantised.
+constexpr double min_step = 0.0075;
 
 int quads_across(QuadGrid grid) { return grid == QuadGrid::fine ? 1 : 4; }
 
@@ -56,9 +56,8 @@ void TriangleBuilder::build(const DepthGrid& grid, float bend, Program& program)
 void TriangleBuilder::set_edge_filter(Program& program, const DepthGrid& grid) {
     program.use();
     program.input("depth_map", grid.depth_m);
-    // The same for all grids: a coarse quad that a fine one would not span is left out.
-    program.set("tolerance",
-                static_cast<float>(std::max(steepest_slope / grid.K(0, 0), smallest_step)));
+    // The same for all grids: no coarse quad spans what fine ones would not.
+    program.set("tolerance", static_cast<float>(std::max(max_slope / grid.K(0, 0), min_step)));
 }
 
 void TriangleBuilder::build_rims(RigSurface& surface) {

@@ -5,25 +5,26 @@
 
 namespace vantage {
 
-/// Writes the triangles of a depth map's regular grid of quads, a vertex a pixel. Where
-/// neighbouring pixels lie on different surfaces nothing is spanned between them: the edge filter,
-/// a high-pass of the inverse depth, keeps their triangles out.
+/// Builds the triangles of a depth map's regular grid of quads, with a vertex for each pixel. No
+/// triangle connects neighbouring pixels of different surfaces: an edge filter, a high-pass of the
+/// inverse depth, removes them.
 class TriangleBuilder {
   public:
     explicit TriangleBuilder(const ShaderLibrary& library);
 
-    /// The usual bend, see build().
-    static constexpr float least_bend = 0.6f;
+    /// The default bend of build(): below the noise of the depth.
+    static constexpr float default_bend = 0.6f;
 
-    /// In the coarse grid, a block of quads that bends by less than `bend`, in units of the
-    /// uncertainty of inverse depth, is flat, and becomes two triangles.
-    void build(const DepthGrid& grid, float bend = least_bend);
-    /// A coarse grid's, only where `tiles` of a picture of this size (TilePass) say so.
+    /// Builds the triangles of the grid. In the coarse grid, a block of quads that bends by less
+    /// than `bend` standard deviations of the inverse depth becomes two triangles.
+    void build(const DepthGrid& grid, float bend = default_bend);
+    /// Builds only the blocks of a coarse grid in the selected tiles of a picture of this size (see
+    /// TilePass).
     void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
-                     float bend = least_bend);
+                     float bend = default_bend);
 
-    /// What the fine grid leaves out at the edges of surfaces: half a pixel all round, and all of
-    /// what is one pixel wide. Drawn with the fine grid.
+    /// Builds the rims, which the fine grid lacks at the edges of surfaces: half a pixel all round,
+    /// and all objects that are one pixel wide. They are drawn with the fine grid.
     void build_rims(RigSurface& surface);
 
   private:

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "host_app/views/depth_spread.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {

@@ -8,18 +8,19 @@
 #include "common/geometry/pose.h"
 #include "common/geometry/rectified_stereo.h"
 #include "common/image/image.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 
-/// How far away a rig's disparities are.
+/// Converts a rig's disparities to depth. A value; any thread may use it.
 class DisparityScale {
   public:
     DisparityScale() = default;
-    /// Disparities of a map with `columns`, in steps of that map's pixels, of a pair with this
-    /// geometry.
+    /// For a disparity map with `columns` columns, in 1/disparity_steps_per_px of its pixels, of a
+    /// pair with this geometry.
     DisparityScale(const RectifiedStereo& geometry, int columns);
 
-    /// z = f * baseline / (d + doffs); 0 where `steps` is 0 (unknown), or where d + doffs <= 0.
+    /// z = f * baseline / (d + doffs), metres; 0 if `steps` is 0 (unknown) or d + doffs <= 0.
     float depth_m(std::uint16_t steps) const;
     bool operator==(const DisparityScale&) const = default;
 
@@ -27,36 +28,36 @@ class DisparityScale {
     float px_per_step_ = 0, doffs_px_ = 0, f_baseline_ = 0;
 };
 
-/// What one rig (or one entry of a view set) knows of an instant: a picture with the depth of its
-/// pixels.
+/// One rig (or one entry of a view set) at one instant: a picture with the depth of its pixels and
+/// its camera. Copies share the pixels.
 struct DepthView {
     std::string name;
     ColourImage colour;
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< of the colour picture, px; may have skew
     Pose world_from_camera = Pose::Identity();
-    /// z along this camera's axis, metres, 0 = unknown; of the colour's size, or a smaller one with
-    /// the same field of view; empty: the view gives no geometry.
+    /// z along this camera's axis, metres, 0 = unknown. Has the size of `colour`, or a smaller one
+    /// with the same field of view; empty if the view has no depth or `disparity` has it.
     DepthImage depth_m;
-    /// Instead of depth_m, a rig's disparities as they came; sizes as there.
+    /// The depth as a rig's disparities; sizes as for depth_m.
     DisparityImage disparity = {};
     DisparityScale disparity_scale = {};
-    /// Depth uncertainty of a pixel is z^2 * sigma / (f * baseline): baseline 0 where depth does
-    /// not come of stereo.
+    /// The standard deviation of a depth is z^2 * sigma / (f * baseline). 0 if depth does not come
+    /// from stereo.
     double baseline_m = 0;
     double doffs_px = 0;
-    /// The rectified right picture, of set_match_size() of the colour's; its cx is doffs_px
-    /// more. A JPEG, the newest that came; null: none has.
+    /// The newest rectified right image, a JPEG in background_match_size() of the colour's size,
+    /// whose cx is larger by doffs_px; null if none has arrived.
     SharedBytes right_jpeg = {};
-    /// Brings the picture's colours to the stage's; done on the GPU on its way to the synthesisers.
+    /// Converts the picture's colours to the stage's; applied by the GPU at the upload.
     ColourCorrection colour_correction = {};
 
     bool has_depth() const { return !disparity.empty() || !depth_m.empty(); }
     cv::Size depth_size() const { return disparity.empty() ? depth_m.size() : disparity.size(); }
-    /// Of a pixel of the depth map.
+    /// The depth of a pixel of the depth map, metres, 0 = unknown.
     float depth_m_at(int x, int y) const {
         return disparity.empty() ? depth_m(y, x) : disparity_scale.depth_m(disparity(y, x));
     }
-    /// Camera, name and sizes stay.
+    /// Drops the pixels; camera and name stay.
     void release_pictures() {
         colour.release();
         depth_m.release();
@@ -64,5 +65,13 @@ struct DepthView {
         right_jpeg.reset();
     }
 };
+
+/// The relative standard deviation of a stereo rig's depth for each metre of depth; 0 if the depth
+/// does not come from stereo.
+inline float depth_spread(const DepthView& camera) {
+    const double f_baseline = camera.K(0, 0) * camera.baseline_m;
+    return f_baseline > 0 ? static_cast<float>(static_cast<double>(disparity_sigma_px) / f_baseline)
+                          : 0.0f;
+}
 
 }  // namespace vantage

@@ -10,10 +10,10 @@
 
 namespace vantage {
 
-/// A rig's frame as the synthesisers take it. Its pictures are shared, not copied.
+/// Converts a rig's frame to a view, which shares its pixels.
 DepthView depth_view_of(const RigFrame& frame);
-/// Of all frames of the set that have pictures, with the colour corrections of those rigs that have
-/// one.
+/// Converts the frames of a frame set that have pictures, with the colour corrections of their
+/// rigs.
 std::vector<DepthView> depth_views_of(const FrameSet& set,
                                       const std::map<std::string, ColourCorrection>& colours);
 

@@ -1,5 +1,7 @@
 #include "host_app/views/projection.h"
 
+#include <cmath>
+
 #include <Eigen/LU>
 
 namespace vantage {
@@ -34,8 +36,17 @@ Eigen::Matrix4d clip_from_target(const VirtualView& target, double near_m) {
     return clip_from_pixel * homogeneous(target.K);
 }
 
+double parallax_px(const Eigen::Matrix4d& map, const Eigen::Vector2d& pixel, double depth_m) {
+    // Divided by z, the vector is linear in the inverse depth w: p(w) = (a + w * b) / (a_z + w *
+    // b_z).
+    const Eigen::Vector4d q = map * Eigen::Vector4d(pixel.x(), pixel.y(), 1, 1 / depth_m);
+    const Eigen::Vector4d slope = map.col(3);
+    if (!(depth_m > 0) || q.z() == 0) return 0;
+    return (slope.head<2>() - q.head<2>() * slope.z() / q.z()).norm() / (std::abs(q.z()) * depth_m);
+}
+
 Eigen::Matrix3d scaled_intrinsics(const Eigen::Matrix3d& K, double scale_x, double scale_y) {
-    // Pixel centres are at integers, so it is the pixels' corners that scale.
+    // Pixel centres are at integers, so the pixels' corners scale.
     Eigen::Matrix3d scale;
     scale << scale_x, 0, 0.5 * scale_x - 0.5,  //
         0, scale_y, 0.5 * scale_y - 0.5,       //

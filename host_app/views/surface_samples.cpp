@@ -9,7 +9,8 @@
 namespace vantage {
 namespace {
 
-constexpr int samples_a_side = 12;
+/// Rows and columns of the sampling grid: enough for ranking views, and cheap for every frame.
+constexpr int samples_per_side = 12;
 
 }  // namespace
 
@@ -22,10 +23,10 @@ SurfaceSamples surface_samples(const DepthView& view) {
                           static_cast<double>(size.height) / view.colour.rows)
             .inverse();
     std::vector<double> depths_m;
-    for (int j = 0; j < samples_a_side; ++j)
-        for (int i = 0; i < samples_a_side; ++i) {
-            const int x = (2 * i + 1) * size.width / (2 * samples_a_side);
-            const int y = (2 * j + 1) * size.height / (2 * samples_a_side);
+    for (int j = 0; j < samples_per_side; ++j)
+        for (int i = 0; i < samples_per_side; ++i) {
+            const int x = (2 * i + 1) * size.width / (2 * samples_per_side);
+            const int y = (2 * j + 1) * size.height / (2 * samples_per_side);
             const double z = view.depth_m_at(x, y);
             if (!(z > 0)) continue;
             depths_m.push_back(z);

@@ -8,13 +8,13 @@
 
 namespace vantage {
 
-/// What a view shows, in short.
+/// A few surface points of a view, as a summary of the places that it sees.
 struct SurfaceSamples {
-    std::vector<Eigen::Vector3d> points_m;  ///< in the world
-    double median_depth_m = 0;              ///< 0: the view has no depth
+    std::vector<Eigen::Vector3d> points_m;  ///< in world coordinates
+    double median_depth_m = 0;              ///< 0 if the view has no depth
 };
 
-/// Known surface points of a view, evenly over its picture, at most 144.
+/// Samples at most 144 surface points of a view, evenly over its picture.
 SurfaceSamples surface_samples(const DepthView& view);
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 namespace vantage {
 namespace {
 
+/// Added to angles, so that the usefulness of a camera in the same place stays finite.
 constexpr double small_angle_rad = 0.02;
 
 }  // namespace
@@ -19,7 +20,7 @@ double usefulness(std::span<const Eigen::Vector3d> sample_points_m,
         const Eigen::Vector3d point = target_from_world * point_world;
         if (point.z() <= 0) continue;
         const Eigen::Vector3d pixel = target.K * point / point.z();
-        // A margin of a quarter of the picture: points are few, and surfaces reach past them.
+        // With a margin of a quarter of the picture, since surfaces extend beyond the few points.
         const double margin_x = 0.25 * target.width_px, margin_y = 0.25 * target.height_px;
         if (pixel.x() < -margin_x || pixel.x() > target.width_px + margin_x ||
             pixel.y() < -margin_y || pixel.y() > target.height_px + margin_y)

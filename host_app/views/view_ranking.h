@@ -9,15 +9,15 @@
 
 namespace vantage {
 
-/// How much one view can give to a virtual view: over the view's sample points that fall into the
-/// picture, the sum of 1 / (angle between the two cameras' rays at the point + a small angle). 0:
-/// it sees nothing of what is wanted.
+/// How useful a view is for rendering a virtual view: the sum of 1 / (angle between the two
+/// cameras' rays + a small angle) over the view's sample points that fall into the virtual picture.
+/// 0 if none does.
 double usefulness(std::span<const Eigen::Vector3d> sample_points_m,
                   const Eigen::Vector3d& source_centre_m, const VirtualView& target);
 
-/// The `at_most` most useful of some pointers to views, best first, so that the cost of a picture
-/// does not grow with the stage; those of no use are left out. A view has camera() and
-/// sample_points_m().
+/// Selects the most useful of several views, at most `at_most`, best first, so that the cost of a
+/// picture does not grow with the number of rigs. Views with usefulness 0 are left out. `views` is
+/// a range of pointers to objects with camera() and sample_points_m().
 template <class Pointers>
 auto most_useful(const Pointers& views, const VirtualView& target, std::size_t at_most) {
     std::vector<std::pair<double, decltype(&*views[0])>> ranked;

@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// The camera that is rendered: a pinhole with any intrinsics.
+/// The virtual camera: a pinhole camera with any intrinsics.
 struct VirtualView {
     int width_px = 0, height_px = 0;
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();

@@ -1,23 +1,22 @@
-// The colour of a rig's set: where it is seen now, the mean of the instants since it last changed, else what was seen
-// before.
-#include "colour_change.glsl"
+// Temporal denoising of a rig's background: where it is visible, the mean colour of the instants since it last changed,
+// elsewhere the colour that was seen before.
+#include "colour_difference.glsl"
+#include "tolerances.glsl"
 #include "background_kinds.glsl"
 #include "background_known.glsl"
 
 uniform sampler2D picture;  // this instant's
-uniform sampler2D before;   // mean of the instants before; alpha: how many, less where it showed other things, see background_known.glsl
+uniform sampler2D before;   // mean of the instants before; alpha: instants without change, see background_known.glsl
 uniform sampler2D seen;     // from background_compare.frag
-uniform sampler2D matte;    // the performers' share
+uniform sampler2D matte;    // the foreground's share
 uniform float has_before;     // 0: there is no instant before
-uniform float most_instants;  // that the mean is of
+uniform float most_instants;  // of the mean
 
-layout(location = 0) out vec4 shown;  // alpha: 1 where the set is seen now
+layout(location = 0) out vec4 shown;  // alpha: 1 where the background is visible now
 layout(location = 1) out vec4 mean;
 
-// Changes of colour (0..1): up to `noise` they are averaged away, from `motion` on taken as they come.
-const float noise = 0.01, motion = 0.02;
-const float pixel_share = 0.4;  // a pixel's noise is larger than that of a window
-const float hidden_from = 0.02; // of the matte around a pixel
+const float pixel_share = 0.4;  // of a pixel's own change, whose noise is larger than a window's
+const float hidden_from = 0.02; // matte around a pixel from which on it counts as hidden
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -37,11 +36,11 @@ void main() {
     }
     vec2 here = textureLod(seen, uv, 0.0).rg;
     float change = max(here.g, pixel_share * largest(now.rgb - past.rgb));
-    // What shows another thing may go on to; light and shadow come and go over a set that is known.
-    bool is_other = is_kind(here.r, untold) || is_kind(here.r, new_background);
+    // A pixel that shows something else may go on changing; light and shadow pass over a background that stays known.
+    bool is_other = is_kind(here.r, undecided) || is_kind(here.r, new_background);
     float instants = !is_other     ? min(past.a + 1.0, most_instants)
                      : past.a > 1.0 ? 0.5 * past.a
-                                    : max(past.a - 1.0, most_unrest);
-    mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise, motion, change))), instants);
+                                    : max(past.a - 1.0, min_still);
+    mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise_change, motion_change, change))), instants);
     shown = vec4(mean.rgb, 1.0);
 }

@@ -1,12 +1,13 @@
-// What a rig's picture shows at each pixel against its set, which stands still and lies behind everything that moves
-// over it. The set's depth of the instants before counts as the rig's matcher sees it, errors and all, and as the model
-// has it: on a plain floor the former may be as near as a performer.
-#include "colour_change.glsl"
+// Classifies each pixel of a rig's picture against its background, which stands still behind everything that moves. Depth
+// is compared both with the mean of the rig's own matcher, whose errors repeat, and with the refined model: on a plain
+// floor the matcher's depth may be as near as a performer.
+#include "colour_difference.glsl"
 #include "depth_weights.glsl"
 #include "background_kinds.glsl"
 #include "background_known.glsl"
 #include "background_now.glsl"
 #include "two_stages.glsl"
+#include "tolerances.glsl"
 
 #ifndef SAME_SIZE
 #define SAME_SIZE 0  // 1: the depth map is as large as the picture
@@ -14,21 +15,19 @@
 
 uniform sampler2D depth_map;  // this instant's, metres, 0 = unknown
 uniform sampler2D picture;    // this instant's
-uniform sampler2D background_colour; // mean of the instants that showed the set; alpha: how many
+uniform sampler2D background_colour; // mean of the instants that showed the background; alpha: their number
 
-layout(location = 0) out vec4 seen;  // red: one of the kinds of background_kinds.glsl; green: how far the colour is from the set's, in a
-                                      // window; blue: just here
+layout(location = 0) out vec4 seen;  // red: a kind of background_kinds.glsl; green: change of colour in a window; blue: of the pixel
 
-const float quiet = 0.012;   // of colour (0..1) just here: the set, whatever is around
-const float motion = 0.02;   // of colour (0..1), mean of a window: it shows another thing
-const vec2 shade = vec2(0.45, 1.3);  // what light and shadow make of a colour, from and to
-const float tint = 0.025;            // change of colour beside that
-const float uncovered_after = 3.0;   // instants, at most, after which what is farther is the set
+const float quiet = 0.012;           // change of the pixel's colour below which it shows the background
+const vec2 shade = vec2(0.45, 1.3);  // least and greatest factor that shadow and light apply to a colour
+const float tint = 0.025;            // change of colour that remains beside that factor, at most
+const float uncovered_after = 3.0;   // instants, at most, after which a farther surface becomes the background
 
-vec3 now, known;  // just here, then means of a window
+vec3 now, known;  // colour and background colour of the pixel, later means of a window
 
-// Seventeen pixels of five by five: the middle and two by two at each corner.
-void look_around(vec2 uv) {
+// Averages seventeen of five by five pixels: the middle and two by two at each corner.
+void average_window(vec2 uv) {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0));
     for (int k = 0; k < 4; ++k) {
         vec2 corner = uv + 1.5 * texel * (2.0 * vec2(k & 1, k >> 1) - 1.0);
@@ -59,16 +58,16 @@ void main() {
 #endif
     known = mean.rgb;
     float own = largest(now - known);
-    seen = vec4(the_set, 0.5 * own, own, 0.0);
+    seen = vec4(the_background, 0.5 * own, own, 0.0);
 #if FIRST
     leave_to_second(own >= quiet);
 #else
-    look_around(uv);
+    average_window(uv);
     float z = texelFetch(depth_map, at, 0).r, change = largest(now - known);
     vec4 state = texelFetch(background_state, at, 0);
     bool is_known = z > 0.0 && state.r > 0.0, is_same = is_known && is_one_surface(z, state.r);
-    float kind = the_set;
-    if (change > motion) {
+    float kind = the_background;
+    if (change > motion_change) {
         bool goes_on = state.b > 0.0 && is_one_surface(z, state.b);
         bool restless = is_restless(mean);
         bool is_believed = restless || state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
@@ -77,7 +76,7 @@ void main() {
         kind = is_same && is_shade()                ? lit_background
                : is_known && !restless && is_before ? before_background
                : z > 0.0 && !is_same                ? (is_believed ? new_background : uncovered)
-                                                    : untold;
+                                                    : undecided;
     }
     seen = vec4(kind, change, own, 0.0);
 #endif

@@ -1,10 +1,11 @@
-// Where a rig's set is known: what has been still for long enough since it changed. Where nothing ever is (a crowd, a
-// screen that plays) there is no set, and what the rig shows is taken as it comes.
+// Where a rig's background is known: the pixel has not changed for long enough. A place where nothing ever stands still
+// (a crowd, a video screen) has no background; its pixels are shown as they come.
 uniform float known_after;  // instants
 
-const float most_unrest = -4.0, unrest = -3.0;  // of the colour mean's alpha: changes in a row, less what was still
+// Alpha of the colour mean counts instants without change; below 0 it counts changes in a row, less instants without.
+const float min_still = -4.0, restless_still = -3.0;
 
-// The first instant counts nothing in the mean's alpha.
+// The first instant adds nothing to the mean's alpha.
 bool is_background_known(vec4 state, vec4 colour_mean) { return state.r > 0.0 && colour_mean.a + 1.0 >= known_after; }
 
-bool is_restless(vec4 colour_mean) { return colour_mean.a <= unrest; }
+bool is_restless(vec4 colour_mean) { return colour_mean.a <= restless_still; }

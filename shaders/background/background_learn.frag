@@ -1,15 +1,15 @@
-// The depth of a rig's set, learnt along time where no performer hides it. Where the colour stays, a depth has to jump
-// for long to be believed; where it changed, the set has.
+// Learns the depth of a rig's background over time where no foreground hides it. Where the colour stays, a different depth
+// is accepted only after several instants; where the colour changed, at once.
 #include "depth_weights.glsl"
 #include "background_kinds.glsl"
 
 uniform sampler2D depth_map;   // this instant's, metres, 0 = unknown
-uniform sampler2D background_before;  // set_state of the instant before
+uniform sampler2D background_before;  // background_state of the instant before
 uniform sampler2D seen;        // from background_compare.frag
-uniform sampler2D matte;       // the performers' share
-uniform float absorbed_after;  // instants, after which what stands still before the set is a part of it
+uniform sampler2D matte;       // the foreground's share
+uniform float absorbed_after;  // instants after which foreground that stands still becomes background
 
-layout(location = 0) out vec4 background_state;  // metres of the set, votes; metres of what may replace it, for how many instants
+layout(location = 0) out vec4 background_state;  // the background's depth in metres and its count (see depth_weights.glsl); the depth that may replace it and its instants
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -28,8 +28,8 @@ void main() {
     }
     background_state.zw = vec2(0.0);
     if (z == 0.0) return;
-    if (background_state.r <= 0.0 || is_kind(kind, new_background) || is_kind(kind, untold))
+    if (background_state.r <= 0.0 || is_kind(kind, new_background) || is_kind(kind, undecided))
         background_state.xy = vec2(z, 1.0);
     else if (!is_kind(kind, before_background))
-        background_state.xy = voted(background_state.xy, z, is_one_surface(z, background_state.r), mean_share(background_state.xy));
+        background_state.xy = updated(background_state.xy, z, is_one_surface(z, background_state.r), mean_share(background_state.xy));
 }

@@ -1,10 +1,10 @@
-// Whether a rig's set is known at a pixel of every so many, and the performers' share of it.
+// Samples whether a rig's background is known (red) and its matte (green) on a coarse grid.
 #include "background_known.glsl"
 
 uniform sampler2D background_state;   // from background_learn.frag
 uniform sampler2D background_colour;  // the mean of background_colour.frag
 uniform sampler2D matte;       // from matte_edges.frag
-uniform vec2 sample_share;     // of the picture, from one to the next
+uniform vec2 sample_share;     // of the picture, from one sample to the next
 
 layout(location = 0) out vec2 seen;
 

@@ -1,14 +1,14 @@
-// The depth of a rig's set at this instant, behind its performers too. What was uncovered is the set before it is learnt;
-// what nobody has seen is unknown.
+// The depth of a rig's background at this instant, behind its foreground too. An uncovered surface is shown before it is
+// learnt; a place that was never visible is unknown.
 #include "background_kinds.glsl"
 #include "background_known.glsl"
 #include "background_now.glsl"
 
 uniform sampler2D depth_map;    // this instant's, metres, 0 = unknown
 uniform sampler2D seen;         // from background_compare.frag
-uniform sampler2D performers;   // their depth, metres, 0 = none
-uniform sampler2D colour;       // from background_colour.frag: alpha is 1 where the set is seen now
-uniform sampler2D colour_mean;  // likewise
+uniform sampler2D performers;   // depth of the foreground, metres, 0 = none
+uniform sampler2D colour;       // from background_colour.frag: alpha is 1 where the background is visible now
+uniform sampler2D colour_mean;  // the mean of background_colour.frag
 
 layout(location = 0) out float depth_m;
 

@@ -27,7 +27,7 @@ void main() {
         for (int x = -reach; x <= reach; ++x) {
             ivec2 there = clamp(at + step_px * ivec2(x, y), ivec2(0), size - 1);
             float kind = textureLod(seen, (vec2(there) + 0.5) * texel, 0.0).r;
-            float is_before = is_kind(kind, before_background) ? 1.0 : 0.0, is_set = is_kind(kind, untold) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
+            float is_before = is_kind(kind, before_background) ? 1.0 : 0.0, is_set = is_kind(kind, undecided) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
             float is_known = is_kind(kind, new_background) ? 0.0 : is_set;
             before += is_before;
             count += is_before + is_set;
@@ -40,7 +40,7 @@ void main() {
     if (before == 0.0 || performer > 0.0) return;
     float around = before / max(count, 1.0);
     bool is_foreground = is_kind(own, before_background) ? around > least_around && (seen_here.b > like_set_here || like_before > like_background)
-                        : is_kind(own, untold)   ? like_before > like_background
+                        : is_kind(own, undecided)   ? like_before > like_background
                         : is_kind(own, new_background)  ? around > new_around && like_before > like_background
                                                  : around > most_around;
     performer = is_foreground ? 1.0 : 0.0;

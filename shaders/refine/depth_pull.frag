@@ -1,9 +1,9 @@
-// Halves a depth map with holes: the average inverse depth of the farther ones among the known pixels of a window.
-uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
+// Halves a depth map with holes: the mean inverse depth of the farther ones among the known pixels of a window.
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = inpainted
 
 layout(location = 0) out float half_depth;
 
-// The window reaches a pixel past the four that become one, so that the far side of a hole prevails over the near one.
+// Pixels that the window reaches past the four that become one, so that the far side of a hole prevails.
 const int reach = 1;
 
 void main() {

@@ -1,7 +1,6 @@
-// Keeps known depth, and guesses that there are, and guesses the rest, with a negative sign, from the map of half the
-// size.
-uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
-uniform sampler2D coarse;     // metres; its guesses are negative
+// Keeps known and inpainted depth, and inpaints the rest, with a negative sign, from the map of half the size.
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = inpainted
+uniform sampler2D coarse;     // metres, negative = inpainted
 
 layout(location = 0) out float closed;
 

@@ -1,16 +1,16 @@
-// How far the colour of every pixel of a rig's picture can be trusted: lens and sensor mix the colours of both sides of
-// a depth edge.
+// Edge confidence: how reliable the colour of each pixel is, from the distance to the nearest depth edge, since lens and
+// sensor mix the colours of both sides of an edge.
+#include "tolerances.glsl"
 #ifndef REACH
-#define REACH 2  // px from a depth edge to which colours are mixed
+#define REACH 2  // px from a depth edge within which colours are mixed
 #endif
 
-uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed; of the picture's size or smaller
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = inpainted; of the picture's size or smaller
 uniform ivec2 picture_size;
-uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
 
 layout(location = 0) out float confidence;
 
-const float min_confidence = 0.02;  // something is better than nothing
+const float min_confidence = 0.02;  // above 0, so that the colour is used where no rig has a better one
 
 float depth_at(ivec2 at) {
     ivec2 size = textureSize(depth_map, 0);
@@ -25,7 +25,7 @@ void main() {
     for (int y = -REACH; y <= REACH; ++y)
         for (int x = -REACH; x <= REACH; ++x) {
             float z = depth_at(at + ivec2(x, y));
-            if (max(z, own) > min(z, own) * edge_ratio) nearest = min(nearest, float(x * x + y * y));
+            if (max(z, own) > min(z, own) * depth_edge_ratio) nearest = min(nearest, float(x * x + y * y));
         }
     float pure = (sqrt(nearest) - 1.0) / float(REACH);
     confidence = mix(min_confidence, 1.0, pure * pure);

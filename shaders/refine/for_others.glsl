@@ -1,9 +1,9 @@
-// How many other rigs a pass looks at.
+// The number of other rigs that a pass compares with.
 #ifndef OTHERS
 #define OTHERS 3
 #endif
 
-// Runs X(0), X(1), ... for every other rig: samplers take constant indices only.
+// Expands X(0), X(1), ... for every other rig, since arrays of samplers take constant indices only.
 #if OTHERS == 0
 #define FOR_OTHERS(X)
 #elif OTHERS == 1

@@ -1,5 +1,7 @@
-// Smooths a rig's depth within surfaces: the average inverse depth of those pixels around that lie on the same surface
-// and are of like colour. With SCALE 2 into a map of half the size.
+// Smooths a rig's depth within surfaces: the mean inverse depth of the pixels around that lie on the same surface,
+// weighted by the similarity of their colours. With SCALE 2 the result has half the size.
+#include "tolerances.glsl"
+#include "colour_difference.glsl"
 #ifndef SCALE
 #define SCALE 1
 #endif
@@ -9,11 +11,8 @@
 
 uniform sampler2D depth_map;  // metres, 0 = unknown
 uniform sampler2D picture;
-uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
 
 layout(location = 0) out float smoothed;
-
-const float like_colour = 0.08;  // mean difference (0..1) at which a pixel's weight is 1/e
 
 void main() {
     ivec2 size = textureSize(depth_map, 0);
@@ -28,16 +27,16 @@ void main() {
     vec3 colour = textureLod(picture, middle * texel, 0.0).rgb;
     float sum = 0.0, weights = 0.0;
     ivec2 low = max(at - REACH, ivec2(0)), high = min(at + REACH + SCALE - 1, size - 1);
-    // Every other pixel says nearly what all of them do.
+    // Every other pixel suffices: neighbouring depths are nearly equal.
     for (int y = low.y; y <= high.y; y += 2)
         for (int x = low.x; x <= high.x; x += 2) {
             float z = texelFetch(depth_map, ivec2(x, y), 0).r;
-            if (max(z, own) > min(z, own) * edge_ratio) continue;
-            vec3 cost = abs(textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb - colour);
-            float w = exp(-dot(cost, vec3(1.0 / 3.0)) / like_colour) + 1e-4;
+            if (max(z, own) > min(z, own) * depth_edge_ratio) continue;
+            vec3 there = textureLod(picture, (vec2(x, y) + 0.5) * texel, 0.0).rgb;
+            float w = colour_weight(there, colour, smoothing_colour_falloff) + 1e-4;
             sum += w / z;
             weights += w;
         }
-    // Of half-size pixels the one that has depth may be none of those that were asked.
+    // With SCALE 2 the one pixel with depth may not be among every other one.
     smoothed = weights > 0.0 ? weights / sum : own;
 }

@@ -1,28 +1,24 @@
-// How unlike the pictures of the rigs that see a pixel's point are to this one's, at sixteen depths around its own.
+// Plane sweep: the photometric cost between this rig's picture and those of the rigs that see a pixel's point, at sixteen
+// depths around its own.
 #include "rig_others.glsl"
 
 uniform float relative_step;  // of inverse depth, from one to the next
-uniform float lod;
+uniform float lod;            // mip level of the pictures whose pixels are as large as the map's
 
-layout(location = 0) out vec4 costs[4];
+layout(location = 0) out vec4 costs[4];  // 0 to 1
 
-const float same_place = 0.08;  // relative depth within which another rig may see the same point
-const float most = 0.15;        // mean colour difference (0..1) beyond which nothing is more unlike
-
+// Whether another rig may see the pixel's point: its surface there is near.
 bool sees(int i, sampler2D map, vec2 pixel, float z) {
-    vec4 q = other_from_pixel[i] * vec4(pixel * z, z, 1.0);
-    if (q.z <= 0.0) return false;
-    vec2 uv = (q.xy / q.z + 0.5) / other_size[i];
-    vec2 inside = min(uv, 1.0 - uv);
-    if (min(inside.x, inside.y) < 0.0) return false;
-    vec4 there = textureGather(map, uv) / q.z;
-    return any(lessThan(abs(there - 1.0), vec4(same_place)));
+    vec2 uv;
+    float other_z;
+    if (!project(i, pixel, z, uv, other_z)) return false;
+    return any(lessThan(abs(textureGather(map, uv) / other_z - 1.0), vec4(sweep_place_share)));
 }
 
-void look(int i, sampler2D colours, vec3 along, float z, vec3 own, inout vec2 sum) {
+void add_cost(int i, sampler2D colours, vec3 along, float z, vec3 own, inout vec2 sum) {
     vec3 q = along * z + other_from_pixel[i][3].xyz;
-    vec3 d = abs(textureLod(colours, (q.xy / q.z + 0.5) / other_size[i], lod).rgb - own);
-    sum += vec2(min(dot(d, vec3(1.0 / 3.0)) / most, 1.0), 1.0);
+    vec3 there = textureLod(colours, (q.xy / q.z + 0.5) / other_size[i], lod).rgb;
+    sum += vec2(min(colour_difference(there, own) / max_pixel_cost, 1.0), 1.0);
 }
 
 void main() {
@@ -42,8 +38,8 @@ void main() {
     for (int h = 0; h < 16; ++h) {
         float z = own / (1.0 + float(h - 7) * relative_step);
         vec2 sum = vec2(0.0);
-#define LOOK(i) if (seen[i]) look(i, other_colour[i], along[i], z, colour, sum);
-        FOR_OTHERS(LOOK)
+#define ADD_COST(i) if (seen[i]) add_cost(i, other_colour[i], along[i], z, colour, sum);
+        FOR_OTHERS(ADD_COST)
         cost[h] = sum.x / sum.y;
     }
     costs[0] = vec4(cost[0], cost[1], cost[2], cost[3]);

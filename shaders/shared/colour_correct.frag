@@ -1,4 +1,4 @@
-// One camera's colours to the stage's: encode(matrix * decode(camera) ^ tone), with sRGB's transfer
+// Converts a camera's colours to the stage's: encode(matrix * decode(camera) ^ tone), with sRGB's transfer
 // function. The CPU reference is ColourCorrection::apply.
 uniform sampler2D camera;       // rgba8, sRGB-coded
 uniform mat3 stage_from_camera; // linear light

@@ -1,4 +1,4 @@
-// A texture as it is, into one of its size; channels that the target lacks are left out.
+// Copies a texture to one of the same size; channels that the target lacks are dropped.
 uniform sampler2D source;
 
 layout(location = 0) out vec4 copied;

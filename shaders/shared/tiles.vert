@@ -1,6 +1,6 @@
-// The tiles of a target in which there is something to draw, two triangles each, without vertex data.
-uniform sampler2D tiles;   // a pixel a tile: above 0 where it is drawn
-uniform vec2 tile_share;   // of the target that a tile spans
+// Draws the selected tiles of a target, two triangles each, without vertex data.
+uniform sampler2D tiles;   // one pixel for each tile: above 0 where it is drawn
+uniform vec2 tile_share;   // share of the target that a tile spans
 
 void main() {
     int tile = gl_VertexID / 6, corner = gl_VertexID % 6, columns = textureSize(tiles, 0).x;

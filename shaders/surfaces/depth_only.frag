@@ -1,2 +1,2 @@
-// Depth is all that is written.
+// Writes nothing but depth.
 void main() {}

@@ -1,4 +1,4 @@
-// Disparities as they came from a rig to metres, by a table of all there can be. The CPU reference is
+// Converts a rig's disparities to metres by a table of all values. The CPU reference is
 // DisparityScale::depth_m.
 uniform highp usampler2D steps; // r16ui
 uniform highp sampler2D table;  // r32f, 256 x 256, a row for every upper byte

@@ -1,12 +1,12 @@
-// A vertex a pixel of the depth map, displaced by its depth; with RIMS nine a pixel, its middle
-// and those around it.
+// A vertex for each pixel of the depth map, displaced by its depth; with RIMS nine for each pixel: its middle and those
+// around it.
 #ifndef RIMS
 #define RIMS 0
 #endif
 #ifndef MATTED
 #define MATTED 0  // 1: for matted_depth.frag
 #endif
-uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = inpainted
 uniform mat4 clip_from_pixel; // on (u * z, v * z, z, 1)
 #if RIMS
 uniform float reach_px;       // of a rim from the middle of its pixel

@@ -1,9 +1,9 @@
-// Which neighbours in a depth map lie on one surface.
-#ifndef STEEPEST
-#define STEEPEST 3.0  // times the tolerance: a slope that is never spanned
+// The edge filter: which neighbouring pixels of a depth map lie on one surface.
+#ifndef MAX_SLOPE
+#define MAX_SLOPE 3.0  // times the tolerance: a step that is always an edge
 #endif
 
-uniform sampler2D depth_map;  // metres, 0 = unknown, negative = guessed
+uniform sampler2D depth_map;  // metres, 0 = unknown, negative = inpainted
 uniform float tolerance;      // of a bend of inverse depth, as a share of the inverse depth
 
 float inverse_depth(ivec2 at, ivec2 size) {
@@ -11,8 +11,8 @@ float inverse_depth(ivec2 at, ivec2 size) {
     return z > 0.0 ? 1.0 / z : 0.0;
 }
 
-// Whether two neighbours lie on one surface: their step is small, or it goes on with the slope on one side of it, as
-// on a slanted plane, whose inverse depth is linear in the picture. `before` and `after` are the next ones outward.
+// Whether two neighbours lie on one surface: their step is small, or it continues the slope on one side, as on a slanted
+// plane, whose inverse depth is linear in the picture. `before` and `after` are the next pixels outward.
 bool joined(float before, float a, float b, float after) {
     if (a <= 0.0 || b <= 0.0) return false;
     float scale = tolerance * max(a, b);
@@ -20,10 +20,10 @@ bool joined(float before, float a, float b, float after) {
     float bend = abs(jump);
     if (before > 0.0) bend = min(bend, abs(jump - (a - before)));
     if (after > 0.0) bend = min(bend, abs(jump - (after - b)));
-    return bend <= scale && abs(jump) <= STEEPEST * scale;
+    return bend <= scale && abs(jump) <= MAX_SLOPE * scale;
 }
 
-// A quad of the grid, from its upper left pixel: the inverse depths of its corners, and which neighbours are joined.
+// A quad of the grid, from its upper left pixel: the inverse depths of its corners, and which neighbours are connected.
 struct Quad {
     float a, b, c, d;     // upper left, upper right, lower left, lower right
     bool ab, cd, ac, bd;

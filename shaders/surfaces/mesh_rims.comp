@@ -1,7 +1,6 @@
-// What the quad grid of a depth map leaves out: it ends at the middles of a surface's last pixels, half a pixel short of
-// the surface's edge, and shows nothing of what is a pixel wide. So each corner of a cut quad that lies on its nearest
-// surface gets its pixel's quarter of the quad. Vertices are 9 * pixel + 3 * (1 + y) + (1 + x), where x and y say to
-// which side of the pixel's middle.
+// Builds rims. The quad grid of a depth map ends at the middles of a surface's last pixels, half a pixel short of its
+// edge, and lacks objects that are one pixel wide. So each corner of a cut quad that lies on its nearest surface gets its
+// pixel's quarter of the quad. Vertices are 9 * pixel + 3 * (1 + y) + (1 + x), with x and y the side of the pixel's middle.
 #include "mesh_joints.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
@@ -11,7 +10,7 @@ uniform int capacity;  // indices
 layout(std430, binding = 0) writeonly buffer Rims { uint indices[]; };
 layout(std430, binding = 1) buffer Command { uint count; };  // the first word of an indirect draw
 
-const float one_surface = 0.97;  // of the nearest inverse depth: more belongs to the nearest surface
+const float one_surface = 0.97;  // share of the nearest inverse depth, above which a corner lies on the nearest surface
 
 void main() {
     ivec2 size = textureSize(depth_map, 0);
@@ -32,7 +31,7 @@ void main() {
         uint middle = 9u * uint(pixel.y * size.x + pixel.x) + 4u;
         uint beside = uint(int(middle) + inward.x), below = uint(int(middle) + 3 * inward.y);
         uint far = uint(int(middle) + inward.x + 3 * inward.y);
-        // Both mirrorings of the quarter must turn the same way round.
+        // Mirrored quarters must have the same orientation.
         bool is_mirrored = inward.x * inward.y < 0;
         indices[first] = middle;
         indices[first + 1u] = is_mirrored ? far : beside;

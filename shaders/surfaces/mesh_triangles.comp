@@ -1,7 +1,6 @@
-// The triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces; an invocation a block
-// of quads. Quads of several pixels become quads of one where they are cut, and a block, or a quarter of one, in which
-// inverse depth is linear in the picture, as on a plane, two triangles. They are written one after the other, as many as
-// there are.
+// Builds the triangles of a depth map's quad grid, cut where neighbouring pixels lie on different surfaces; one invocation
+// for each block of quads. Quads of several pixels that are cut become quads of one pixel. A block, or a quarter of one, in
+// which inverse depth is linear in the picture, as on a plane, becomes two triangles.
 #ifndef STEP
 #define STEP 1    // px of the depth map that a quad spans
 #endif
@@ -9,7 +8,7 @@
 #define ACROSS 1  // quads of a block, across and down
 #endif
 #ifndef TILES
-#define TILES 0   // 1: only where a tile says so
+#define TILES 0   // 1: only in selected tiles
 #endif
 #include "mesh_joints.glsl"
 
@@ -19,10 +18,10 @@ layout(std430, binding = 0) writeonly buffer Triangles { uint indices[]; };
 layout(std430, binding = 1) buffer Command { uint count; };  // the first word of an indirect draw
 
 #if TILES
-uniform sampler2D tiles;  // 0 = nothing
+uniform sampler2D tiles;  // 0 = not selected
 uniform vec2 tile_share;  // of the picture
 #endif
-uniform float bend;       // of inverse depth: a block that bends less is flat
+uniform float bend;       // of inverse depth, below which a block is flat
 
 void write(uint first, uvec3 corners) {
     indices[first] = corners.x;
@@ -58,8 +57,8 @@ void write_quad(Quad q, ivec2 at, int width, ivec2 size) {
 }
 
 #if ACROSS > 1
-// Whether a block of `side` pixels is flat, by samples at every second pixel, and then its triangles. It takes a pixel more on all sides,
-// so that no gap shows beside a block that is not flat.
+// Writes a block of `side` pixels as two triangles if samples at every second pixel show that it is flat. They extend a
+// pixel beyond it on all sides, so that no gap shows beside a block that is not flat.
 bool write_if_flat(ivec2 at, int side, ivec2 size) {
     int samples = (side + 2) / 2;
     ivec2 low = max(at - 1, 0), high = min(at + side + 1, size - 1);
@@ -82,8 +81,8 @@ bool write_if_flat(ivec2 at, int side, ivec2 size) {
 
 const int half_across = ACROSS / 2;
 const uint lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, quads = uint(half_across * half_across);
-// What a work group's blocks leave: quarters of those that are not flat, then those of them that are not flat either. Few
-// are, and so few that a software rasteriser, which takes all branches for all of its lanes, is done soon.
+// Work lists of a work group: quarters of the blocks that are not flat, those of them that are not flat either, and cut
+// quads. They are short, which saves time on a software rasteriser, which executes all branches for all of its lanes.
 shared uint quarters[4u * lanes], bent[4u * lanes], cut[quads * 4u * lanes];
 shared uint quarter_count, bent_count, cut_count;
 
@@ -126,7 +125,7 @@ void main() {
             cut[atomicAdd(cut_count, 1u)] = word_of(quad);
     }
     barrier();
-    // Where a quad is cut, the quads of its pixels tell more exactly where.
+    // The quads of a cut quad's pixels are cut closer to the edge.
     const uint parts = uint(STEP * STEP);
     for (uint i = lane; i < parts * cut_count; i += lanes) {
         int k = int(i % parts);

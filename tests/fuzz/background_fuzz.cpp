@@ -6,6 +6,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;
-    expect_result_or_error([&] { decode_frame_set(std::as_bytes(std::span(data, size))); });
+    expect_result_or_error([&] { decode_background(std::as_bytes(std::span(data, size))); });
     return 0;
 }

@@ -44,7 +44,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         .free_flight = free_flight,
         .compensate_gains = compensate_gains};
     if (!background.empty())
-        settings.background = std::make_shared<const Background>(load_set(background));
+        settings.background = std::make_shared<const Background>(load_background(background));
     if (!size.empty()) {
         const cv::Size wanted = parse_size(size);
         settings.format.width_px = wanted.width;

@@ -53,7 +53,7 @@ TEST_F(SavedBackgrounds, AreWrittenAtTheEndAndLoadedAtTheStart) {
     EXPECT_NE(again.err.find("the file exists"), std::string::npos) << again.err;
     const ProgramResult none = play({"--background", (source_folder() / "README.md").string()});
     EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.err.find("no learnt set"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("not a background file"), std::string::npos) << none.err;
 }
 
 /// Renamed options keep their old names for one release.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/views/tolerances.h"
 #include "tests/unit/host_app/surfaces/drawn_by.h"
 
 namespace vantage {
@@ -11,22 +12,23 @@ namespace {
 
 constexpr int memory_width_px = 53, memory_height_px = 37;
 // The kinds of background_kinds.glsl.
-constexpr uchar lit_background = 64, untold = 112, new_background = 152, before_background = 255;
+constexpr uchar lit_background = 64, undecided = 112, new_background = 152, before_background = 255;
 
-/// What is learnt of a set, by one draw from any state to the next.
-class BackgroundAccessTest : public testing::Test {
+/// Learning of depth and colour, one draw from random states to the next.
+class BackgroundLearningTest : public testing::Test {
   protected:
-    BackgroundAccessTest() {
+    BackgroundLearningTest() {
         for (int v = 0; v < memory_height_px; ++v)
             for (int u = 0; u < memory_width_px; ++u) {
-                const uchar kinds[] = {0, lit_background, untold, new_background, 192, before_background};
+                const uchar kinds[] = {0,   lit_background,   undecided, new_background,
+                                       192, before_background};
                 seen_(v, u) = {kinds[random_.uniform(0, 6)],
                                static_cast<uchar>(random_.uniform(0, 9)), 0, 255};
                 matte_(v, u) =
                     random_.uniform(0, 3) > 0 ? 0 : static_cast<uchar>(random_.uniform(100, 256));
             }
     }
-    /// About `near` half of the time.
+    /// A depth that is about `near` half of the time.
     float metres(float near) {
         return random_.uniform(0, 2) == 0 && near > 0 ? near * random_.uniform(0.998f, 1.002f)
                                                       : random_.uniform(2.0f, 6.0f);
@@ -39,13 +41,12 @@ class BackgroundAccessTest : public testing::Test {
     cv::Mat1b matte_ = cv::Mat1b(memory_height_px, memory_width_px);
 };
 
-/// background_learn.frag and depth_weights.glsl.
+/// The reference of background_learn.frag and depth_weights.glsl.
 struct DepthMemory {
-    float softness = 0.002f, spread = 0.0005f, most_instants = 20, most_misses = 6,
-          absorbed_after = 8;
+    float spread = 0.0005f, most_instants = 20, most_misses = 6, absorbed_after = 8;
 
     bool is_one_surface(float now, float before) const {
-        return std::abs(now / before - 1) < softness + 4 * spread * now;
+        return std::abs(now / before - 1) < steady_surface_share + surface_sigmas * spread * now;
     }
     cv::Vec4f next(cv::Vec4f state, float z, uchar kind, uchar matte) const {
         if (matte > 0) {
@@ -58,7 +59,7 @@ struct DepthMemory {
         }
         state[2] = state[3] = 0;
         if (z == 0) return state;
-        if (state[0] <= 0 || kind == new_background || kind == untold) return {z, 1, 0, 0};
+        if (state[0] <= 0 || kind == new_background || kind == undecided) return {z, 1, 0, 0};
         if (kind == before_background) return state;
         const float instants = std::floor(state[1]);
         if (is_one_surface(z, state[0])) {
@@ -67,13 +68,13 @@ struct DepthMemory {
                     0, 0};
         }
         const float patience = std::clamp(instants, 2.0f, most_misses);
-        const float votes = state[1] + 1 / 32.0f;
-        if (votes - instants < patience / 32) return {state[0], votes, 0, 0};
+        const float count = state[1] + 1 / 32.0f;
+        if (count - instants < patience / 32) return {state[0], count, 0, 0};
         return {z, std::min(instants + patience, most_instants), 0, 0};
     }
 };
 
-TEST_F(BackgroundAccessTest, LearnsDepthAsTheReference) {
+TEST_F(BackgroundLearningTest, LearnsDepthLikeTheReference) {
     cv::Mat1f depth(memory_height_px, memory_width_px);
     cv::Mat4f before(memory_height_px, memory_width_px);
     for (int v = 0; v < memory_height_px; ++v)
@@ -94,20 +95,15 @@ TEST_F(BackgroundAccessTest, LearnsDepthAsTheReference) {
     const Texture matte = texture_of(TextureFormat::r8, matte_);
     const Texture target(TextureFormat::rgba32f, memory_width_px, memory_height_px);
     Program& program = pass.use();
-    program.set("depth_map", 0);
-    program.set("background_before", 1);
-    program.set("seen", 2);
-    program.set("matte", 3);
-    program.set("softness", memory.softness);
+    program.input("depth_map", depth_map);
+    program.input("background_before", background_before);
+    program.input("seen", seen);
+    program.input("matte", matte);
     program.set("spread", memory.spread);
     program.set("has_before", 1.0f);
     program.set("most_instants", memory.most_instants);
     program.set("most_misses", memory.most_misses);
     program.set("absorbed_after", memory.absorbed_after);
-    depth_map.bind(0);
-    background_before.bind(1);
-    seen.bind(2);
-    matte.bind(3);
     const cv::Mat4f learnt = drawn_by(pass, target);
     int moved = 0;
     for (int v = 0; v < memory_height_px; ++v)
@@ -129,7 +125,7 @@ TEST_F(BackgroundAccessTest, LearnsDepthAsTheReference) {
             ASSERT_EQ(first(v, u), cv::Vec4f(depth(v, u), 1, 0, 0)) << u << ' ' << v;
 }
 
-TEST_F(BackgroundAccessTest, LearnsColourAsTheReference) {
+TEST_F(BackgroundLearningTest, LearnsColourLikeTheReference) {
     constexpr float most_instants = 12;
     cv::Mat4b picture(memory_height_px, memory_width_px);
     cv::Mat4f past(memory_height_px, memory_width_px);
@@ -144,7 +140,7 @@ TEST_F(BackgroundAccessTest, LearnsColourAsTheReference) {
             picture(v, u)[3] = 255;
             past(v, u)[3] = static_cast<float>(random_.uniform(-4, 13));
         }
-    // Performers are whole patches, so that much of the set is clear of them.
+    // Foreground comes in whole patches, so that much of the background is visible.
     for (int v = 0; v < memory_height_px; ++v)
         for (int u = 0; u < memory_width_px; ++u) matte_(v, u) = (u / 9 + v / 8) % 3 == 0 ? 200 : 0;
     cv::Mat past_halves;
@@ -159,16 +155,12 @@ TEST_F(BackgroundAccessTest, LearnsColourAsTheReference) {
     const Texture shown(TextureFormat::rgba8, memory_width_px, memory_height_px);
     const Texture mean(TextureFormat::rgba16f, memory_width_px, memory_height_px);
     Program& program = pass.use();
-    program.set("picture", 0);
-    program.set("before", 1);
-    program.set("seen", 2);
-    program.set("matte", 3);
+    program.input("picture", now);
+    program.input("before", before);
+    program.input("seen", seen);
+    program.input("matte", matte);
     program.set("has_before", 1.0f);
     program.set("most_instants", most_instants);
-    now.bind(0);
-    before.bind(1);
-    seen.bind(2);
-    matte.bind(3);
     pass.draw(Framebuffer{&shown, &mean});
     const cv::Mat4b shown_now = shown.download();
     cv::Mat4f mean_now;
@@ -188,10 +180,10 @@ TEST_F(BackgroundAccessTest, LearnsColourAsTheReference) {
                     off = std::max(off, std::abs(picture(v, u)[c] / 255.0 - past(v, u)[c]));
                 const double change = std::max(seen_(v, u)[1] / 255.0, 0.4 * off);
                 const double way = std::clamp((change - 0.01) / 0.01, 0.0, 1.0);
-                // What shows another thing may go on to.
+                // A pixel that shows something else may go on changing.
                 const uchar kind = seen_(v, u)[0];
                 const float counted = past(v, u)[3];
-                const double instants = kind != untold && kind != new_background
+                const double instants = kind != undecided && kind != new_background
                                             ? std::min(counted + 1, most_instants)
                                         : counted > 1 ? counted / 2
                                                       : std::max(counted - 1, -4.0f);

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// A patch in the middle of a grey wall at 4 m that stood still for some instants.
+/// A patch that changes in the middle of a grey wall at 4 m.
 class BackgroundCompareTest : public testing::Test {
   protected:
     static constexpr int side_px = 33;
@@ -25,8 +25,8 @@ class BackgroundCompareTest : public testing::Test {
         rig_.upload(view, 0.2);
         learner_.learn(rig_);
     }
-    /// The model of the set knows better than its matcher how far the wall is.
-    void background_model(float depth_m) {
+    /// Gives the rig a model of the background with a different depth than its matcher's.
+    void set_model(float depth_m) {
         DepthView view = rig_.camera();
         view.colour = ColourImage(side_px, side_px, grey);
         view.depth_m = DepthImage(side_px, side_px, depth_m);
@@ -37,11 +37,11 @@ class BackgroundCompareTest : public testing::Test {
     cv::Vec4b seen_at(int x, int y) const {
         return ColourImage(rig_.background_state().seen().download())(y, x);
     }
-    /// What the patch is taken for after ten instants of the wall.
+    /// The kind of the patch after ten instants of the wall.
     int kind_of(const cv::Vec4b& colour, float depth_m) {
         for (int i = 0; i < 10; ++i) see(grey, 4);
         see(colour, depth_m);
-        EXPECT_EQ(seen_at(2, 30)[0], the_set) << "beside it";
+        EXPECT_EQ(seen_at(2, 30)[0], the_background) << "beside it";
         return seen_at(16, 16)[0];
     }
 
@@ -53,24 +53,26 @@ class BackgroundCompareTest : public testing::Test {
     RigHistory rig_;
 };
 
-TEST_F(BackgroundCompareTest, KnowsTheSetByItsColourWhateverTheMatcherSays) {
-    EXPECT_EQ(kind_of(grey, 4), the_set);
-    EXPECT_EQ(kind_of(grey, 2), the_set);
-    EXPECT_EQ(kind_of(grey + cv::Vec4b(2, 2, 2, 0), 0), the_set) << "noise";
+TEST_F(BackgroundCompareTest, RecognisesTheBackgroundByColourDespiteWrongDepth) {
+    EXPECT_EQ(kind_of(grey, 4), the_background);
+    EXPECT_EQ(kind_of(grey, 2), the_background);
+    EXPECT_EQ(kind_of(grey + cv::Vec4b(2, 2, 2, 0), 0), the_background) << "noise";
 }
 
-TEST_F(BackgroundCompareTest, TakesAFactorOfTheColourForLightAndShadow) {
+TEST_F(BackgroundCompareTest, TreatsAScaledColourAsLightOrShadow) {
     EXPECT_EQ(kind_of(grey * 0.6, 4), lit_background);
     EXPECT_EQ(kind_of(grey * 1.2, 4), lit_background);
     EXPECT_NE(kind_of(grey * 0.3, 4), lit_background) << "too dark for a shadow";
 }
 
-TEST_F(BackgroundCompareTest, KnowsAPerformerByColourAndNearness) { EXPECT_EQ(kind_of(red, 2), before_background); }
+TEST_F(BackgroundCompareTest, RecognisesForegroundByColourAndDepth) {
+    EXPECT_EQ(kind_of(red, 2), before_background);
+}
 
-TEST_F(BackgroundCompareTest, KnowsAPerformerAsFarAsTheMatcherTakesTheSetToBe) {
+TEST_F(BackgroundCompareTest, RecognisesForegroundAtTheDepthThatTheMatcherGivesTheBackground) {
     for (const float performer_m : {4.0f, 5.0f}) {
         for (int i = 0; i < 10; ++i) see(grey, 4);
-        background_model(8);
+        set_model(8);
         see(red, performer_m);
         EXPECT_EQ(seen_at(16, 16)[0], before_background) << performer_m << " m";
         see(grey * 0.6, 4);
@@ -78,39 +80,40 @@ TEST_F(BackgroundCompareTest, KnowsAPerformerAsFarAsTheMatcherTakesTheSetToBe) {
     }
 }
 
-TEST_F(BackgroundCompareTest, HoldsAGuessOfTheModelsAgainstNobody) {
+TEST_F(BackgroundCompareTest, IgnoresInpaintedDepthOfTheModel) {
     for (int i = 0; i < 10; ++i) see(grey, 4);
-    background_model(-8);
+    set_model(-8);
     see(red, 4);
-    EXPECT_EQ(seen_at(16, 16)[0], untold);
+    EXPECT_EQ(seen_at(16, 16)[0], undecided);
 }
 
-TEST_F(BackgroundCompareTest, CannotTellAnotherColourAtTheSetsDepthOrWithoutDepth) {
-    EXPECT_EQ(kind_of(red, 4), untold);
-    EXPECT_EQ(kind_of(red, 0), untold);
+TEST_F(BackgroundCompareTest, LeavesAnotherColourAtTheBackgroundsDepthUndecided) {
+    EXPECT_EQ(kind_of(red, 4), undecided);
+    EXPECT_EQ(kind_of(red, 0), undecided);
 }
 
-TEST_F(BackgroundCompareTest, BelievesWhatIsFartherAfterThreeInstants) {
+TEST_F(BackgroundCompareTest, AcceptsAFartherSurfaceAfterThreeInstants) {
     EXPECT_EQ(kind_of(red, 6), uncovered);
     see(red, 6);
     EXPECT_EQ(seen_at(16, 16)[0], uncovered);
     see(red, 6);
     EXPECT_EQ(seen_at(16, 16)[0], new_background);
     see(red, 6);
-    EXPECT_EQ(seen_at(16, 16)[0], the_set);
+    EXPECT_EQ(seen_at(16, 16)[0], the_background);
 }
 
-/// Green: of a window; blue: of the pixel. The largest of red, green and blue.
-TEST_F(BackgroundCompareTest, SaysHowFarTheColourIsFromTheSets) {
+/// Green is the change of a window, blue that of the pixel.
+TEST_F(BackgroundCompareTest, MeasuresTheChangeOfColour) {
     (void)kind_of(grey + cv::Vec4b(0, 30, 9, 0), 2);
-    // 2 of 255: the mean of the set is kept in halves of floats.
+    // Within 2 of 255, since the mean is stored in half floats.
     EXPECT_NEAR(seen_at(16, 16)[1], 30, 2);
     EXPECT_NEAR(seen_at(16, 16)[2], 30, 2);
     // At the patch's left edge 9 of the window's 17 are inside.
     EXPECT_NEAR(seen_at(8, 16)[1], 30 * 11 / 17.0, 4);
 }
 
-/// A tile of 16 px is marked if a matte's reach of 6 px from it anything is apart.
+/// A tile of 16 px is marked if a pixel that is not background lies within the reach of a matte, 6
+/// px.
 TEST_F(BackgroundCompareTest, MarksTheTilesThatAMatteMayReach) {
     patch = {20, 8, 10, 16};
     (void)kind_of(red, 2);

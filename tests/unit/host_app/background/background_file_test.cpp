@@ -18,7 +18,7 @@ using testing::HasSubstr;
 RigBackground rig_background(const std::string& name, cv::Size colour_size, cv::Size depth_size) {
     cv::RNG random(7);
     RigBackground rig{name, "fnv1a64:0123456789abcdef", ColourImage(colour_size),
-                     DepthImage(depth_size), cv::Mat1b(depth_size)};
+                      DepthImage(depth_size), cv::Mat1b(depth_size)};
     random.fill(rig.colour, cv::RNG::UNIFORM, 0, 256);
     random.fill(rig.depth_m, cv::RNG::UNIFORM, 0.5, 9);
     random.fill(rig.certainty, cv::RNG::UNIFORM, 0, 256);
@@ -27,19 +27,20 @@ RigBackground rig_background(const std::string& name, cv::Size colour_size, cv::
 }
 
 Background two_rigs() {
-    return {tai_from_ns(1'700'000'000'000'000'000),
-            {rig_background("rig-a", {31, 17}, {31, 17}), rig_background("rig-b", {40, 30}, {20, 15})}};
+    return {
+        tai_from_ns(1'700'000'000'000'000'000),
+        {rig_background("rig-a", {31, 17}, {31, 17}), rig_background("rig-b", {40, 30}, {20, 15})}};
 }
 
 bool are_same(const cv::Mat& a, const cv::Mat& b) {
     return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
 
-TEST(BackgroundFile, GivesBackWhatWasSavedToTheBit) {
+TEST(BackgroundFile, LoadsExactlyWhatWasSaved) {
     const Background set = two_rigs();
     const auto path = std::filesystem::temp_directory_path() / "vantage_set_file_test.vset";
     save_background(set, path);
-    const Background loaded = load_set(path);
+    const Background loaded = load_background(path);
     std::filesystem::remove(path);
     EXPECT_EQ(loaded.learnt, set.learnt);
     ASSERT_EQ(loaded.rigs.size(), 2u);
@@ -52,41 +53,42 @@ TEST(BackgroundFile, GivesBackWhatWasSavedToTheBit) {
     }
 }
 
-TEST(BackgroundFile, RefusesEveryPartOfAFile) {
-    const std::vector<std::byte> whole = encode_frame_set(two_rigs());
+TEST(BackgroundFile, RefusesAnIncompleteFile) {
+    const std::vector<std::byte> whole = encode_background(two_rigs());
     for (std::size_t bytes = 0; bytes < whole.size(); bytes += 1 + bytes / 16)
-        EXPECT_THROW(decode_frame_set(std::span(whole).first(bytes)), Error) << bytes;
+        EXPECT_THROW(decode_background(std::span(whole).first(bytes)), Error) << bytes;
 }
 
-TEST(BackgroundFile, NamesTheFileAndWhatIsWrongWithIt) {
+TEST(BackgroundFile, NamesTheFileAndTheProblem) {
     const auto path = std::filesystem::temp_directory_path() / "vantage_no_set.vset";
     const std::string text = "a picture, perhaps";
     write_file_atomically(path, std::as_bytes(std::span(text)));
-    EXPECT_THAT(thrown_sentence([&] { load_set(path); }),
-                testing::AllOf(HasSubstr(path.string()), HasSubstr("no learnt set")));
+    EXPECT_THAT(thrown_sentence([&] { load_background(path); }),
+                testing::AllOf(HasSubstr(path.string()), HasSubstr("not a background file")));
     std::filesystem::remove(path);
-    EXPECT_THAT(thrown_sentence([&] { load_set(path); }), HasSubstr(path.string()));
+    EXPECT_THAT(thrown_sentence([&] { load_background(path); }), HasSubstr(path.string()));
 }
 
-TEST(BackgroundFile, RefusesDepthThatIsNone) {
+TEST(BackgroundFile, RefusesInvalidDepth) {
     Background set = two_rigs();
     set.rigs[0].depth_m(3, 3) = -1;
-    EXPECT_THAT(thrown_sentence([&] { decode_frame_set(encode_frame_set(set)); }), HasSubstr("outside 0.."));
+    EXPECT_THAT(thrown_sentence([&] { decode_background(encode_background(set)); }),
+                HasSubstr("outside 0.."));
     set.rigs[0].depth_m(3, 3) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(decode_frame_set(encode_frame_set(set)), Error);
+    EXPECT_THROW(decode_background(encode_background(set)), Error);
 }
 
-TEST(BackgroundFile, RefusesMorePixelsThanASetMayHaveBeforeItTakesMemory) {
+TEST(BackgroundFile, RefusesTooManyPixelsBeforeItAllocatesMemory) {
     Background set;
-    // Nothing compresses as well as nothing.
+    // Zeros compress to almost nothing.
     RigBackground large{"rig-a", "fnv1a64:0", ColourImage(1, 1, cv::Vec4b()),
-                       DepthImage(4096, 4096, 0.0f), cv::Mat1b(4096, 4096, uchar{0})};
+                        DepthImage(4096, 4096, 0.0f), cv::Mat1b(4096, 4096, uchar{0})};
     for (int i = 0; i < 5; ++i) set.rigs.push_back(large);
-    EXPECT_THAT(thrown_sentence([&] { decode_frame_set(encode_frame_set(set)); }),
+    EXPECT_THAT(thrown_sentence([&] { decode_background(encode_background(set)); }),
                 HasSubstr("more than the 67108864 pixels"));
 }
 
-TEST(BackgroundFile, AChecksumTellsCalibrationsApart) {
+TEST(BackgroundFile, TheChecksumDependsOnEveryPartOfTheCalibration) {
     DepthView camera;
     const cv::Size size(320, 240);
     const std::string one = calibration_of(camera, size, size);

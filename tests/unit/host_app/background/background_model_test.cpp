@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-/// A rig whose pictures and depth come instant by instant, five a second.
+/// A rig with five instants per second.
 class BackgroundModelTest : public testing::Test {
   protected:
     static constexpr int width_px = 81, height_px = 59;
@@ -42,7 +42,7 @@ class BackgroundModelTest : public testing::Test {
         view.depth_m(strip) = strip_m;
         return view;
     }
-    /// Nothing but the wall.
+    /// The wall without the square.
     static DepthView empty_stage() {
         DepthView view = wall_and_square(0, width_px, height_px, {.square_x_m = 100});
         view.baseline_m = 0.2;
@@ -62,7 +62,7 @@ class BackgroundModelTest : public testing::Test {
         cv::absdiff(a, b, off);
         return cv::norm(off & cv::Scalar(255, 255, 255, 0), cv::NORM_INF);
     }
-    /// Pixels of the square of a view.
+    /// The pixels of the square in a view.
     static cv::Mat1b square_of(const DepthView& view) { return view.depth_m < 3; }
 
     EglContext context_;
@@ -79,22 +79,22 @@ TEST_F(BackgroundModelTest, AveragesDepthThatStaysWithinItsUncertainty) {
     EXPECT_LT(steady(2, 2), 1.006f * wall_m);
 }
 
-TEST_F(BackgroundModelTest, KeepsItsDepthWhereNothingMovesThoughAMatcherWavers) {
+TEST_F(BackgroundModelTest, KeepsItsDepthWhereOnlyTheMatcherAlternates) {
     for (int i = 0; i < 4; ++i) (void)next(film());
-    // A matcher that takes a strip beside the square for the square more often than not.
+    // The matcher assigns a strip beside the square to the square in three of four instants.
     for (int i = 0; i < 30; ++i)
         EXPECT_LT(furthest(next(film(i % 4 == 0 ? wall_m : square_m)).depth_m(strip), wall_m), 1e-3)
             << i;
 }
 
-TEST_F(BackgroundModelTest, FollowsADepthThatHasChangedForGood) {
+TEST_F(BackgroundModelTest, FollowsADepthThatStaysChanged) {
     for (int i = 0; i < 20; ++i) (void)next(film());
     for (int i = 0; i < 4; ++i)
         EXPECT_LT(furthest(next(film(square_m)).depth_m(strip), wall_m), 1e-3) << i;
     EXPECT_LT(furthest(next(film(square_m)).depth_m(strip), square_m), 1e-3);
 }
 
-TEST_F(BackgroundModelTest, TakesTheNoiseOutOfWhatStandsStill) {
+TEST_F(BackgroundModelTest, RemovesNoiseFromAStillPicture) {
     std::vector<ColourImage> noisy, steady;
     for (int i = 0; i < 24; ++i) {
         const DepthView view = filmed_with_noise();
@@ -108,7 +108,7 @@ TEST_F(BackgroundModelTest, TakesTheNoiseOutOfWhatStandsStill) {
               0.5 * deviation_along_time(noisy, everywhere));
 }
 
-/// Each step is smaller than what counts as noise.
+/// Each step is smaller than the noise.
 TEST_F(BackgroundModelTest, FollowsALampThatIsDimmedSlowly) {
     DepthView dimmed = film();
     ColourImage shown;
@@ -119,7 +119,7 @@ TEST_F(BackgroundModelTest, FollowsALampThatIsDimmedSlowly) {
     EXPECT_LT(cost(shown, dimmed.colour), 8);
 }
 
-TEST_F(BackgroundModelTest, KnowsWhatAPerformerHides) {
+TEST_F(BackgroundModelTest, RemembersTheBackgroundBehindForeground) {
     const DepthView empty = empty_stage();
     for (int i = 0; i < 5; ++i) (void)next(empty);
     for (int i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST_F(BackgroundModelTest, KnowsWhatAPerformerHides) {
     }
 }
 
-TEST_F(BackgroundModelTest, MattesAPerformerToAPixel) {
+TEST_F(BackgroundModelTest, DrawsAMatteThatIsExactToAPixel) {
     for (int i = 0; i < 5; ++i) (void)next(empty_stage());
     const DepthView with = film();
     const cv::Mat1b matte = next(with).matte >= 128, square = square_of(with);
@@ -141,7 +141,7 @@ TEST_F(BackgroundModelTest, MattesAPerformerToAPixel) {
     EXPECT_EQ(cv::countNonZero(matte & ~wide), 0);
 }
 
-TEST_F(BackgroundModelTest, DoesNotAbsorbAPerformerWhoStandsStillForHalfAMinute) {
+TEST_F(BackgroundModelTest, DoesNotAbsorbForegroundThatStandsStillForHalfAMinute) {
     for (int i = 0; i < 5; ++i) (void)next(empty_stage());
     Learnt learnt;
     for (double s = 0; s < 30; s += dt_s) learnt = next(film());
@@ -149,10 +149,10 @@ TEST_F(BackgroundModelTest, DoesNotAbsorbAPerformerWhoStandsStillForHalfAMinute)
     EXPECT_GT(cv::countNonZero(learnt.matte), 0);
 }
 
-TEST_F(BackgroundModelTest, LeavesNoGhostOfWhatStoodThereFromTheStart) {
+TEST_F(BackgroundModelTest, LeavesNoGhostOfForegroundThatStoodThereFromTheStart) {
     for (int i = 0; i < 10; ++i) (void)next(film());
     const DepthView empty = empty_stage();
-    // It is no part of the set before it is believed.
+    // The uncovered wall is not background before it is accepted.
     Learnt learnt = next(empty);
     EXPECT_EQ(cv::countNonZero(square_of(film()) & (learnt.matte < 128)), 0);
     for (int i = 0; i < 2; ++i) learnt = next(empty);
@@ -161,7 +161,7 @@ TEST_F(BackgroundModelTest, LeavesNoGhostOfWhatStoodThereFromTheStart) {
     EXPECT_EQ(cv::countNonZero(learnt.matte), 0);
 }
 
-TEST_F(BackgroundModelTest, TakesAShadowForTheSet) {
+TEST_F(BackgroundModelTest, TreatsAShadowAsBackground) {
     const DepthView empty = empty_stage();
     for (int i = 0; i < 5; ++i) (void)next(empty);
     DepthView shaded = empty;
@@ -174,9 +174,9 @@ TEST_F(BackgroundModelTest, TakesAShadowForTheSet) {
     EXPECT_LT(cost(learnt.colour(within), shaded.colour(within)), 8);
 }
 
-TEST_F(BackgroundModelTest, KnowsThePastOfARigThatOneInstantWasNotLearntOf) {
+TEST_F(BackgroundModelTest, ContinuesAfterAnInstantThatWasNotLearnt) {
     for (int i = 0; i < 12; ++i) (void)next(filmed_with_noise());
-    rig_.upload(film(), dt_s);  // and nothing is made of it
+    rig_.upload(film(), dt_s);  // not learnt
     const DepthView view = filmed_with_noise();
     EXPECT_GT(cost(next(view).colour, view.colour), 0) << "a mean";
 }

@@ -33,7 +33,7 @@ class FlatBlocksTest : public testing::Test {
         return {map_, triangles_, K, Pose::Identity(), quads, spread};
     }
 
-    /// What was built: corners in pixels of the depth map.
+    /// The triangles that were built, with corners in pixels of the depth map.
     std::vector<Triangle> built() const {
         std::array<std::uint32_t, 5> command{};
         triangles_.command.read(0, std::as_writable_bytes(std::span(command)));
@@ -73,28 +73,28 @@ TEST_F(FlatBlocksTest, AreTwoTriangles) {
     EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
 }
 
-TEST_F(FlatBlocksTest, OfWhichAQuarterBendsAreTwoTrianglesAQuarterElsewhere) {
+TEST_F(FlatBlocksTest, WithABumpInOneQuarterKeepTheOtherQuartersFlat) {
     const auto plane = [](int x, int y) {
         return 1 / (0.4f + 0.002f * static_cast<float>(x) + 0.001f * static_cast<float>(y));
     };
-    // A bump within a quarter of a block, at whose edge three others see it too.
+    // A bump at the corner of a quarter, so that it touches three other blocks.
     fill([&](int x, int y) {
         const bool is_bump = x >= 25 && x <= 26 && y >= 17 && y <= 18;
         return plane(x, y) * (is_bump ? 0.985f : 1.0f);
     });
     builder_.build(grid(QuadGrid::coarse));
     constexpr std::size_t blocks = 8 * 6, bent = 4, quads = 4;
-    EXPECT_GT(built().size(), 2 * blocks) << "nothing is seen of the bump";
+    EXPECT_GT(built().size(), 2 * blocks) << "the bump must not be flattened";
     EXPECT_LE(built().size(), 2 * (blocks - bent) + bent * 2 * (3 + quads));
-    builder_.build(grid(QuadGrid::coarse), 5 * TriangleBuilder::least_bend);
-    EXPECT_EQ(built().size(), 2 * blocks) << "that much is left out";
+    builder_.build(grid(QuadGrid::coarse), 5 * TriangleBuilder::default_bend);
+    EXPECT_EQ(built().size(), 2 * blocks) << "the bump is below this bend";
     builder_.build(grid(QuadGrid::coarse));
     double area = 0;
     for (const Triangle& triangle : built()) area += std::abs(doubled_area(triangle)) / 2;
     EXPECT_GE(area, (blocks_width_px - 1) * (blocks_height_px - 1));
 }
 
-TEST_F(FlatBlocksTest, SpanNoBend) {
+TEST_F(FlatBlocksTest, DoNotSpanARidge) {
     // A ridge down the picture: half of all blocks touch it or their neighbours do.
     fill([](int x, int) {
         return 1 / (0.4f - 0.004f * static_cast<float>(std::abs(x - blocks_width_px / 2)));
@@ -107,7 +107,7 @@ TEST_F(FlatBlocksTest, SpanNoBend) {
     }
 }
 
-TEST_F(FlatBlocksTest, AreBuiltOnlyWhereATileSaysSo) {
+TEST_F(FlatBlocksTest, AreBuiltOnlyInSelectedTiles) {
     fill([](int, int) { return 2.0f; });
     const cv::Size picture(blocks_width_px, blocks_height_px), count = TilePass::tiles_of(picture);
     cv::Mat1b tiles = cv::Mat1b::zeros(count);

@@ -17,7 +17,7 @@ namespace {
 constexpr int foreground_width_px = 97, foreground_height_px = 73;
 constexpr float square_m = 2;
 
-/// Rigs before a wall that they have learnt, when a square comes to stand before it.
+/// Rigs that have learnt a wall, when a square appears before it.
 class ForegroundDepthTest : public testing::Test {
   protected:
     static DepthView film(double x_m, bool has_square) {
@@ -66,15 +66,15 @@ class ForegroundDepthTest : public testing::Test {
     std::vector<std::unique_ptr<RigHistory>> rigs_;
 };
 
-TEST_F(ForegroundDepthTest, IsWhatWasMeasuredOfThemAndNothingOfTheSet) {
+TEST_F(ForegroundDepthTest, IsTheMeasuredDepthOfTheForegroundAlone) {
     const DepthImage depth_m = found(film(0, true), {0.4});
     EXPECT_LT(cv::norm(depth_m, DepthImage(depth_m.size(), square_m), cv::NORM_INF, square()),
               1e-4);
     EXPECT_LE(cv::norm(cv::max(depth_m, 0), cv::NORM_INF, away()), 0);
 }
 
-/// A matte ends a performer, not the depth.
-TEST_F(ForegroundDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
+/// The matte limits the foreground, not its depth.
+TEST_F(ForegroundDepthTest, ContinuesBeyondTheMatteForAFewPixels) {
     const DepthImage depth_m = found(film(0, true), {0.4});
     const cv::Mat1b beside = away(1) & ~away(3);
     EXPECT_LT(
@@ -86,7 +86,7 @@ TEST_F(ForegroundDepthTest, GoesOnBeyondTheMatteForAFewPixels) {
 
 /// A place that another rig sees to be empty: at 3 m the square's left part would show beside its
 /// silhouette in the other picture, 0.4 m * 78 px * (1 / 2 m - 1 / 3 m) = 5 px from where it is.
-TEST_F(ForegroundDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
+TEST_F(ForegroundDepthTest, LiesWithinTheSilhouettesOfOtherRigs) {
     DepthView wrong = film(0, true);
     cv::Mat1b edge = square();
     const cv::Rect box = cv::boundingRect(edge);
@@ -103,7 +103,7 @@ TEST_F(ForegroundDepthTest, IsNowhereOutsideTheSilhouettesOfOtherRigs) {
 
 /// All of the square is measured at 2.16 m: from aside, by 1 m * 78 px * (1 / 2 m - 1 / 2.16 m) = 3
 /// px, its left edge would show beside its silhouette, and nothing near it tells better.
-TEST_F(ForegroundDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
+TEST_F(ForegroundDepthTest, MovesToTheNearestDepthWithinTheSilhouettes) {
     DepthView wrong = film(0, true);
     constexpr float wrong_m = 2.16f;
     wrong.depth_m.setTo(wrong_m, square());
@@ -117,8 +117,8 @@ TEST_F(ForegroundDepthTest, IsTheClosestThatOtherRigsSilhouettesAllow) {
     EXPECT_NEAR(cv::mean(found(wrong, {-1.0})(edge))[0], wrong_m, 1e-3);
 }
 
-/// Of one instant a rig tells no performers apart, which does not mean that there are none.
-TEST_F(ForegroundDepthTest, IsWhereverARigIsThatHasJustCome) {
+/// In its first instant a rig cannot separate foreground, so an empty matte means nothing.
+TEST_F(ForegroundDepthTest, IgnoresTheSilhouetteOfARigThatHasJustAppeared) {
     (void)found(film(0, true), {0.4});
     RigHistory& other = *rigs_[1];
     other.forget();
@@ -129,7 +129,7 @@ TEST_F(ForegroundDepthTest, IsWhereverARigIsThatHasJustCome) {
               1e-4);
 }
 
-TEST_F(ForegroundDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
+TEST_F(ForegroundDepthTest, IsInpaintedFromTheNearestPixels) {
     DepthView torn = film(0, true);
     const cv::Rect hole(44, 30, 5, 9);
     torn.depth_m(hole) = 0.0f;
@@ -139,7 +139,7 @@ TEST_F(ForegroundDepthTest, IsThatOfTheNearestAroundWhereNothingWasMeasured) {
 
 /// What another rig takes away leaves a hole that is too wide for its edges: 1 m * 78 px * (1 / 2 m
 /// - 1 / 3 m) = 13 px.
-TEST_F(ForegroundDepthTest, IsThatFromAfarIfAnotherRigSeesAPerformerThere) {
+TEST_F(ForegroundDepthTest, IsInpaintedFromAfarIfAnotherRigSeesForegroundThere) {
     DepthView wrong = film(0, true);
     const cv::Rect box = cv::boundingRect(square());
     const cv::Rect strip(box.x, box.y, 12, box.height);

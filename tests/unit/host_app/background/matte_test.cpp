@@ -14,13 +14,14 @@ namespace {
 
 constexpr int matte_width_px = 67, matte_height_px = 45;
 
-/// Patches of a few colours and kinds, so that every kind has neighbours of every other.
+/// Patches of a few colours and kinds, so that every kind borders on every other.
 class MatteTest : public testing::Test {
   protected:
     MatteTest() {
         cv::RNG random(7);
-        const uchar kinds[] = {the_set, lit_background,   untold,     untold,
-                               new_background, uncovered, before_background, before_background};
+        const uchar kinds[] = {the_background,    lit_background,   undecided,
+                               undecided,         new_background,   uncovered,
+                               before_background, before_background};
         for (int v = 0; v < matte_height_px; ++v)
             for (int u = 0; u < matte_width_px; ++u) {
                 const int patch = (u / 7) * 5 + (v / 6) * 3;
@@ -38,33 +39,30 @@ class MatteTest : public testing::Test {
         const Texture seen = texture_of(TextureFormat::rgba8, seen_);
         const Texture target(TextureFormat::r8, matte_width_px, matte_height_px);
         Program& program = pass.use();
-        program.set("picture", 0);
-        program.set("seen", 1);
-        picture.bind(0);
-        seen.bind(1);
+        program.input("picture", picture);
+        program.input("seen", seen);
         cv::Mat1b matte;
         cv::extractChannel(drawn_by(pass, target), matte, 0);
         return matte;
     }
-    /// What matte_edges.frag makes of a hard matte.
-    cv::Mat1b softened(const cv::Mat1b& hard, const ColourImage& picture, const ColourImage& set) {
+    /// The result of matte_edges.frag for a hard matte.
+    cv::Mat1b softened(const cv::Mat1b& hard, const ColourImage& picture,
+                       const ColourImage& background) {
         FullscreenPass pass(shaders_, "matte_edges.frag");
         const Texture given = texture_of(TextureFormat::r8, hard, Filter::linear);
         const Texture seen = texture_of(TextureFormat::rgba8, picture, Filter::linear);
-        const Texture behind = texture_of(TextureFormat::rgba8, set, Filter::linear);
+        const Texture behind = texture_of(TextureFormat::rgba8, background, Filter::linear);
         const Texture target(TextureFormat::r8, hard.cols, hard.rows);
         Program& program = pass.use();
-        program.set("hard", 0);
-        program.set("picture", 1);
-        program.set("background_colour", 2);
-        given.bind(0);
-        seen.bind(1);
-        behind.bind(2);
+        program.input("hard", given);
+        program.input("picture", seen);
+        program.input("background_colour", behind);
         cv::Mat1b soft;
         cv::extractChannel(drawn_by(pass, target), soft, 0);
         return soft;
     }
-    /// Twenty-five pixels, two apart, tell; by how much what decided was over or under.
+    /// The reference: decides from twenty-five pixels, two apart; `margin` is the distance from the
+    /// threshold that decided.
     bool is_foreground(int u, int v, double& margin) const {
         int before = 0, count = 0;
         double like_before = 0, like_background = 0;
@@ -76,7 +74,7 @@ class MatteTest : public testing::Test {
                 for (int c = 0; c < 3; ++c) off += std::abs(colour[c] - picture_(v, u)[c]) / 255.0;
                 const double weight = std::exp(-off / (3 * 0.05)) + 1e-3;
                 const bool is_before = kind == before_background;
-                const bool is_set = !is_before && kind != untold && kind != uncovered;
+                const bool is_set = !is_before && kind != undecided && kind != uncovered;
                 before += is_before ? 1 : 0;
                 count += is_before || is_set ? 1 : 0;
                 like_before += is_before ? weight : 0;
@@ -91,13 +89,13 @@ class MatteTest : public testing::Test {
             margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.4));
             return around > 0.4 && like_before > like_background;
         }
-        if (own != before_background && own != untold) {
+        if (own != before_background && own != undecided) {
             margin = std::abs(around - 0.8);
             return around > 0.8;
         }
         margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.15));
         const bool is_like_before = like_before > like_background;
-        if (own == untold) return is_like_before;
+        if (own == undecided) return is_like_before;
         return around > 0.15 && (seen_(v, u)[2] / 255.0 > 0.04 || is_like_before);
     }
 
@@ -107,14 +105,14 @@ class MatteTest : public testing::Test {
     ColourImage seen_ = picture_.clone();
 };
 
-TEST_F(MatteTest, IsTheReferences) {
+TEST_F(MatteTest, MatchesTheReference) {
     const cv::Mat1b matte = drawn();
     int performers = 0, judged = 0;
     for (int v = 0; v < matte_height_px; ++v)
         for (int u = 0; u < matte_width_px; ++u) {
             double margin = 0;
             const bool expected = is_foreground(u, v, margin);
-            // A share that is the threshold itself falls to either side with the last bit.
+            // At the threshold, rounding decides.
             if (margin < 1e-5) continue;
             ++judged;
             performers += expected ? 1 : 0;
@@ -126,21 +124,21 @@ TEST_F(MatteTest, IsTheReferences) {
     EXPECT_LT(performers, judged * 9 / 10);
 }
 
-TEST_F(MatteTest, IsEmptyWhereNothingIsBeforeTheSet) {
+TEST_F(MatteTest, IsEmptyWithoutForeground) {
     for (cv::Vec4b& seen : seen_)
-        if (seen[0] == before_background || seen[0] == uncovered) seen[0] = untold;
+        if (seen[0] == before_background || seen[0] == uncovered) seen[0] = undecided;
     EXPECT_EQ(cv::countNonZero(drawn()), 0);
 }
 
-/// A disc of one colour before a set of another, as a lens that blurs a little sees it.
-TEST_F(MatteTest, HasTheShareOfPixelsAtEdgesWhereTheSetBehindIsKnown) {
+/// A disc of one colour before a background of another, slightly blurred as by a lens.
+TEST_F(MatteTest, IsExactAtEdgesBeforeAKnownBackground) {
     const cv::Size size(matte_width_px, matte_height_px);
     constexpr int finer = 8;
     cv::Mat1f true_share(size.height * finer, size.width * finer, 0.0f);
     cv::circle(true_share, {finer * 33, finer * 22}, finer * 15, cv::Scalar(1), cv::FILLED);
     cv::resize(true_share, true_share, size, 0, 0, cv::INTER_AREA);
     const cv::Vec3d red(200, 60, 40), green(40, 150, 90);
-    ColourImage set(size, cv::Vec4b(40, 150, 90, 255)), picture(size);
+    ColourImage background(size, cv::Vec4b(40, 150, 90, 255)), picture(size);
     for (int v = 0; v < size.height; ++v)
         for (int u = 0; u < size.width; ++u) {
             const double share = true_share(v, u);
@@ -158,13 +156,14 @@ TEST_F(MatteTest, HasTheShareOfPixelsAtEdgesWhereTheSetBehindIsKnown) {
         softened(hard, picture, behind).convertTo(share, CV_32F, 1 / 255.0);
         return cv::norm(share, true_share, cv::NORM_L1) / cv::countNonZero(wide & ~narrow);
     };
-    // What a hard edge a pixel off leaves where colours do not tell.
+    // The error of a hard edge that is a pixel off where the colours are equal.
     EXPECT_GT(off(wide, picture), 0.15);
-    for (const cv::Mat1b& hard : {right, wide, narrow}) EXPECT_LT(off(hard, set), 0.08);
+    for (const cv::Mat1b& hard : {right, wide, narrow}) EXPECT_LT(off(hard, background), 0.08);
 }
 
-/// Where set and performer are of one colour, a hard edge is as soft as lens and sensor make it.
-TEST_F(MatteTest, IsSmoothWhereColoursDoNotTell) {
+/// If background and foreground have one colour, a hard edge becomes as soft as lens and sensor
+/// make it.
+TEST_F(MatteTest, IsSmoothBetweenEqualColours) {
     cv::Mat1b hard(matte_height_px, matte_width_px);
     cv::RNG random(3);
     for (int v = 0; v < matte_height_px; ++v)

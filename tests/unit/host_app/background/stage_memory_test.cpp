@@ -1,5 +1,5 @@
-// What is learnt of a set over time on the virtual stage, from a rig's own matching: an instant
-// after the other, on the stage's time.
+// Learning of a background over time on the virtual stage, with real stereo matching and the
+// stage's own time.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class StageMemoryTest : public testing::Test {
         return *instant_->rigs.at(0).surface;
     }
     const RigSurface& surface() const { return *instant_->rigs.at(0).surface; }
-    /// Performers before the set.
+    /// The depth of foreground and background together.
     DepthImage depth_m() const {
         const RigSurface& performers = *instant_->rigs.at(0).boundary;
         DepthImage depth_m(surface().depth().download());
@@ -49,7 +49,7 @@ class StageMemoryTest : public testing::Test {
             }
         return colour;
     }
-    /// The set behind performers, and where it is known.
+    /// The background, also behind the foreground, and where it is known.
     struct Plate {
         ColourImage colour;
         DepthImage depth_m;
@@ -59,7 +59,8 @@ class StageMemoryTest : public testing::Test {
         return {surface().colour().download(), DepthImage(surface().depth().download()),
                 BackgroundModel::known(preparer_.background_access()->learnt().rigs.at(0), dt_s)};
     }
-    /// The share of the pixels of a mask at which two depths are one surface. Guesses are negative.
+    /// The share of the pixels of a mask at which two depths are one surface. Inpainted depth is
+    /// negative.
     static double share_alike(const DepthImage& a, const DepthImage& b, const cv::Mat1b& where) {
         constexpr double one_surface = 0.12;
         int alike = 0, all = 0;
@@ -71,7 +72,7 @@ class StageMemoryTest : public testing::Test {
             }
         return alike / static_cast<double>(std::max(all, 1));
     }
-    /// What the rig's matcher said.
+    /// The depth of the rig's own matcher.
     static DepthImage matched_m(const DepthView& view) {
         DepthImage depth_m(view.depth_size());
         for (int y = 0; y < depth_m.rows; ++y)
@@ -92,7 +93,7 @@ class StageMemoryTest : public testing::Test {
         cv::dilate(mask, more, cv::Mat1b::ones(2 * by_px + 1, 2 * by_px + 1));
         return more;
     }
-    /// Of R, G and B, in grey levels.
+    /// Mean over red, green and blue, in grey levels.
     static double mean_cost(const ColourImage& a, const ColourImage& b, const cv::Mat1b& where) {
         cv::Mat off;
         cv::absdiff(a, b, off);
@@ -133,14 +134,14 @@ TEST_F(StageMemoryTest, AMovedChairIsSeenWhereItStandsAndLeavesNoGhost) {
     EXPECT_GT(share_alike(depth_m(), moved.depth_m, eroded(old_place, 2)), own - 0.1)
         << "the matcher: " << own;
     EXPECT_LT(mean_cost(surface().colour().download(), moved.colour, old_place), 4);
-    // Where it stood the set is known again after a second.
+    // The background in its old place is known again after a second.
     for (int i = 0; i < 6; ++i) prepared(rig_.film());
     const Plate behind = plate();
     EXPECT_GT(share_of(behind.known, eroded(old_place, 2)), 0.9);
     EXPECT_LT(mean_cost(behind.colour, moved.colour, eroded(old_place, 2) & behind.known), 4);
 }
 
-TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsTheSets) {
+TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsBackground) {
     rig_.look(stage_, dt);
     for (int i = 0; i < 15; ++i) prepared(rig_.film());
     const DepthImage before_m = depth_m();
@@ -148,7 +149,7 @@ TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsTheSets) {
     for (int i = 1; i <= 25; ++i) {
         const DepthView view = rig_.film(1 - 0.5 * i / 25);
         prepared(view);
-        // No piece of the set is taken for a performer, nor does it lag behind the light.
+        // No background is classified as foreground, and it does not lag behind the light.
         const cv::Mat1b nearer = cv::abs(depth_m()) < 0.88 * cv::abs(before_m);
         ASSERT_LT(share_of(nearer, everywhere), 0.025) << "instant " << i;
         ASSERT_LT(mean_cost(surface().colour().download(), view.colour, everywhere), 5)
@@ -157,14 +158,14 @@ TEST_F(StageMemoryTest, LightThatFadesByHalfInFiveSecondsIsTheSets) {
     EXPECT_GT(share_of(plate().known, everywhere), 0.9);
 }
 
-TEST_F(StageMemoryTest, APerformerWhoStandsStillForHalfAMinuteIsNoPartOfTheSet) {
+TEST_F(StageMemoryTest, APerformerWhoStandsStillForHalfAMinuteIsNotLearnt) {
     const TruthRegions regions(stage_, rig_.camera());
     milliseconds time{2000};
     for (int i = 0; i < 40; ++i, time += dt) {
         rig_.look(stage_, time);
         prepared(rig_.film());
     }
-    // What performers have hidden all the time nobody knows.
+    // Places that were hidden all the time are unknown.
     const cv::Mat1b was_known = plate().known;
     const DepthImage set_m = plate().depth_m;
     DepthView view;
@@ -181,7 +182,7 @@ TEST_F(StageMemoryTest, APerformerWhoStandsStillForHalfAMinuteIsNoPartOfTheSet) 
 
 /// A wall of pictures that move, and rows of people who never stand still and hide what is behind
 /// them.
-TEST_F(StageMemoryTest, WhereNothingIsStillThereIsNoSet) {
+TEST_F(StageMemoryTest, WhereNothingIsStillThereIsNoBackground) {
     const auto cards_at = [](double s) {
         std::vector<Card> cards;
         cards.push_back({{0.9, 1.5, -1.8}, 0.7, 0.5, [s](double across, double up) {
@@ -225,13 +226,13 @@ TEST_F(StageMemoryTest, WhereNothingIsStillThereIsNoSet) {
     EXPECT_GT(share_of(plate().known, calm), 0.95);
     const double known = preparer_.background_access()->states().at(0).known;
     EXPECT_LT(known, 1 - 0.8 * cv::countNonZero(always) / static_cast<double>(always.total()));
-    // What is shown there is this instant's, in colour and in depth.
+    // The picture there is of this instant, in colour and in depth.
     EXPECT_LT(mean_cost(colour(), view.colour, always), 1);
     const double own = share_alike(matched_m(view), rig_.seen().depth_m, always);
     // Cards overlap at every other pixel, and performers' depth goes on beyond their edges.
     EXPECT_GT(share_alike(depth_m(), rig_.seen().depth_m, always), own - 0.1)
         << "the matcher: " << own;
-    // A set that was saved says so too.
+    // A saved background has a low certainty there too.
     const RigBackground saved = preparer_.background_access()->learnt().rigs.at(0);
     cv::Mat1b colour_certainty;
     cv::extractChannel(saved.colour, colour_certainty, 3);

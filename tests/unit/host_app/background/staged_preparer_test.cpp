@@ -60,7 +60,7 @@ class StagedPreparerTest : public testing::Test {
     StagedPreparer preparer_{shaders_};
 };
 
-TEST_F(StagedPreparerTest, PutsPerformersBeforeTheSet) {
+TEST_F(StagedPreparerTest, PutsForegroundBeforeTheBackground) {
     for (int i = 0; i < 5; ++i) (void)prepared(film(false));
     const DepthView with = film(true);
     const std::shared_ptr<const Instant> instant = prepared(with);
@@ -81,8 +81,8 @@ TEST_F(StagedPreparerTest, PutsPerformersBeforeTheSet) {
     EXPECT_EQ(cv::norm(colour, cv::NORM_INF, ~square(1)), 0);
 }
 
-/// What a pixel at a performer's edge shows of the set is taken from its colour.
-TEST_F(StagedPreparerTest, TakesTheSetOutOfTheColoursOfPerformersEdges) {
+/// The background's share is removed from the colours of pixels at the foreground's edge.
+TEST_F(StagedPreparerTest, RemovesTheBackgroundFromColoursAtEdges) {
     for (int i = 0; i < 5; ++i) (void)prepared(film(false));
     DepthView with = film(true);
     const ColourImage behind = film(false).colour;
@@ -105,8 +105,8 @@ TEST_F(StagedPreparerTest, TakesTheSetOutOfTheColoursOfPerformersEdges) {
     EXPECT_GT(edges, 100);
 }
 
-/// Its depth and triangles for a second, once it was bettered; its colours never.
-TEST_F(StagedPreparerTest, KeepsTheShapeOfAKnownSetAtTheCheapestLevel) {
+/// Depth and triangles are kept for a second after a refinement; colours are new for each instant.
+TEST_F(StagedPreparerTest, KeepsTheShapeOfAKnownBackgroundAtTheCheapestLevel) {
     const DepthView empty = film(false);
     const VirtualView target{staged_width_px, staged_height_px, empty.K, empty.world_from_camera};
     const auto shown = [&](const DepthView& view) {
@@ -127,7 +127,7 @@ TEST_F(StagedPreparerTest, KeepsTheShapeOfAKnownSetAtTheCheapestLevel) {
     EXPECT_NE(&later->depth(), &first->depth()) << "made anew after a second";
 }
 
-TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
+TEST_F(StagedPreparerTest, KeepsTheBackgroundBehindForeground) {
     const DepthView empty = film(false);
     for (int i = 0; i < 5; ++i) (void)prepared(empty);
     const std::shared_ptr<const Instant> instant = prepared(film(true));
@@ -138,13 +138,14 @@ TEST_F(StagedPreparerTest, KeepsTheSetBehindPerformers) {
     EXPECT_LE(cost(colour, empty.colour, cv::Mat1b(colour.size(), uchar{255})), 3);
     cv::Mat1b confidence;
     cv::extractChannel(colour, confidence, 3);
-    const auto remembered = static_cast<uchar>(std::lround(255 * RigSurface::remembered_confidence));
+    const auto remembered =
+        static_cast<uchar>(std::lround(255 * RigSurface::remembered_confidence));
     EXPECT_EQ(cv::countNonZero((confidence != remembered) & square(0)), 0) << "it is not seen now";
     EXPECT_EQ(cv::countNonZero((confidence != 255) & ~square(4)), 0) << "it is";
 }
 
-/// Depth that was closed but never measured is nothing to remember.
-TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
+/// Inpainted depth is not part of the learnt background.
+TEST_F(StagedPreparerTest, DoesNotLearnInpaintedDepth) {
     DepthView torn = film(false);
     const cv::Rect hole(44, 30, 8, 8);
     torn.depth_m(hole) = 0.0f;
@@ -161,9 +162,9 @@ TEST_F(StagedPreparerTest, RemembersNothingThatWasOnlyGuessed) {
     EXPECT_EQ(cv::countNonZero(hidden == 0), hole.area());
 }
 
-/// What was learnt goes on in another preparer: the set behind a square that stands there from its
-/// first instant on.
-TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
+/// Another preparer continues with the background, although a square hides it from the first
+/// instant.
+TEST_F(StagedPreparerTest, BeginsWithALoadedBackground) {
     const DepthView empty = film(false);
     for (int i = 0; i < 8; ++i) (void)prepared(empty);
     const auto learnt = std::make_shared<const Background>(preparer_.background_access()->learnt());
@@ -190,10 +191,10 @@ TEST_F(StagedPreparerTest, BeginsWithASetThatWasLearntBefore) {
     EXPECT_EQ(cv::countNonZero(DepthImage(set.depth().download()) <= 0), 0);
 }
 
-TEST_F(StagedPreparerTest, TellsWherePerformersAreForPeopleToLookAt) {
+TEST_F(StagedPreparerTest, ReportsAReducedMatteForOperators) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
     EXPECT_EQ(cv::countNonZero(preparer_.background_access()->states().at(0).matte > 20), 0);
-    // It is looked at once a second.
+    // The matte is sampled once per second.
     for (int i = 0; i < 6; ++i) (void)prepared(film(true));
     const cv::Mat1b matte = preparer_.background_access()->states().at(0).matte;
     ASSERT_EQ(matte.size(), cv::Size(staged_width_px, staged_height_px));
@@ -201,7 +202,7 @@ TEST_F(StagedPreparerTest, TellsWherePerformersAreForPeopleToLookAt) {
     EXPECT_LT(cv::mean(matte, ~square(4))[0], 5);
 }
 
-TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
+TEST_F(StagedPreparerTest, ExplainsWhyALoadedBackgroundDoesNotFit) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
     auto learnt = std::make_shared<Background>(preparer_.background_access()->learnt());
     DepthView moved = film(false);
@@ -226,8 +227,7 @@ TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
     EXPECT_NE(state.misfit.find("has none of rig only"), std::string::npos) << state.misfit;
 }
 
-/// A square that stood there from the start is no part of a set that is learnt without it, nor does
-/// a set that was loaded come back.
+/// Neither a square that stood there from the start nor a loaded background comes back.
 TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(true));
     preparer_.background_access()->begin_with(
@@ -244,8 +244,8 @@ TEST_F(StagedPreparerTest, LearnsAnewFromAnEmptyStage) {
     EXPECT_FALSE(preparer_.background_access()->states().at(0).is_loaded);
 }
 
-/// After a cut the picture comes first: a rig that is not in it learns from the next instant on.
-TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
+/// After a cut the picture has priority: a rig that is not in it learns from the next instant on.
+TEST_F(StagedPreparerTest, PostponesRigsThatAreNotShownAfterACut) {
     std::vector<DepthView> views{film(false), film(false)};
     views[1].name = "other";
     const VirtualView target{staged_width_px, staged_height_px, views[0].K,
@@ -260,22 +260,22 @@ TEST_F(StagedPreparerTest, LeavesRigsThatAreNotShownForLaterAfterACut) {
     EXPECT_EQ(learnt(), 0u);
     EXPECT_EQ(show(one_rig), 1u);
     EXPECT_EQ(learnt(), 1u);
-    EXPECT_EQ(show(prepare_levels().front()), 2u) << "bettered, all are needed";
+    EXPECT_EQ(show(prepare_levels().front()), 2u) << "refinement needs all rigs";
     EXPECT_EQ(learnt(), 2u);
     for (DepthView& view : views) view.world_from_camera.translation().y() += 0.1;
     preparer_.take(views, 0.2);
-    EXPECT_EQ(learnt(), 2u) << "no cut, other places";
+    EXPECT_EQ(learnt(), 2u) << "other places without a cut";
     for (DepthView& view : views) view.world_from_camera.translation().y() += 0.1;
     preparer_.cut();
     preparer_.take(views, 0.2);
     (void)show(one_rig);
     EXPECT_EQ(learnt(), 1u);
     preparer_.take(views, 0.2);
-    EXPECT_EQ(learnt(), 2u) << "nobody is left out for ever";
+    EXPECT_EQ(learnt(), 2u) << "every rig learns in the end";
 }
 
-/// Where there is time for two rigs only, the others take turns.
-TEST_F(StagedPreparerTest, LearnsTheSetsOfRigsThatAreNotShownInTurnAtTheCheapestLevel) {
+/// If there is time for two rigs only, the others take turns.
+TEST_F(StagedPreparerTest, LearnsRigsThatAreNotShownInTurnAtTheCheapestLevel) {
     std::vector<DepthView> views(4, film(false));
     for (std::size_t i = 0; i < views.size(); ++i) views[i].name = std::to_string(i);
     const VirtualView target{staged_width_px, staged_height_px, views[0].K,
@@ -314,13 +314,13 @@ class RefinedBackgroundTest : public StagedPreparerTest {
     VirtualView target_;
 };
 
-TEST_F(RefinedBackgroundTest, IsMadeAPassAtATimeAndThenLeftAloneForAWhile) {
+TEST_F(RefinedBackgroundTest, RunsInStepsAndThenRestsForAWhile) {
     for (int i = 0; i < 4; ++i) take_instant(rigs());
     EXPECT_GT(steps_until_done(), 3);
     EXPECT_EQ(steps_until_done(), 1) << "there is nothing to do before the next instants";
 }
 
-TEST_F(RefinedBackgroundTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
+TEST_F(RefinedBackgroundTest, IsAbandonedIfARigChangesMeanwhile) {
     for (int i = 0; i < 4; ++i) take_instant(rigs());
     ASSERT_TRUE(preparer_.improve_a_step(target_));
     take_instant(rigs(staged_width_px + 20));
@@ -334,12 +334,12 @@ TEST_F(RefinedBackgroundTest, IsGivenUpWhereARigIsAnotherOneMeanwhile) {
     EXPECT_EQ(instant->rigs[0].surface->depth().width_px(), staged_width_px + 20);
 }
 
-/// Three rigs that take a pole for the wall behind it.
+/// Three rigs whose own depth misses a pole before a wall.
 class MatchedBackgroundTest : public StagedPreparerTest {
   protected:
     static constexpr double dt_s = 0.4;
 
-    /// With no pole: `pole` is empty.
+    /// An empty `pole` means no pole.
     static std::vector<DepthView> rigs(const cv::Rect& pole) {
         std::vector<DepthView> views;
         for (const double x_m : {0.0, -0.4, 0.4}) {
@@ -355,7 +355,7 @@ class MatchedBackgroundTest : public StagedPreparerTest {
         }
         return views;
     }
-    /// Films for so long, and says how much of the pole is in its place in the end.
+    /// Films for a time and returns the share of the pole that has the right depth at the end.
     double pole_share(double seconds, const cv::Rect& pole = pole_place) {
         const std::vector<DepthView> views = rigs(pole);
         const VirtualView target{matched_size.width, matched_size.height, views[0].K,
@@ -374,13 +374,13 @@ class MatchedBackgroundTest : public StagedPreparerTest {
     }
 };
 
-TEST_F(MatchedBackgroundTest, HasWhatTheRigsThemselvesCannotSee) {
+TEST_F(MatchedBackgroundTest, FindsAPoleThatTheRigsOwnDepthMisses) {
     EXPECT_LT(pole_share(1.2), 0.1);
     EXPECT_GT(pole_share(4), 0.8);
 }
 
-/// Instants right after cuts are shown before anything is learnt of them.
-TEST_F(MatchedBackgroundTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
+/// Instants right after cuts are shown before they are learnt.
+TEST_F(MatchedBackgroundTest, WaitsUntilTwoRigsHaveABackground) {
     const std::vector<DepthView> views = rigs(pole_place);
     for (int i = 0; i < 10; ++i) {
         preparer_.cut();
@@ -391,7 +391,7 @@ TEST_F(MatchedBackgroundTest, IsNotMatchedBeforeTwoRigsHaveLearntTheirs) {
     EXPECT_GT(pole_share(8), 0.8);
 }
 
-TEST_F(MatchedBackgroundTest, OfALargePictureIsMatchedSmaller) {
+TEST_F(MatchedBackgroundTest, ReducesALargePicture) {
     const DepthView view = wall_and_square(0, 900, 700, {.square_x_m = 100});
     RigRoster rigs;
     BackgroundModel learner(shaders_);
@@ -405,28 +405,28 @@ TEST_F(MatchedBackgroundTest, OfALargePictureIsMatchedSmaller) {
     EXPECT_EQ(cv::countNonZero(known), 450 * 350);
 }
 
-TEST_F(MatchedBackgroundTest, LosesWhatIsTakenAway) {
+TEST_F(MatchedBackgroundTest, LosesAPoleThatIsTakenAway) {
     ASSERT_GT(pole_share(5.2), 0.8);
     EXPECT_LT(pole_share(4, cv::Rect()), 0.1);
 }
 
-TEST_F(MatchedBackgroundTest, IsForgottenWithTheSet) {
+TEST_F(MatchedBackgroundTest, IsForgottenWithTheBackground) {
     ASSERT_GT(pole_share(5.2), 0.8);
     preparer_.background_access()->learn_anew();
     EXPECT_LT(pole_share(1.2), 0.1);
-    EXPECT_GT(pole_share(4), 0.8) << "and matched anew";
+    EXPECT_GT(pole_share(4), 0.8) << "and matched again";
 }
 
-/// A freeze or a jump in time moves performers, not the set.
-TEST_F(StagedPreparerTest, KeepsTheSetOverACut) {
+/// A freeze or a jump in time does not change the background.
+TEST_F(StagedPreparerTest, KeepsTheBackgroundOverACut) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
     ASSERT_LT(learnt_off_m(), 0.02);
     preparer_.cut();
     (void)prepared(film(true));
-    EXPECT_LT(learnt_off_m(), 0.02) << "what stands before it is no part of it";
+    EXPECT_LT(learnt_off_m(), 0.02) << "foreground is not learnt";
 }
 
-TEST_F(StagedPreparerTest, LearnsNothingOfARehearsal) {
+TEST_F(StagedPreparerTest, LearnsNothingFromAWarmUp) {
     for (int i = 0; i < 8; ++i) (void)prepared(film(false));
     const auto learnt = std::make_shared<const Background>(preparer_.background_access()->learnt());
     StagedPreparer next(shaders_);
@@ -436,13 +436,13 @@ TEST_F(StagedPreparerTest, LearnsNothingOfARehearsal) {
     EXPECT_TRUE(next.background_access()->learnt().rigs.empty());
     next.take({&view, 1}, 0.2);
     EXPECT_TRUE(next.background_access()->states().at(0).is_loaded);
-    EXPECT_EQ(cv::norm(next.background_access()->learnt().rigs.at(0).depth_m, learnt->rigs[0].depth_m,
-                       cv::NORM_INF, square(-1)),
+    EXPECT_EQ(cv::norm(next.background_access()->learnt().rigs.at(0).depth_m,
+                       learnt->rigs[0].depth_m, cv::NORM_INF, square(-1)),
               0)
         << "the square stands before it";
 }
 
-TEST_F(StagedPreparerTest, KeepsTheSetOfARigThatWasAway) {
+TEST_F(StagedPreparerTest, KeepsTheBackgroundOfARigThatWasAway) {
     std::vector<DepthView> views{film(false), film(false)};
     views[1].name = "other";
     for (int i = 0; i < 8; ++i) preparer_.take(views, 0.2);

@@ -12,7 +12,7 @@ namespace {
 const cv::Size right_size{32, 24};
 const cv::Vec4b wall_colour(90, 120, 60, 255), coat_colour(200, 30, 40, 255);
 
-/// A wall, and somebody before a part of it.
+/// A wall, part of it hidden by a person.
 SharedBytes right_seen(const cv::Rect& somebody = {}) {
     ColourImage picture(right_size, wall_colour);
     picture(somebody) = coat_colour;
@@ -24,7 +24,7 @@ double furthest_off(const ColourImage& still) {
     return cv::norm(still, ColourImage(right_size, wall_colour), cv::NORM_INF);
 }
 
-TEST(StillPicture, HasNotWhatPassesBy) {
+TEST(StillImage, LeavesOutAPersonWhoPassesBy) {
     const std::vector<SharedBytes> passing{right_seen({0, 0, 8, 24}), right_seen({8, 0, 8, 24}),
                                            right_seen({16, 0, 8, 24}), right_seen({24, 0, 8, 24})};
     EXPECT_LE(furthest_off(still_picture(passing, right_size)), 2);
@@ -32,7 +32,7 @@ TEST(StillPicture, HasNotWhatPassesBy) {
     EXPECT_GT(furthest_off(still_picture(standing, right_size)), 80);
 }
 
-TEST(StillPicture, NeedsThreeThatAreWhole) {
+TEST(StillImage, NeedsThreeIntactImages) {
     const std::vector<SharedBytes> two{right_seen(), right_seen()};
     EXPECT_TRUE(still_picture(two, right_size).empty());
     std::vector<std::byte> torn = *right_seen();
@@ -42,10 +42,10 @@ TEST(StillPicture, NeedsThreeThatAreWhole) {
     EXPECT_TRUE(still_picture(some, right_size).empty());
     some.push_back(right_seen());
     EXPECT_LE(furthest_off(still_picture(some, right_size)), 2);
-    EXPECT_TRUE(still_picture(some, {16, 24}).empty()) << "they are of another size";
+    EXPECT_TRUE(still_picture(some, {16, 24}).empty()) << "the images have another size";
 }
 
-class RightPicturesOfARigTest : public testing::Test {
+class RightImagesOfARigTest : public testing::Test {
   protected:
     DepthView view(const SharedBytes& right) const {
         DepthView view;
@@ -61,7 +61,7 @@ class RightPicturesOfARigTest : public testing::Test {
     RigHistory rig_;
 };
 
-TEST_F(RightPicturesOfARigTest, AreTheNewestEachOnce) {
+TEST_F(RightImagesOfARigTest, AreTheNewestWithoutRepetition) {
     std::vector<SharedBytes> came;
     for (int i = 0; i < 20; ++i) {
         came.push_back(right_seen());
@@ -73,7 +73,7 @@ TEST_F(RightPicturesOfARigTest, AreTheNewestEachOnce) {
     EXPECT_EQ(rig_.right_jpegs().back(), came[19]);
 }
 
-TEST_F(RightPicturesOfARigTest, AreForgottenWithTheSetAndWithTheCamera) {
+TEST_F(RightImagesOfARigTest, AreForgottenWithTheBackgroundAndWithTheCamera) {
     rig_.upload(view(right_seen()));
     rig_.upload(view(right_seen()));
     rig_.forget();

@@ -8,7 +8,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image.h"
-#include "host_app/views/depth_edges.h"
+#include "host_app/views/tolerances.h"
 #include "tests/support/filled_texture.h"
 
 namespace vantage {

@@ -14,8 +14,8 @@ namespace {
 
 const cv::Vec4b red(200, 40, 40, 255), blue(40, 40, 200, 255);
 
-/// The half of a map: of each window of four by four the mean inverse depth of what is as far as
-/// its farthest, to a twentieth.
+/// The reference of depth_pull.frag: for each window of four by four pixels, the mean inverse depth
+/// of those within 5 % of the farthest.
 DepthImage pulled(const DepthImage& map) {
     DepthImage half(cv::Size((map.cols + 1) / 2, (map.rows + 1) / 2), 0.0f);
     for (int y = 0; y < half.rows; ++y)
@@ -37,8 +37,8 @@ DepthImage pulled(const DepthImage& map) {
     return half;
 }
 
-/// What pull and push make of a map in so many halvings: bilinear in inverse depth, negative where
-/// nothing was known.
+/// The reference of pull and push with this many halvings: bilinear in inverse depth, negative
+/// where the map is unknown.
 DepthImage closed_by_halves(const DepthImage& map, int halvings) {
     if (halvings == 0) return map;
     const DepthImage coarse = closed_by_halves(pulled(map), halvings - 1);
@@ -80,7 +80,7 @@ class DepthInpaintingTest : public testing::Test {
     DepthInpainting inpainting_{shaders_};
 };
 
-TEST_F(DepthInpaintingTest, KeepsWhatIsKnownAndWhatWasGuessed) {
+TEST_F(DepthInpaintingTest, KeepsKnownAndInpaintedDepth) {
     DepthImage map(29, 37, 0.0f);
     cv::RNG random(1);
     for (float& z : map) {
@@ -97,9 +97,9 @@ TEST_F(DepthInpaintingTest, KeepsWhatIsKnownAndWhatWasGuessed) {
         }
 }
 
-/// A hole beside a near and a far surface is a part of the one that it looks like, and of the far
-/// one if it looks like neither.
-TEST_F(DepthInpaintingTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
+/// A hole between a near and a far surface belongs to the one of its colour, or to the far one if
+/// it has the colour of neither.
+TEST_F(DepthInpaintingTest, InpaintsTheSurfaceOfSimilarColourAndElseTheFarther) {
     const cv::Rect hole(20, 10, 8, 20);
     DepthImage map(40, 48, 4.0f);
     map.colRange(0, 24) = 2.0f;
@@ -111,7 +111,7 @@ TEST_F(DepthInpaintingTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
     for (const auto& [colour, depth_m] : wanted) {
         picture(hole) = colour;
         const DepthImage result = closed(map, map, picture)(hole);
-        // Away from the hole's ends, and where the far side is not ten times as far away.
+        // Away from the hole's ends, where other directions count.
         const DepthImage inside = result(cv::Rect(2, 6, hole.width - 4, hole.height - 12));
         EXPECT_LT(cv::norm(inside, DepthImage(inside.size(), depth_m), cv::NORM_INF), 1e-4)
             << cv::Mat(cv::Vec4i(colour)).t() << '\n'
@@ -119,9 +119,9 @@ TEST_F(DepthInpaintingTest, GuessesTheSurfaceOfLikeColourAndElseTheFarther) {
     }
 }
 
-/// The distances at which a direction is looked along grow by a half, and are rounded: the third
-/// pixel is met at 3.375.
-TEST_F(DepthInpaintingTest, WeighsTheNearerPixelsOfOneSurfaceMore) {
+/// The distances that are tried along a direction grow by a half and are rounded: the third pixel
+/// counts with a distance of 3.375.
+TEST_F(DepthInpaintingTest, WeighsNearerPixelsOfOneSurfaceMore) {
     DepthImage map(1, 5, 0.0f);
     map(0, 0) = 2.0f;
     map(0, 4) = 2.05f;
@@ -131,8 +131,8 @@ TEST_F(DepthInpaintingTest, WeighsTheNearerPixelsOfOneSurfaceMore) {
     EXPECT_NEAR(result(0, 3), -(near + far) / (far / 2.0 + near / 2.05), 1e-4);
 }
 
-/// What other rigs carved away is not guessed from beside, whatever it looks like.
-TEST_F(DepthInpaintingTest, ClosesWhatWasCarvedAwayByPullAndPush) {
+/// Carved pixels do not take the depth beside them, whatever their colour.
+TEST_F(DepthInpaintingTest, FillsCarvedPixelsByPullAndPush) {
     DepthImage map(41, 67, 0.0f);
     map.colRange(0, 9) = 2.0f;
     map.colRange(50, 67) = 4.0f;
@@ -145,7 +145,7 @@ TEST_F(DepthInpaintingTest, ClosesWhatWasCarvedAwayByPullAndPush) {
     EXPECT_GT(cv::norm(result, closed(map, map, grey(map.size())), cv::NORM_INF), 0.1);
 }
 
-TEST_F(DepthInpaintingTest, KnowsNothingOfAnEmptyMap) {
+TEST_F(DepthInpaintingTest, LeavesAnEmptyMapEmpty) {
     const DepthImage nothing(21, 33, 0.0f);
     EXPECT_EQ(cv::countNonZero(closed(nothing, nothing, grey(nothing.size()))), 0);
 }

@@ -6,13 +6,13 @@
 #include "common/gl/context/egl_context.h"
 #include "common/gl/fullscreen_pass.h"
 #include "common/image/image.h"
-#include "host_app/views/depth_edges.h"
+#include "host_app/views/tolerances.h"
 #include "tests/support/filled_texture.h"
 
 namespace vantage {
 namespace {
 
-/// Bilinear, clamped at the edges; (x, y) from the corner of the picture, px.
+/// The bilinear colour at (x, y) px from the corner of the picture, clamped at the edges.
 Eigen::Vector3d colour_at(const ColourImage& picture, double x, double y) {
     const double u = x - 0.5, v = y - 0.5;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -27,8 +27,8 @@ Eigen::Vector3d colour_at(const ColourImage& picture, double x, double y) {
     return sum;
 }
 
-/// The mean inverse depth of every other pixel of a window, those on the same surface, weighted by
-/// how alike they look; of the first known of `scale` x `scale` pixels.
+/// The reference of rig_smooth.frag: the mean inverse depth of every other pixel of a window that
+/// lies on the surface of the first known one of `scale` x `scale` pixels, weighted by colour.
 float smoothed_at(const DepthImage& map, const ColourImage& picture, cv::Point at, int scale) {
     constexpr int reach = 2;
     const cv::Point first = scale * at;
@@ -46,7 +46,7 @@ float smoothed_at(const DepthImage& map, const ColourImage& picture, cv::Point a
             const float z = map(y, x);
             if (std::max(z, own) > std::min(z, own) * depth_edge_ratio) continue;
             const double off = (colour_at(picture, x + 0.5, y + 0.5) - middle).cwiseAbs().mean();
-            const double w = std::exp(-off / 0.08) + 1e-4;
+            const double w = std::exp(-off / static_cast<double>(smoothing_colour_falloff)) + 1e-4;
             sum += w / z;
             weights += w;
         }
@@ -75,11 +75,8 @@ class DepthSmoothingTest : public testing::TestWithParam<int> {
                              (map_.rows + scale - 1) / scale);
         FullscreenPass pass(shaders_, "rig_smooth.frag", {{"SCALE", std::to_string(scale)}});
         Program& program = pass.use();
-        program.set("depth_map", 0);
-        program.set("picture", 1);
-        program.set("edge_ratio", depth_edge_ratio);
-        map.bind(0);
-        picture.bind(1);
+        program.input("depth_map", map);
+        program.input("picture", picture);
         pass.draw(Framebuffer({&result}));
         return result.download();
     }
@@ -90,7 +87,7 @@ class DepthSmoothingTest : public testing::TestWithParam<int> {
     ColourImage picture_;
 };
 
-TEST_P(DepthSmoothingTest, IsTheWeightedMeanOfItsSurface) {
+TEST_P(DepthSmoothingTest, MatchesTheReference) {
     const DepthImage result = drawn(GetParam());
     for (int y = 0; y < result.rows; ++y)
         for (int x = 0; x < result.cols; ++x) {
@@ -100,7 +97,7 @@ TEST_P(DepthSmoothingTest, IsTheWeightedMeanOfItsSurface) {
         }
 }
 
-TEST_P(DepthSmoothingTest, LeavesAPixelThatHasNoOtherOfItsSurface) {
+TEST_P(DepthSmoothingTest, KeepsAPixelThatIsAloneOnItsSurface) {
     map_ = 0;
     map_(13, 17) = 2;
     const DepthImage result = drawn(GetParam());

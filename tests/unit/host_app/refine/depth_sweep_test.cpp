@@ -12,10 +12,10 @@ namespace {
 
 constexpr int sweep_width_px = 129, sweep_height_px = 95;
 constexpr float wall_m = 4;
-/// Seen by all rigs, away from the pictures' borders.
+/// A region that all rigs see, away from the borders of their pictures.
 const cv::Rect middle(35, 25, 60, 45);
 
-/// A rig between two others before a wall, whose matcher errs all over by as much.
+/// A rig between two others before a wall, whose depth has the same error everywhere.
 class DepthSweepTest : public testing::Test {
   protected:
     static DepthView film(double x_m, bool is_patterned) {
@@ -32,11 +32,11 @@ class DepthSweepTest : public testing::Test {
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
         return DepthImage(
-            refinement_.better(compared(*views.shown()[0]), compared(views.shown())).download())(
+            refinement_.refine(compared(*views.shown()[0]), compared(views.shown())).download())(
             middle);
     }
-    /// Mean, relative.
-    static double off(const DepthImage& depth_m) {
+    /// The mean relative error.
+    static double error_of(const DepthImage& depth_m) {
         return cv::mean(cv::Mat(cv::abs(depth_m - wall_m)))[0] / wall_m;
     }
 
@@ -46,16 +46,17 @@ class DepthSweepTest : public testing::Test {
 };
 
 /// The others stand 1 m aside: 4 % of depth is a pixel of their 26 px of parallax.
-TEST_F(DepthSweepTest, FindsTheDepthAtWhichThePicturesAgree) {
-    for (const float error : {-0.04f, 0.04f}) EXPECT_LT(off(swept(error, true)), 0.01) << error;
+TEST_F(DepthSweepTest, MovesDepthToWhereThePicturesMatch) {
+    for (const float error : {-0.04f, 0.04f})
+        EXPECT_LT(error_of(swept(error, true)), 0.01) << error;
 }
 
-TEST_F(DepthSweepTest, MovesNothingWhereThePicturesTellNothing) {
-    EXPECT_NEAR(off(swept(0.04f, false)), 0.04, 1e-6);
+TEST_F(DepthSweepTest, MovesNothingOnAPlainSurface) {
+    EXPECT_NEAR(error_of(swept(0.04f, false)), 0.04, 1e-6);
 }
 
-TEST_F(DepthSweepTest, MovesNothingThatAgreesToAPixel) {
-    EXPECT_NEAR(off(swept(0.02f, true)), 0.02, 1e-6);
+TEST_F(DepthSweepTest, MovesNothingThatIsConsistentWithinAPixel) {
+    EXPECT_NEAR(error_of(swept(0.02f, true)), 0.02, 1e-6);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ class EdgeConfidenceTest : public testing::Test {
     EdgeConfidence confidence_{shaders_};
 };
 
-/// Of 255, by the distance to the nearest pixel of another surface: a fiftieth beside it, all from
-/// three pixels on, and between them the square of the way.
+/// The confidence (0..255) at a distance from the nearest pixel of another surface: 2 % beside it,
+/// 100 % from three pixels on, and quadratic between them.
 int confidence_at(double away_px) {
     const double way = (std::min(away_px, 3.0) - 1) / 2;
     return static_cast<int>(std::lround(255 * (0.02 + 0.98 * way * way)));
@@ -43,10 +43,10 @@ int confidence_at(double away_px) {
 TEST_F(EdgeConfidenceTest, GrowsWithTheDistanceFromADepthEdge) {
     DepthView view = picture({41, 29});
     view.depth_m = DepthImage(view.colour.size(), 4.0f);
-    // Guessed depth is as much a surface; no depth is another one.
+    // Inpainted depth is a surface too; a pixel without depth counts as another surface.
     view.depth_m(cv::Rect(10, 8, 9, 7)) = -2.0f;
     view.depth_m(20, 33) = 0.0f;
-    // A slope that is none.
+    // A step that is too small for an edge.
     view.depth_m.colRange(0, 4) = 3.9f;
     const cv::Mat1b confidence = judged(view);
     const auto is_other = [&](int x, int y, int u, int v) {
@@ -66,9 +66,8 @@ TEST_F(EdgeConfidenceTest, GrowsWithTheDistanceFromADepthEdge) {
     EXPECT_GT(edges, 100);
 }
 
-/// Where the set is seen now, and where a performer, hardly there, stands before what is
-/// remembered.
-TEST_F(EdgeConfidenceTest, IsAShareOfWhatTheColoursOfASetCount) {
+/// Both where the background is visible and where foreground with a low matte hides it.
+TEST_F(EdgeConfidenceTest, ScalesTheConfidenceOfTheBackgroundsColours) {
     cv::Mat1b confidence(2, 8);
     for (int x = 0; x < 8; ++x) confidence.col(x) = 36 * x;
     ColourImage colours(confidence.size());
@@ -82,32 +81,27 @@ TEST_F(EdgeConfidenceTest, IsAShareOfWhatTheColoursOfASetCount) {
     const Texture behind = texture_of(TextureFormat::r32f, DepthImage(confidence.size(), 4.0f));
     for (const int counts : {255, 128, 4}) {
         for (cv::Vec4b& c : colours) c[3] = static_cast<uchar>(counts);
-        const Texture set = texture_of(TextureFormat::rgba8, colours);
+        const Texture background = texture_of(TextureFormat::rgba8, colours);
         Program& program = pass.use();
-        int unit = 0;
-        const auto bind = [&](const char* name, const Texture& texture) {
-            texture.bind(unit);
-            program.set(name, unit++);
-        };
-        bind("background_colour", set);
-        bind("picture", set);
-        bind("seen", matte);
-        bind("matte", matte);
-        bind("performers", performers);
-        bind("background_depth", behind);
-        bind("confidence", trusted);
+        program.input("background_colour", background);
+        program.input("picture", background);
+        program.input("seen", matte);
+        program.input("matte", matte);
+        program.input("performers", performers);
+        program.input("background_depth", behind);
+        program.input("confidence", trusted);
         const ColourImage now = drawn_by(pass, target);
         for (int y = 0; y < now.rows; ++y)
             for (int x = 0; x < now.cols; ++x) {
                 for (int c = 0; c < 3; ++c) EXPECT_EQ(now(y, x)[c], colours(y, x)[c]);
                 EXPECT_NEAR(now(y, x)[3], std::max(counts * confidence(y, x) / 255.0, 1.0), 1);
-                EXPECT_GE(now(y, x)[3], 1) << "what is there counts";
+                EXPECT_GE(now(y, x)[3], 1) << "never 0";
             }
     }
 }
 
 /// A pixel of the map spans two of the picture.
-TEST_F(EdgeConfidenceTest, CountsPixelsOfThePictureWhateverTheMapsSize) {
+TEST_F(EdgeConfidenceTest, CountsPixelsOfThePictureNotOfTheMap) {
     DepthView view = picture({32, 2});
     view.depth_m = DepthImage(1, 16, 2.0f);
     view.depth_m.colRange(8, 16) = 3.0f;

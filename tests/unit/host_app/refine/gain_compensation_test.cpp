@@ -6,10 +6,9 @@ namespace vantage {
 namespace {
 
 using Gains = Eigen::Vector3d;
-constexpr double look_s = GainCompensation::look_period_s;
+constexpr double sample_s = GainCompensation::sample_period_s;
 
-/// A patterned wall at z = 4 m, seen from (x, 0, 0) along z by a rig whose picture comes out with
-/// its own gains in linear light.
+/// A patterned wall at z = 4 m, as seen from (x, 0, 0) along z by a rig with gains in linear light.
 DepthView wall(const std::string& name, double x_m, const Gains& gains) {
     constexpr int width_px = 121, height_px = 91;
     DepthView view;
@@ -38,9 +37,10 @@ double difference(const GainCompensation& gain_compensation,
     for (const auto& [a, gains_a] : distorted)
         for (const auto& [b, gains_b] : distorted)
             for (int c = 0; c < 3; ++c)
-                most = std::max(most, gain_compensation.rigs().at(a).gain()[c] * gains_a[c] /
-                                              (gain_compensation.rigs().at(b).gain()[c] * gains_b[c]) -
-                                          1);
+                most =
+                    std::max(most, gain_compensation.rigs().at(a).gain()[c] * gains_a[c] /
+                                           (gain_compensation.rigs().at(b).gain()[c] * gains_b[c]) -
+                                       1);
     return most;
 }
 
@@ -56,13 +56,13 @@ class CompensatedRigs : public testing::Test {
     GainCompensation gain_compensation_;
 };
 
-TEST_F(CompensatedRigs, BecomeOfOneColourWithoutOvershootAndWithoutDrift) {
+TEST_F(CompensatedRigs, ConvergeWithoutOvershootAndWithoutDrift) {
     const std::vector<DepthView> views = this->views();
-    gain_compensation_.see(views, look_s);
+    gain_compensation_.see(views, sample_s);
     double before = difference(gain_compensation_, distorted_);
     EXPECT_GT(before, 0.15);
     for (int look = 0; look < 150; ++look) {
-        gain_compensation_.see(views, look_s);
+        gain_compensation_.see(views, sample_s);
         const double now = difference(gain_compensation_, distorted_);
         EXPECT_LT(now, before + 0.002) << look;
         before = now;
@@ -74,45 +74,46 @@ TEST_F(CompensatedRigs, BecomeOfOneColourWithoutOvershootAndWithoutDrift) {
     EXPECT_GT(gain_compensation_.rigs().at("middle").samples, 500);
 }
 
-TEST_F(CompensatedRigs, AreCorrectedAfterTheirCalibration) {
+TEST_F(CompensatedRigs, ApplyGainsAfterTheCalibration) {
     DepthView view = views()[0];
     view.colour_correction.matrix << 0.9, 0.1, 0, 0, 1, 0, 0.05, 0, 0.95;
     const Eigen::Matrix3d of_calibration = view.colour_correction.matrix;
     gain_compensation_.apply(view);
-    EXPECT_EQ(view.colour_correction.matrix, of_calibration) << "a rig never seen";
+    EXPECT_EQ(view.colour_correction.matrix, of_calibration) << "a rig that was never sampled";
     const std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 20; ++look) gain_compensation_.see(views, look_s);
+    for (int look = 0; look < 20; ++look) gain_compensation_.see(views, sample_s);
     gain_compensation_.apply(view);
     const Gains gain = gain_compensation_.rigs().at("west").gain();
     EXPECT_LT(gain[0], 0.98) << "it is too red";
     EXPECT_TRUE(view.colour_correction.matrix.isApprox(gain.asDiagonal() * of_calibration));
 }
 
-TEST_F(CompensatedRigs, AreLeftAloneWhereNobodySeesTheDifference) {
+TEST_F(CompensatedRigs, AreLeftAloneIfTheDifferenceIsInvisible) {
     distorted_ = {{"west", {1.003, 1, 0.997}}, {"middle", {1, 1, 1}}, {"east", {1, 0.998, 1}}};
     std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, look_s);
+    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, sample_s);
     for (DepthView& view : views) {
         gain_compensation_.apply(view);
         EXPECT_TRUE(view.colour_correction.is_identity()) << view.name;
     }
 }
 
-TEST_F(CompensatedRigs, NeverChangeFasterThanTheEyeForgives) {
+TEST_F(CompensatedRigs, NeverChangeFasterThanTheLimit) {
     distorted_["east"] = {0.7, 1.3, 1.0};
     const std::vector<DepthView> views = this->views();
     for (int look = 0; look < 30; ++look) {
         const auto before = gain_compensation_.rigs();
-        gain_compensation_.see(views, look_s);
+        gain_compensation_.see(views, sample_s);
         for (const auto& [name, rig] : before)
-            ASSERT_LE((gain_compensation_.rigs().at(name).log_gain - rig.log_gain).cwiseAbs().maxCoeff(),
-                      GainCompensation::slew_per_s * look_s + 1e-12);
+            ASSERT_LE(
+                (gain_compensation_.rigs().at(name).log_gain - rig.log_gain).cwiseAbs().maxCoeff(),
+                GainCompensation::slew_per_s * sample_s + 1e-12);
     }
 }
 
-/// A thing as bright as can be walks through one rig's picture only, over a third of its width: a
-/// performer that hides the wall there, or a lamp's reflection.
-TEST_F(CompensatedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
+/// A very bright object crosses one rig's picture and hides a third of its width: a performer
+/// before the wall, or the reflection of a lamp.
+TEST_F(CompensatedRigs, DoNotPumpWhenABrightObjectMovesThrough) {
     distorted_ = {{"west", {1, 1, 1}}, {"middle", {1, 1, 1}}, {"east", {1, 1, 1}}};
     for (const bool has_depth : {true, false}) {
         GainCompensation gain_compensation;
@@ -121,7 +122,7 @@ TEST_F(CompensatedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
             const cv::Rect thing(2 * look % 80, 0, 40, 91);
             views[1].colour(thing).setTo(cv::Scalar(240, 235, 230, 255));
             if (has_depth) views[1].depth_m(thing).setTo(2.5f);
-            gain_compensation.see(views, look_s);
+            gain_compensation.see(views, sample_s);
             for (const auto& [name, rig] : gain_compensation.rigs())
                 ASSERT_LT(rig.log_gain.cwiseAbs().maxCoeff(), 0.01)
                     << name << ", look " << look << ", has_depth " << has_depth;
@@ -129,23 +130,23 @@ TEST_F(CompensatedRigs, DoNotPumpWhereSomethingBrightMovesThrough) {
     }
 }
 
-TEST_F(CompensatedRigs, GoOnFromTheirLastGainsWhenTheyComeBack) {
+TEST_F(CompensatedRigs, ContinueWithTheirLastGainsWhenTheyComeBack) {
     std::vector<DepthView> views = this->views();
-    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, look_s);
+    for (int look = 0; look < 100; ++look) gain_compensation_.see(views, sample_s);
     const Gains last = gain_compensation_.rigs().at("east").log_gain;
     EXPECT_GT(last.norm(), 0.05);
     const DepthView east = views.back();
     views.pop_back();
-    for (int look = 0; look < 50; ++look) gain_compensation_.see(views, look_s);
+    for (int look = 0; look < 50; ++look) gain_compensation_.see(views, sample_s);
     EXPECT_EQ(gain_compensation_.rigs().at("east").log_gain, last);
     views.push_back(east);
-    gain_compensation_.see(views, look_s);
+    gain_compensation_.see(views, sample_s);
     EXPECT_LT((gain_compensation_.rigs().at("east").log_gain - last).norm(), 0.01);
 }
 
-TEST_F(CompensatedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
+TEST_F(CompensatedRigs, KeepTheirGainsIfTheyShareTooFewSamples) {
     const DepthView apart[] = {wall("west", -10, {1.2, 1, 1}), wall("east", 10, {1, 1, 1})};
-    for (int look = 0; look < 10; ++look) gain_compensation_.see(apart, look_s);
+    for (int look = 0; look < 10; ++look) gain_compensation_.see(apart, sample_s);
     for (const auto& [name, rig] : gain_compensation_.rigs()) {
         EXPECT_EQ(rig.log_gain, Gains(Gains::Zero())) << name;
         EXPECT_EQ(rig.samples, 0);
@@ -153,17 +154,17 @@ TEST_F(CompensatedRigs, StayAsTheyAreWhereTheyShareTooLittle) {
     DepthView without_depth = wall("middle", 0, {1, 1, 1});
     without_depth.depth_m.release();
     const DepthView blind[] = {without_depth, wall("east", 0.1, {1, 1, 1})};
-    gain_compensation_.see(blind, look_s);
+    gain_compensation_.see(blind, sample_s);
     EXPECT_EQ(gain_compensation_.rigs().count("middle"), 0u);
 }
 
-TEST_F(CompensatedRigs, AreLookedAtAFewTimesASecondOnly) {
+TEST_F(CompensatedRigs, AreSampledOnlyAFewTimesPerSecond) {
     const std::vector<DepthView> views = this->views();
     gain_compensation_.see(views, 0);
     const Gains first = gain_compensation_.rigs().at("west").log_gain;
-    gain_compensation_.see(views, 0.5 * look_s);
+    gain_compensation_.see(views, 0.5 * sample_s);
     EXPECT_EQ(gain_compensation_.rigs().at("west").log_gain, first);
-    gain_compensation_.see(views, 0.5 * look_s);
+    gain_compensation_.see(views, 0.5 * sample_s);
     EXPECT_NE(gain_compensation_.rigs().at("west").log_gain, first);
 }
 

@@ -16,15 +16,15 @@ namespace {
 constexpr int refinement_width_px = 161, refinement_height_px = 107;
 constexpr double f_px = 400, baseline_m = 0.5;
 constexpr float far_wall_m = 4;
-/// In both cameras' pictures, apart from each other, on the wall and as what is put there moves.
+/// A region that both cameras see and that does not overlap with itself when its depth changes.
 const cv::Rect behind(120, 60, 20, 16);
 
-/// A wall across the picture of a camera at (x, 0, 0) that looks along z.
+/// A wall that fills the picture of a camera at (x, 0, 0) that looks along z.
 DepthView wall(double x_m) {
     DepthView view;
     view.name = std::to_string(x_m);
-    view.K << f_px, 0, 0.5 * (refinement_width_px - 1), 0, f_px, 0.5 * (refinement_height_px - 1), 0,
-        0, 1;
+    view.K << f_px, 0, 0.5 * (refinement_width_px - 1), 0, f_px, 0.5 * (refinement_height_px - 1),
+        0, 0, 1;
     view.world_from_camera.translation().x() = x_m;
     view.baseline_m = baseline_m;
     view.colour =
@@ -33,7 +33,7 @@ DepthView wall(double x_m) {
     return view;
 }
 
-/// Beside a rig whose second camera stands where this rig looks from.
+/// A rig beside another one that stands only a baseline away.
 class FaultyPairTest : public testing::Test {
   protected:
     DepthImage refined(const DepthView& own, const DepthView& other, bool is_matched = false) {
@@ -42,7 +42,7 @@ class FaultyPairTest : public testing::Test {
         views.upload(pair, nominal_dt_s);
         ComparedView view = compared(*views.shown()[0]);
         view.is_matched = is_matched;
-        return refinement_.better(view, compared(views.shown())).download();
+        return refinement_.refine(view, compared(views.shown())).download();
     }
 
     EglContext context_;
@@ -50,14 +50,14 @@ class FaultyPairTest : public testing::Test {
     MultiViewRefinement refinement_{shaders_};
 };
 
-TEST_F(FaultyPairTest, KeepsWhatTheOtherCannotConfirmWhereThePairHardlyErrs) {
+TEST_F(FaultyPairTest, KeepsUnconfirmedDepthInAMapThatHardlyErrs) {
     DepthView own = wall(0);
     own.depth_m(behind) = 1.5f * far_wall_m;
     const DepthImage kept = refined(own, wall(baseline_m));
     EXPECT_EQ(cv::norm(kept, own.depth_m, cv::NORM_INF), 0);
 }
 
-TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) {
+TEST_F(FaultyPairTest, MarksUnconfirmedDepthInAMapThatErrsAsInpainted) {
     DepthView own = wall(0);
     own.depth_m(behind) = 1.5f * far_wall_m;
     // A tenth of the map is before the wall, and the other camera sees the wall through it.
@@ -66,12 +66,12 @@ TEST_F(FaultyPairTest, TakesWhatTheOtherCannotConfirmForAGuessWhereThePairErrs) 
     const DepthImage left = refined(own, wall(baseline_m));
     EXPECT_EQ(cv::countNonZero(left(before)), 0);
     EXPECT_EQ(cv::countNonZero(left(behind) != -1.5f * far_wall_m), 0);
-    // What it does confirm, and what is outside its picture, stays.
+    // Depth that it confirms, and depth outside its picture, stays.
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(0, 0, 40, refinement_height_px)) != far_wall_m), 0);
 }
 
-TEST_F(FaultyPairTest, IsOnlyCarvedWhereItWasMatched) {
+TEST_F(FaultyPairTest, OnlyCarvesDepthFromBackgroundStereo) {
     DepthView own = wall(0);
     own.depth_m(behind) = 1.5f * far_wall_m;
     const cv::Rect before(130, 5, 30, 40);
@@ -81,8 +81,8 @@ TEST_F(FaultyPairTest, IsOnlyCarvedWhereItWasMatched) {
     EXPECT_EQ(cv::norm(refined(own, wall(baseline_m), true), carved, cv::NORM_INF), 0);
 }
 
-/// Both matchers may be wrong in the same way: then the surfaces meet and the colours do not.
-TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
+/// Both matchers may err in the same way: then the surfaces match and the colours do not.
+TEST_F(FaultyPairTest, MarksDepthWhoseColoursDoNotMatchAsInpainted) {
     DepthView own = wall(0);
     own.depth_m(cv::Rect(130, 5, 30, 40)) = 0.9f * far_wall_m;
     own.colour(behind).setTo(cv::Scalar(200, 20, 20, 255));
@@ -91,9 +91,8 @@ TEST_F(FaultyPairTest, TakesForAGuessWhatLooksOtherwiseInTheOtherPicture) {
     EXPECT_EQ(cv::countNonZero(left(cv::Rect(60, 60, 50, 40)) != far_wall_m), 0);
 }
 
-/// From farther away than a rig's own baseline the same tells nothing of what is merely
-/// unconfirmed.
-TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
+/// A rig that stands farther away than a baseline often cannot confirm correct depth.
+TEST_F(FaultyPairTest, KeepsDepthThatAFartherRigCannotConfirm) {
     DepthView own = wall(0);
     own.baseline_m = baseline_m / 5;
     own.depth_m(behind) = 1.5f * far_wall_m;
@@ -103,9 +102,9 @@ TEST_F(FaultyPairTest, KeepsWhatAFartherRigCannotConfirm) {
     EXPECT_EQ(cv::countNonZero(refined(own, other)(behind)), behind.area());
 }
 
-/// A rig between two others, all of them before a wall and a square, whose matcher took a strip of
-/// the wall beside the square for the square.
-class DoubtedStripTest : public testing::Test {
+/// A rig between two others before a wall and a square, whose matcher assigned a strip of the wall
+/// to the square beside it.
+class WrongStripTest : public testing::Test {
   protected:
     static constexpr int refinement_width_px = 161, refinement_height_px = 119;
     static constexpr float far_wall_m = 4, square_m = 2;
@@ -124,7 +123,7 @@ class DoubtedStripTest : public testing::Test {
         views.upload(rigs, nominal_dt_s);
         ComparedView view = compared(*views.shown()[0]);
         view.is_matched = is_matched;
-        return refinement_.better(view, compared(views.shown())).download()(strip);
+        return refinement_.refine(view, compared(views.shown())).download()(strip);
     }
 
     EglContext context_;
@@ -132,9 +131,9 @@ class DoubtedStripTest : public testing::Test {
     MultiViewRefinement refinement_{shaders_};
 };
 
-const cv::Rect DoubtedStripTest::strip(42, 40, 6, 40);
+const cv::Rect WrongStripTest::strip(42, 40, 6, 40);
 
-TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
+TEST_F(WrongStripTest, AdoptsTheDepthBesideItThatThePicturesMatchWith) {
     DepthView own = film(0);
     ASSERT_EQ(cv::countNonZero(own.depth_m(strip) != far_wall_m), 0);
     ASSERT_EQ(own.depth_m(60, 50), square_m);
@@ -144,7 +143,7 @@ TEST_F(DoubtedStripTest, GetsTheDepthBesideItThatTheRigsPicturesAgreeOn) {
     EXPECT_GE(right, 0.9 * strip.area()) << mended;
 }
 
-TEST_F(DoubtedStripTest, ThatWasMatchedTakesOverDepthOnlyWhereItIsCarvedAway) {
+TEST_F(WrongStripTest, OfBackgroundStereoAdoptsDepthOnlyWhereItIsCarvedAway) {
     DepthView own = film(0);
     own.depth_m(strip) = 1.3f * far_wall_m;
     EXPECT_EQ(cv::countNonZero(refined_strip(own, true) != 1.3f * far_wall_m), 0);
@@ -153,9 +152,9 @@ TEST_F(DoubtedStripTest, ThatWasMatchedTakesOverDepthOnlyWhereItIsCarvedAway) {
     EXPECT_GE(cv::countNonZero(mended == far_wall_m), 0.9 * strip.area()) << mended;
 }
 
-TEST_F(DoubtedStripTest, KeepsItsDepthInAMapThatErrsNowhereElseAndHardlyHere) {
+TEST_F(WrongStripTest, KeepsItsDepthInAMapThatHardlyErrs) {
     DepthView own = film(0);
-    // Fewer pixels than what is measured, not matched, has wrong.
+    // Fewer wrong pixels than exact depth may have.
     const cv::Rect few(strip.x, strip.y, 3, 12);
     own.depth_m(few) = 1.3f * far_wall_m;
     const DepthImage kept = refined_strip(own);

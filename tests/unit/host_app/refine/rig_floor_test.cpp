@@ -11,10 +11,10 @@ namespace vantage {
 namespace {
 
 const cv::Size size{161, 119};
-/// On the floor, and taken for something beyond it.
+/// A part of the floor with wrong depth beyond it.
 const cv::Rect strip(70, 60, 16, 30);
 
-/// A rig that looks down at a plain floor at y = 0, beside others `aside_m` away.
+/// A rig at x = `aside_m` that looks down at a plain floor at y = 0.
 DepthView film_of_floor(double aside_m, double eye_height_m = 1.5) {
     DepthView view;
     view.name = std::to_string(aside_m);
@@ -35,7 +35,7 @@ DepthView film_of_floor(double aside_m, double eye_height_m = 1.5) {
 
 class RigFloorTest : public testing::Test {
   protected:
-    /// Of the first of three rigs, as they stand above the floor of the world.
+    /// The refined strip of the first of three rigs.
     DepthImage refined(const cv::Vec4b& strip_colour, double eye_height_m = 1.5) {
         DepthView own = film_of_floor(0, eye_height_m);
         floor_m_ = own.depth_m.clone();
@@ -47,8 +47,8 @@ class RigFloorTest : public testing::Test {
         RigRoster views;
         views.upload(rigs, nominal_dt_s);
         return DepthImage(
-            refinement_.refine_background(compared(*views.shown()[0]), compared(views.shown())).download())(
-            strip);
+            refinement_.refine_background(compared(*views.shown()[0]), compared(views.shown()))
+                .download())(strip);
     }
     int like(const DepthImage& depth_m, const DepthImage& map_m) const {
         return cv::countNonZero(cv::abs(depth_m - map_m(strip)) < 0.01 * map_m(strip));
@@ -60,15 +60,15 @@ class RigFloorTest : public testing::Test {
     DepthImage floor_m_, wrong_m_;
 };
 
-TEST_F(RigFloorTest, APlainFloorIsWhereTheWorldHasIt) {
+TEST_F(RigFloorTest, PutsAPlainFloorAtYEqualTo0) {
     EXPECT_EQ(like(refined({200, 210, 205, 255}), floor_m_), strip.area());
 }
 
-TEST_F(RigFloorTest, WhatLooksOtherwiseThanTheFloorDoesToOtherRigsIsNone) {
+TEST_F(RigFloorTest, KeepsDepthWhoseColoursDoNotMatchOnTheFloor) {
     EXPECT_EQ(like(refined({20, 40, 160, 255}), floor_m_), 0);
 }
 
-TEST_F(RigFloorTest, WhereNothingLiesOnTheWorldsFloorThereIsNone) {
+TEST_F(RigFloorTest, KeepsDepthIfTheRigsSeeNoFloor) {
     EXPECT_EQ(like(refined({200, 210, 205, 255}, 2.5), floor_m_), 0);
 }
 

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-/// What the processor made of a rig's disparities before the GPU did.
+/// The CPU reference.
 DepthImage converted(const DisparityImage& disparity, const RectifiedStereo& geometry) {
     DepthImage depth_m(disparity.size());
     const auto px_per_step =
@@ -62,7 +62,7 @@ class DepthUploaderTest : public testing::Test {
     DrawnTexture depth_{TextureFormat::r32f};
 };
 
-TEST_F(DepthUploaderTest, GivesTheProcessorsBitsForEveryStep) {
+TEST_F(DepthUploaderTest, MatchesTheCpuBitForBitForEveryDisparity) {
     // 481 columns: half of the geometry's, and rows that are not a multiple of four bytes.
     DisparityImage all(137, 481);
     for (int i = 0; i < all.rows * all.cols; ++i)
@@ -81,14 +81,14 @@ TEST_F(DepthUploaderTest, KeepsTheGeometriesOfSeveralRigsApart) {
             << doffs_px;
 }
 
-TEST_F(DepthUploaderTest, TakesAPartOfALargerMap) {
+TEST_F(DepthUploaderTest, UploadsAPartOfALargerMap) {
     DisparityImage large(40, 50);
     for (int i = 0; i < 2000; ++i) large(i / 50, i % 50) = static_cast<std::uint16_t>(30 * i);
     const DisparityImage part = large(cv::Rect(7, 5, 23, 11));
     EXPECT_EQ(differing(uploaded(part, geometry(0)), converted(part, geometry(0))), 0);
 }
 
-TEST_F(DepthUploaderTest, UploadsMetresAsTheyAre) {
+TEST_F(DepthUploaderTest, UploadsMetresUnchanged) {
     DepthView view;
     view.depth_m = DepthImage(5, 7, 1.25f);
     upload_depth(view, uploader_, depth_);

@@ -17,7 +17,7 @@ RectifiedStereo geometry() {
     return g;
 }
 
-TEST(DisparityScale, AgreesWithTheGeometryAtEveryStep) {
+TEST(DisparityScale, MatchesTheGeometryForEveryDisparity) {
     const DisparityScale scale(geometry(), 62);
     EXPECT_EQ(scale.depth_m(0), 0) << "unknown";
     EXPECT_EQ(scale.depth_m(2 * 32), 0) << "at infinity";
@@ -30,11 +30,11 @@ TEST(DisparityScale, AgreesWithTheGeometryAtEveryStep) {
     }
 }
 
-TEST(DisparityScale, BringsASmallerMapToTheColoursPixels) {
+TEST(DisparityScale, ScalesTheDisparitiesOfASmallerMap) {
     EXPECT_NEAR(DisparityScale(geometry(), 31).depth_m(5 * 32), geometry().depth_m(10), 1e-6);
 }
 
-TEST(DepthViewOf, TakesOverTheFramesGeometryAndSharesItsPicture) {
+TEST(DepthViewOf, HasTheFramesGeometryAndSharesItsPicture) {
     RigFrame frame;
     frame.rig = "north";
     frame.geometry = geometry();

@@ -17,13 +17,13 @@ inline Texture texture_of(TextureFormat format, const cv::Mat& texels,
     return texture;
 }
 
-/// What a pass, in use and with its uniforms set, draws into one texture.
+/// Draws a pass, in use and with its inputs set, into a texture and reads it back.
 inline cv::Mat drawn_by(FullscreenPass& pass, const Texture& target) {
     pass.draw(Framebuffer{&target});
     return target.download();
 }
 
-/// A texel, or the one at the border that is nearest to it.
+/// A texel; outside the border, the nearest one inside.
 template <typename T>
 const T& clamped(const cv::Mat_<T>& texels, int x, int y) {
     return texels(std::clamp(y, 0, texels.rows - 1), std::clamp(x, 0, texels.cols - 1));

@@ -22,7 +22,7 @@ struct Card {
     Eigen::Vector3d across = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitY();
 };
 
-/// Puts it into a rendering, before what is behind it.
+/// Draws a card into a rendering, with occlusion.
 inline void paint(StageRendering& seen, const StageCamera& camera, const Card& card) {
     const Eigen::Vector3d eye = camera.world_from_camera.translation();
     const Eigen::Vector3d normal = card.across.cross(card.up);
@@ -42,7 +42,7 @@ inline void paint(StageRendering& seen, const StageCamera& camera, const Card& c
         }
 }
 
-/// A colour for every cell of a grid, the same for the same cell and seed.
+/// A pseudo-random colour for each cell of a grid.
 inline cv::Vec3b cell_colour(int column, int row, std::uint64_t seed) {
     std::uint64_t h = seed * 0x9e3779b97f4a7c15ull +
                       static_cast<std::uint64_t>(column + 1000) * 73856093u +
@@ -54,7 +54,8 @@ inline cv::Vec3b cell_colour(int column, int row, std::uint64_t seed) {
             static_cast<uchar>(40 + (h >> 32) % 180)};
 }
 
-/// A small rig of the virtual stage that matches what it films, cards and light of the test's own.
+/// A small rig of the virtual stage with real stereo matching, and with cards and light of the
+/// test.
 class PaintedRig {
   public:
     explicit PaintedRig(const ShaderLibrary& library)
@@ -75,7 +76,7 @@ class PaintedRig {
         return {size.width, size.height, calibration_.left.K(), calibration_.world_from_left};
     }
 
-    /// What it sees of the stage at a time, without noise: the same until the next call.
+    /// Renders the stage at a time, without noise; film() uses it until the next call.
     void look(VirtualStage& stage, std::chrono::nanoseconds stage_time,
               const std::vector<Card>& cards = {}) {
         StageCamera right = camera();
@@ -90,7 +91,7 @@ class PaintedRig {
     }
     const StageRendering& seen() const { return seen_left_; }
 
-    /// What its sensors and its matcher make of that; `light`: share of it that is left.
+    /// Adds sensor noise and matches; `light` scales the light.
     DepthView film(double light = 1) {
         ColourImage left = lit(seen_left_.colour, light), right = lit(seen_right_.colour, light);
         add_sensor_noise(left, {.sigma = 1, .seed = 1}, 0, instant_);

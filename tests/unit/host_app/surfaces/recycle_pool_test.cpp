@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// Counts how many of it there are.
+/// Counts its objects.
 struct Counted {
     Counted() { ++made, ++alive; }
     ~Counted() { --alive; }
@@ -24,7 +24,7 @@ class RecyclePoolTest : public testing::Test {
     RecyclePoolTest() { Counted::made = Counted::alive = 0; }
 };
 
-TEST_F(RecyclePoolTest, HandsOutAgainWhatNobodyHoldsAnyMoreAsItIs) {
+TEST_F(RecyclePoolTest, ReusesAFreeObjectWithItsContent) {
     RecyclePool<Counted> pool;
     const std::shared_ptr<Counted> held = pool.take();
     for (int i = 0; i < 10; ++i) {
@@ -36,7 +36,7 @@ TEST_F(RecyclePoolTest, HandsOutAgainWhatNobodyHoldsAnyMoreAsItIs) {
     EXPECT_EQ(Counted::made, 2);
 }
 
-TEST_F(RecyclePoolTest, NeverGivesOneThatSomebodyHolds) {
+TEST_F(RecyclePoolTest, NeverHandsOutAnObjectThatIsHeld) {
     RecyclePool<Counted> pool;
     std::shared_ptr<const Counted> kept = pool.take();
     const std::shared_ptr<const Counted> copy = kept;
@@ -44,7 +44,7 @@ TEST_F(RecyclePoolTest, NeverGivesOneThatSomebodyHolds) {
     EXPECT_NE(pool.take().get(), copy.get());
 }
 
-TEST_F(RecyclePoolTest, TakesThemBackFromAnyThread) {
+TEST_F(RecyclePoolTest, AcceptsObjectsFromAnyThread) {
     RecyclePool<Counted> pool;
     for (int round = 0; round < 50; ++round) {
         std::thread one([held = pool.take()]() mutable { held.reset(); });
@@ -55,7 +55,7 @@ TEST_F(RecyclePoolTest, TakesThemBackFromAnyThread) {
     EXPECT_EQ(Counted::made, 2);
 }
 
-TEST_F(RecyclePoolTest, DestroysWhatItHasAndOutlivedOnesWhenTheyAreLetGo) {
+TEST_F(RecyclePoolTest, DestroysFreeObjectsWithItselfAndHeldOnesWhenReleased) {
     std::optional<RecyclePool<Counted>> pool(std::in_place);
     std::shared_ptr<Counted> longer = pool->take();
     pool->take();

@@ -51,7 +51,7 @@ class RigDemandTest : public testing::Test {
     const MonotonicTime start_ = MonotonicTime{} + 100s;
 };
 
-TEST_F(RigDemandTest, LetsFarRigsGoAfterAWhileAndKeepsTheNearOnes) {
+TEST_F(RigDemandTest, ReleasesFarRigsAfterAWhileAndKeepsNearOnes) {
     EXPECT_TRUE(update(0, 0s).empty());
     EXPECT_TRUE(update(0, 2s).empty());
     const auto changes = update(0, 4s);
@@ -63,7 +63,7 @@ TEST_F(RigDemandTest, LetsFarRigsGoAfterAWhileAndKeepsTheNearOnes) {
     EXPECT_TRUE(update(0, 5s).empty());
 }
 
-TEST_F(RigDemandTest, AsksAtOnceForARigThatBecomesUseful) {
+TEST_F(RigDemandTest, RequestsAUsefulRigAtOnce) {
     update(0, 0s);
     update(0, 4s);
     const auto changes = update(80, 4100ms);
@@ -73,7 +73,7 @@ TEST_F(RigDemandTest, AsksAtOnceForARigThatBecomesUseful) {
     for (const auto& [rig, streaming] : changes) EXPECT_TRUE(streaming) << rig;
 }
 
-TEST_F(RigDemandTest, OfTwoViewsTheRigsOfBothGoOn) {
+TEST_F(RigDemandTest, KeepsTheRigsOfTwoViews) {
     const std::array views{view_at(-80), view_at(80)};
     demand_.update(views, start_);
     std::map<std::string, bool> changes;
@@ -84,7 +84,7 @@ TEST_F(RigDemandTest, OfTwoViewsTheRigsOfBothGoOn) {
     demand_.update(std::array{views[0]}, start_ + 5s);
     for (const auto& change : demand_.update(std::array{views[0]}, start_ + 9s))
         changes[change.rig] = change.streaming;
-    ASSERT_TRUE(changes.contains("80")) << "nobody looks there any more";
+    ASSERT_TRUE(changes.contains("80")) << "no view needs it any more";
     EXPECT_FALSE(changes["80"]);
 }
 

@@ -17,9 +17,8 @@ class RigSurfaceTest : public testing::Test {
     DepthView camera_;
 };
 
-/// Its buffers are as large as its depth map could need: to make them for every instant takes
-/// longer than to fill them.
-TEST_F(RigSurfaceTest, BegunAnewTakesAShapeThatAnotherLetGoOf) {
+/// Buffers are as large as a depth map can need, and slower to allocate than to fill.
+TEST_F(RigSurfaceTest, StartedAgainReusesAReleasedShape) {
     const auto shapes = std::make_shared<RigSurface::Shapes>();
     RigSurface before(shapes), now(shapes);
     begin(before);
@@ -32,7 +31,7 @@ TEST_F(RigSurfaceTest, BegunAnewTakesAShapeThatAnotherLetGoOf) {
     EXPECT_NE(&now.triangles(), let_go);
 }
 
-TEST_F(RigSurfaceTest, BegunAnewLeavesWhatAnotherShowsAlone) {
+TEST_F(RigSurfaceTest, StartedAgainLeavesASharedShapeAlone) {
     RigSurface before, now;
     begin(before);
     now.begin_like(before, SurfaceSamples());

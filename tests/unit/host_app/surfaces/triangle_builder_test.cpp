@@ -23,8 +23,7 @@ class TriangleBuilderTest : public testing::Test {
         DepthView view;
         view.depth_m = depth_m;
         view.colour = ColourImage(depth_m.size());
-        // A step of inverse depth by 8 / 900 that does not go on is an edge; by three times that
-        // any.
+        // A single step of inverse depth by 8 / 900 is an edge, and any step by three times that.
         view.K << 900, 0, 4, 0, 900, 3, 0, 0, 1;
         std::unique_ptr<ColourCorrector> corrector;
         std::unique_ptr<DepthUploader> uploader;
@@ -52,7 +51,7 @@ class TriangleBuilderTest : public testing::Test {
         return (column(t[1]) - column(t[0])) * (row(t[2]) - row(t[0])) -
                (column(t[2]) - column(t[0])) * (row(t[1]) - row(t[0]));
     }
-    /// Twice the area that is covered, if all triangles turn the same way.
+    /// Twice the covered area; all triangles must have the same orientation.
     static int covered(const std::vector<Triangle>& all) {
         int sum = 0;
         for (const Triangle& t : all) {
@@ -73,7 +72,7 @@ class TriangleBuilderTest : public testing::Test {
     RigSurface surface_;
 };
 
-TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) {
+TEST_F(TriangleBuilderTest, SpansASlantedPlaneWhoseStepsWouldBeEdgesAlone) {
     DepthImage slanted(grid_height_px, grid_width_px);
     for (int y = 0; y < grid_height_px; ++y)
         for (int x = 0; x < grid_width_px; ++x)
@@ -89,7 +88,7 @@ TEST_F(TriangleBuilderTest, SpansAPlaneEvenWhereEveryStepWouldBeAnEdgeByItself) 
         }
 }
 
-TEST_F(TriangleBuilderTest, LeavesOutWhatIsSteeperThanAnySurface) {
+TEST_F(TriangleBuilderTest, LeavesOutStepsThatAreSteeperThanAnySurface) {
     DepthImage steep(grid_height_px, grid_width_px);
     for (int y = 0; y < grid_height_px; ++y)
         for (int x = 0; x < grid_width_px; ++x)
@@ -98,7 +97,7 @@ TEST_F(TriangleBuilderTest, LeavesOutWhatIsSteeperThanAnySurface) {
     EXPECT_EQ(covered(built(QuadGrid::fine)), 0);
 }
 
-TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
+TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAroundUnknownPixels) {
     // The near corner takes 4 x 3 pixels: 5 quads are cut, and of a sixth one corner.
     DepthImage corner(grid_height_px, grid_width_px, 4.0f);
     corner(cv::Rect(0, 0, 4, 3)) = 2.0f;
@@ -106,7 +105,8 @@ TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
     const std::vector<Triangle> around = built(QuadGrid::fine);
     EXPECT_EQ(covered(around), 2 * (8 * 6 - 6) + 1);
     for (const Triangle& t : around) EXPECT_FALSE(mixes(corner, t));
-    // A pixel without depth takes a half of each of its four quads away; guessed depth is depth.
+    // A pixel without depth takes a half of each of its four quads away; inpainted depth counts as
+    // depth.
     DepthImage hole(grid_height_px, grid_width_px, -4.0f);
     hole(3, 5) = 0.0f;
     look_at(hole);
@@ -115,8 +115,9 @@ TEST_F(TriangleBuilderTest, CutsBetweenSurfacesAndAtWhatHasNoDepth) {
     for (const Triangle& t : beside) EXPECT_FALSE(mixes(hole, t));
 }
 
-/// A rim's vertices are nine a pixel, its middle the fifth; its triangles are a quarter of a quad.
-TEST_F(TriangleBuilderTest, RimsASurfaceOnTheSideThatIsCut) {
+/// Rims have nine vertices for each pixel, the fifth in its middle; two triangles cover a quarter
+/// of a quad.
+TEST_F(TriangleBuilderTest, BuildsRimsOnTheCutSideOfASurface) {
     DepthImage left(grid_height_px, grid_width_px, 4.0f);
     left.colRange(0, 4) = 2.0f;
     look_at(left);
@@ -130,7 +131,7 @@ TEST_F(TriangleBuilderTest, RimsASurfaceOnTheSideThatIsCut) {
         }
 }
 
-TEST_F(TriangleBuilderTest, RimsAPostOfOnePixelOnBothSides) {
+TEST_F(TriangleBuilderTest, BuildsRimsOnBothSidesOfAPostOfOnePixel) {
     DepthImage post(grid_height_px, grid_width_px, 4.0f);
     post.col(4) = 2.0f;
     look_at(post);
@@ -146,7 +147,7 @@ TEST_F(TriangleBuilderTest, RimsAPostOfOnePixelOnBothSides) {
     }
 }
 
-TEST_F(TriangleBuilderTest, RimsNothingOfAnUnbrokenSurface) {
+TEST_F(TriangleBuilderTest, BuildsNoRimsOnAnUnbrokenSurface) {
     look_at(DepthImage(grid_height_px, grid_width_px, 3.0f));
     EXPECT_TRUE(built_rims().empty());
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host_app/views/projection.h"
 #include "host_app/views/surface_samples.h"
 
 namespace vantage {
@@ -17,7 +18,7 @@ VirtualView camera() {
     return view;
 }
 
-/// As most_useful() takes them.
+/// A view for most_useful().
 class Place {
   public:
     Place(const std::string& name, double x_m, std::vector<Eigen::Vector3d> points_m)
@@ -56,7 +57,7 @@ TEST(Usefulness, CountsPointsInThePictureAndAQuarterOfItBeyond) {
     EXPECT_FALSE(use(0, 0, 0));
 }
 
-TEST(MostUseful, NamesTheBestFirstAndLeavesOutWhatIsOfNoUse) {
+TEST(MostUseful, ReturnsTheBestFirstWithoutUselessViews) {
     const std::vector<Eigen::Vector3d> ahead = {{0, 0, 2}}, behind = {{0, 0, -2}};
     const Place far("far", 3, ahead), near("near", 0.1, ahead), blind("blind", 0, behind),
         middle("middle", -1, ahead), as_near("as near", -0.1, ahead);
@@ -67,13 +68,13 @@ TEST(MostUseful, NamesTheBestFirstAndLeavesOutWhatIsOfNoUse) {
             listed += place->camera().name + ";";
         return listed;
     };
-    // Of two that are equal the one that was named first.
+    // Of two equal views, the earlier one comes first.
     EXPECT_EQ(names(9), "near;as near;middle;far;");
     EXPECT_EQ(names(2), "near;as near;");
     EXPECT_EQ(names(0), "");
 }
 
-TEST(SurfaceSamples, ArePointsOfTheWorldEvenlyOverThePicture) {
+TEST(SurfaceSamples, AreWorldPointsEvenlyOverThePicture) {
     DepthView view;
     view.colour = ColourImage(48, 96);
     view.K << 96, 0, 47.5, 0, 96, 23.5, 0, 0, 1;
@@ -93,6 +94,23 @@ TEST(SurfaceSamples, ArePointsOfTheWorldEvenlyOverThePicture) {
     view.depth_m.setTo(0.0f);
     EXPECT_TRUE(surface_samples(view).points_m.empty());
     EXPECT_EQ(surface_samples(view).median_depth_m, 0);
+}
+
+TEST(Parallax, IsTheMovementByARelativeChangeOfInverseDepth) {
+    DepthView other;
+    other.K = camera().K;
+    other.world_from_camera.translation() = Eigen::Vector3d(0.5, 0.1, -0.2);
+    const Eigen::Matrix4d map = pixel_from_target_pixel(other, camera());
+    const Eigen::Vector2d pixel(30, 60);
+    const auto place = [&](double depth_m) {
+        const Eigen::Vector4d q =
+            map * Eigen::Vector4d(pixel.x() * depth_m, pixel.y() * depth_m, depth_m, 1);
+        return Eigen::Vector2d(q.head<2>() / q.z());
+    };
+    constexpr double change = 1e-6;
+    EXPECT_NEAR(parallax_px(map, pixel, 4), (place(4 / (1 + change)) - place(4)).norm() / change,
+                1e-3);
+    EXPECT_EQ(parallax_px(map, pixel, 0), 0) << "no depth";
 }
 
 }  // namespace

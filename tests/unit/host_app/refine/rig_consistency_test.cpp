@@ -2,36 +2,36 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/views/tolerances.h"
 #include "tests/unit/host_app/surfaces/drawn_by.h"
 
 namespace vantage {
 namespace {
 
-constexpr int agreement_width_px = 61, agreement_height_px = 43;
-constexpr float exact = 0.01f, same_place = 0.05f;
+constexpr int consistency_width_px = 61, consistency_height_px = 43;
+constexpr float exact = 0.01f;
 
-struct Agreement {
+struct Consistency {
     float is_exact = 0, is_through = 0, is_in_picture = 0, is_same = 0;
 };
 
-/// Two rigs beside one: cameras that look the same way from elsewhere. Their pixel is this one's,
-/// moved by the inverse depth.
-class RigAgreementTest : public testing::Test {
+/// A rig and two others that look in the same direction from other places, so that a pixel moves in
+/// proportion to its inverse depth.
+class RigConsistencyTest : public testing::Test {
   protected:
     struct Other {
         cv::Mat1f depth_m;
         float x = 0, y = 0, z = 0;  ///< f * where this rig is from there, px * m; z in m
     };
 
-    RigAgreementTest() {
-        others_[0] = {cv::Mat1f(agreement_height_px, agreement_width_px), 31.3f, 7.7f, 0.02f};
+    RigConsistencyTest() {
+        others_[0] = {cv::Mat1f(consistency_height_px, consistency_width_px), 31.3f, 7.7f, 0.02f};
         others_[1] = {cv::Mat1f(39, 57), -23.9f, -5.1f, -0.03f};
         cv::RNG random(11);
-        // About one surface, with pixels that are a little off, far off, or unknown.
+        // Mostly one surface, with patches that are a little off, far off, or unknown.
         const auto fill = [&](cv::Mat1f& map) {
             for (int v = 0; v < map.rows; ++v)
                 for (int u = 0; u < map.cols; ++u) {
@@ -45,8 +45,8 @@ class RigAgreementTest : public testing::Test {
         fill(own_);
         for (Other& other : others_) fill(other.depth_m);
     }
-    /// False: where the place lies among the other's pixels is a matter of rounding.
-    bool look(const Other& other, int u, int v, Agreement& found) const {
+    /// Compares with one other rig; false if rounding decides between which pixels the place lies.
+    bool look(const Other& other, int u, int v, Consistency& found) const {
         const float z = own_(v, u), qz = z + other.z;
         const float x = (static_cast<float>(u) * z + other.x) / qz;
         const float y = (static_cast<float>(v) * z + other.y) / qz;
@@ -69,39 +69,37 @@ class RigAgreementTest : public testing::Test {
             most = std::max(most, off);
         }
         const float away = std::max({least, -most, 0.0f});
-        if (away < same_place) found.is_same = 1;
+        if (away < same_place_share) found.is_same = 1;
         if (away <= exact) found.is_exact = 1;
-        if (least > same_place) found.is_through = 1;
+        if (least > same_place_share) found.is_through = 1;
         return true;
     }
 
     EglContext context_;
     ShaderLibrary shaders_;
-    cv::Mat1f own_ = cv::Mat1f(agreement_height_px, agreement_width_px);
+    cv::Mat1f own_ = cv::Mat1f(consistency_height_px, consistency_width_px);
     std::array<Other, 2> others_;
 };
 
-TEST_F(RigAgreementTest, IsTheReferences) {
-    FullscreenPass pass(shaders_, "rig_agreement.frag", {{"OTHERS", "2"}});
+TEST_F(RigConsistencyTest, MatchesTheReference) {
+    FullscreenPass pass(shaders_, "rig_consistency.frag", {{"OTHERS", "2"}});
     const Texture depth = texture_of(TextureFormat::r32f, own_);
     const std::array maps{texture_of(TextureFormat::r32f, others_[0].depth_m),
                           texture_of(TextureFormat::r32f, others_[1].depth_m)};
-    const cv::Size half((agreement_width_px + 1) / 2, (agreement_height_px + 1) / 2);
+    const cv::Size half((consistency_width_px + 1) / 2, (consistency_height_px + 1) / 2);
     const Texture target(TextureFormat::rgba16f, half.width, half.height);
     Program& program = pass.use();
-    program.set("depth_map", 0);
+    program.input("depth_map", depth);
     program.set("exact", exact);
-    depth.bind(0);
-    for (int i = 0; i < 2; ++i) {
-        const Other& other = others_[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Other& other = others_[i];
         Eigen::Matrix4f moved = Eigen::Matrix4f::Identity();
         moved.col(3) = Eigen::Vector4f(other.x, other.y, other.z, 1);
-        program.set(fmt::format("other_depth[{}]", i), 1 + i);
-        program.set(fmt::format("other_from_pixel[{}]", i), moved);
-        program.set(fmt::format("other_size[{}]", i),
+        program.input("other_depth", i, maps[i]);
+        program.set("other_from_pixel", i, moved);
+        program.set("other_size", i,
                     Eigen::Vector2f(static_cast<float>(other.depth_m.cols),
                                     static_cast<float>(other.depth_m.rows)));
-        maps[static_cast<std::size_t>(i)].bind(1 + i);
     }
     cv::Mat4f drawn;
     drawn_by(pass, target).convertTo(drawn, CV_32F);
@@ -110,9 +108,9 @@ TEST_F(RigAgreementTest, IsTheReferences) {
     int judged = 0;
     for (int y = 0; y < half.height; ++y)
         for (int x = 0; x < half.width; ++x) {
-            const int u = std::min(2 * x, agreement_width_px - 1),
-                      v = std::min(2 * y, agreement_height_px - 1);
-            Agreement found;
+            const int u = std::min(2 * x, consistency_width_px - 1),
+                      v = std::min(2 * y, consistency_height_px - 1);
+            Consistency found;
             if (own_(v, u) > 0) {
                 const bool first = look(others_[0], u, v, found);
                 if (!look(others_[1], u, v, found) || !first) continue;
@@ -125,7 +123,7 @@ TEST_F(RigAgreementTest, IsTheReferences) {
             for (int c = 0; c < 4; ++c) seen[c] += expected[c] > 0 ? 1 : 0;
         }
     EXPECT_GT(judged, half.area() * 3 / 4);
-    // Every answer was given, and not everywhere.
+    // Every result occurs, and not everywhere.
     for (int c = 0; c < 4; ++c) {
         EXPECT_GT(seen[c], judged / 50) << c;
         EXPECT_LT(seen[c], judged) << c;
