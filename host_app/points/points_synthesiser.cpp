@@ -7,7 +7,7 @@
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/vertex_array.h"
-#include "host_app/pipeline/plain_preparer.h"
+#include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_ranking.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
@@ -15,8 +15,8 @@
 namespace vantage {
 namespace {
 
-/// Every pixel of every rig as a splat, nothing cut, blended or filled: what the depth maps say,
-/// for inspection.
+/// Draws every pixel of every rig as a splat and cuts, blends and fills nothing, so that the depth
+/// maps can be inspected.
 class PointsRenderer final : public ViewRenderer {
   public:
     explicit PointsRenderer(const ShaderLibrary& library)

@@ -31,7 +31,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.loops = state.time.loops;
     lamps.take = take && take->phase == TakePhase::recording;
     lamps.set = -1;
-    for (const RigBackgroundState& set : show.instant_stats().sets)
+    for (const RigBackgroundState& set : show.instant_stats().backgrounds)
         lamps.set = lamps.set < 0 ? set.known : std::min(lamps.set, set.known);
     lamps.saved_background = saved_background;
     const Tally::State tally = tally_.state();

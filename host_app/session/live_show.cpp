@@ -101,7 +101,7 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
                  .compensate_gains = settings.compensate_gains,
                  .colours = settings.colours,
                  .take = settings.take,
-                 .set = settings.set},
+                 .background = settings.set},
                 std::move(feed), contexts_),
       stage_corridor_(static_cast<double>(settings.format.height_px) / settings.format.width_px),
       controls_(
@@ -267,7 +267,7 @@ LiveReport LiveShow::report() const {
                            count_of(instants.superseded.frames, rig.rig)};
         if (const auto gain_compensation = instants.gain_compensation.find(rig.rig); gain_compensation != instants.gain_compensation.end())
             account.gain_compensation = gain_compensation->second;
-        for (const RigBackgroundState& set : instants.sets)
+        for (const RigBackgroundState& set : instants.backgrounds)
             if (set.rig == rig.rig) account.set = set;
         report.rigs.push_back(std::move(account));
     }

@@ -73,6 +73,9 @@ void main() {
     vec2 own = texelFetch(judged, at, 0).rg;
     adopted = own.r;
     if (own.g != 0.0) return;
+#ifdef WITHOUT_ADOPTION  // tests/bench/step_worth.py
+    return;
+#endif
     vec2 pixel = vec2(at);
     look_around(pixel);
     float so_far = own.r > 0.0 ? cost_at(pixel, own.r) : unseen;

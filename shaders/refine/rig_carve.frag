@@ -97,12 +97,14 @@ void main() {
     bool errs = share.g > faulty * share.b;
     float support = 0.0, through = 0.0, looks = 0.0;
     if (z > 0.0) {
-#if MOVES
+#if MOVES && !defined(WITHOUT_MOVING)  // tests/bench/step_worth.py
         if (doubts) z = moved(at, z, share);
 #endif
 #define EXAMINE(i) examine(i, other_depth[i], other_colour[i], vec2(at), z, support, through, looks);
         FOR_OTHERS(EXAMINE)
+#ifndef WITHOUT_CARVING  // tests/bench/step_worth.py
         if (through > support) z = 0.0;
+#endif
     }
 #if MOVES
     bool is_kept = doubts ? !errs || (z > 0.0 && looks == 0.0) : z > 0.0;

@@ -70,6 +70,9 @@ void main() {
     with_floor = own;
     const float horizon = 1e-3;
     if (own <= 0.0 || nearness < horizon) return;
+#ifdef WITHOUT_FLOOR  // tests/bench/step_worth.py
+    return;
+#endif
     look_around(pixel);
     float on_floor = cost_on(pixel, floor_plane);
     if (on_floor > alike && abs(nearness - 1.0 / own) > near * spread) return;

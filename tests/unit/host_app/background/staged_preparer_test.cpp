@@ -211,7 +211,7 @@ TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
     other_place.take({&moved, 1}, 0.2);
     RigBackgroundState state = other_place.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
-    EXPECT_NE(state.misfit.find("another calibration or picture size of rig only"),
+    EXPECT_NE(state.misfit.find("another calibration or image size of rig only"),
               std::string::npos)
         << state.misfit;
     EXPECT_EQ(state.known, 0);
@@ -223,7 +223,7 @@ TEST_F(StagedPreparerTest, SaysWhyALearntSetDoesNotFit) {
     other_rig.take({&view, 1}, 0.2);
     state = other_rig.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
-    EXPECT_NE(state.misfit.find("has none of rig only"), std::string::npos) << state.misfit;
+    EXPECT_NE(state.misfit.find("has no rig only"), std::string::npos) << state.misfit;
 }
 
 /// A square that stood there from the start is no part of a set that is learnt without it, nor does
