@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-/// Of one instant nothing is told: a matte is empty, whatever stands there.
-constexpr int told_from_instants = 2;
+/// Instants from which on a rig's matte is used: after the first one it is always empty.
+constexpr int min_learnt_instants = 2;
 constexpr int block_px = 4;  // as in foreground_blocks.glsl
 
 VirtualView depth_camera(const RigHistory& rig) {
@@ -22,7 +22,7 @@ std::vector<const RigHistory*> ForegroundDepth::others_of(const RigHistory& rig,
                                                           std::span<RigHistory* const> all) {
     std::vector<const RigHistory*> others;
     for (const RigHistory* other : most_useful(all, depth_camera(rig), max_others + 1))
-        if (other != &rig && other->learnt_instants() >= told_from_instants &&
+        if (other != &rig && other->learnt_instants() >= min_learnt_instants &&
             others.size() < max_others)
             others.push_back(other);
     return others;

@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// Finds the depth of what stands before a rig's set.
+/// Computes the depth of a rig's foreground. Belongs to one context.
 class ForegroundDepth {
   public:
     explicit ForegroundDepth(const ShaderLibrary& library)
@@ -20,28 +20,28 @@ class ForegroundDepth {
         }
     }
 
-    /// Draws the rig's, r32f of its depth map's size: metres, 0 = none, negative beyond its matte.
-    /// `all`, of this instant, may hold the rig itself. Precondition: a SetLearner has learnt of
-    /// all of them.
+    /// Draws the rig's foreground depth, r32f in the size of its depth map: metres, 0 = none,
+    /// negative outside the matte. `all` are the rigs of this instant and may include the rig
+    /// itself. Precondition: a BackgroundModel has learnt all of them.
     void find(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
-    /// The same, bettered by the other rigs. Precondition: their performer_depth() was found, and
-    /// the rig's.
+    /// Draws the same, refined by the other rigs. Precondition: the foreground_depth() of all of
+    /// them was computed.
     void better(const RigHistory& rig, std::span<RigHistory* const> all, const Framebuffer& found);
 
   private:
     static constexpr std::size_t max_others = MultiViewRefinement::max_others;
 
-    /// Those whose silhouettes are looked at.
+    /// Returns the rigs whose silhouettes are compared.
     static std::vector<const RigHistory*> others_of(const RigHistory& rig,
                                                     std::span<RigHistory* const> all);
     /// Gives the program the mattes and backgrounds of the other rigs.
     static void set_others(Program& program, const RigHistory& rig,
                            std::span<const RigHistory* const> others);
     void carve(const RigHistory& rig, std::span<const RigHistory* const> others);
-    /// For the holes in what is left that are too wide for their edges.
+    /// Computes depth for holes that are too wide to be filled from their edges.
     const Texture& look_far(const RigHistory& rig, std::span<const RigHistory* const> others);
-    /// Fills and smooths. `far_m`: of look_far(), or null.
+    /// Fills holes and smooths. `far_m` is the result of look_far(), or null.
     void close(const Texture& depth_m, const Texture* far_m, const RigHistory& rig,
                const Framebuffer& closed);
 

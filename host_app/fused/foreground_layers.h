@@ -8,15 +8,16 @@
 
 namespace vantage {
 
-/// Puts the performers of rigs before the set in a virtual view. Where they end their mattes say.
+/// Composites the rigs' foreground over the background in a virtual view. The mattes decide where
+/// the foreground ends. Belongs to one context.
 class ForegroundLayers {
   public:
     explicit ForegroundLayers(const ShaderLibrary& library);
 
-    /// `picture` and `depth_m` are the set's, of the target's size; `shares` are the rigs' in it,
-    /// or null where they are not noted. `performers`, of the same rigs in the same order, are what
-    /// InstantRig::boundary says. `is_plain`: at less cost, no sharper than bilinear. The result is
-    /// valid until the next call.
+    /// `picture` and `depth_m` are the background's, in the target's size; `shares` are the rigs'
+    /// shares in it, or null if they are not recorded. `performers` are the boundary layers
+    /// (InstantRig::boundary) of the same rigs in the same order. `is_plain` costs less and is no
+    /// sharper than bilinear sampling. The result is valid until the next call.
     const DepthPicture& show(const Texture& picture, const Texture& depth_m, const Texture* shares,
                              std::span<const DrawnLayer> performers, const VirtualView& target,
                              bool is_plain);

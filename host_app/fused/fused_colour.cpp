@@ -5,9 +5,9 @@
 namespace vantage {
 namespace {
 
-/// Depths that differ by more than this ratio lie on two surfaces.
+/// Ratio of two depths from which on they lie on two surfaces.
 constexpr float edge_ratio = 1.03f;
-/// The kinds of pixels, as depths; below the first are those that are done.
+/// The kinds of pixels, stored as depths for the depth test; finished pixels lie below the first.
 constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
 const char* const fragment = "fused_colour.frag";
@@ -60,8 +60,8 @@ void FusedColour::draw(const RigLayers& layers, const Texture& fused_depth,
     };
     into.clear();
     ready(edges_).draw_where(into.target(), GL_LESS, 0.5f * (empty_kind + edge_kind), false);
-    // What the first pass leaves out keeps its kind, what it draws is moved out of the second's
-    // way.
+    // Pixels that the first pass discards keep their kind; those that it draws are moved below the
+    // second pass's threshold.
     const float done = 0.5f * (inner_kind + empty_kind), left = 0.5f * (inner_kind + done);
     if (layers.used().size() > 2)
         ready(first_rigs_).draw_where(into.target(), GL_GREATER, done, true);

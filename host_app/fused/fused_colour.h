@@ -7,23 +7,23 @@
 
 namespace vantage {
 
-/// Colours the surface that was found for every pixel of a virtual view, no pixel by more work than
-/// it takes: most lie within a surface that the two most useful rigs see well, and are done with
-/// these; then come those that other rigs have a say in, and those beside depth edges, where all
-/// rigs are asked about two surfaces.
+/// Colours the fused surface of a virtual view in three passes, so that no pixel costs more than it
+/// needs. Most pixels lie inside a surface that the two most useful rigs see well; others also
+/// sample the other rigs; pixels beside depth edges compare two surfaces in all rigs. Belongs to
+/// one context.
 class FusedColour {
   public:
     explicit FusedColour(const ShaderLibrary& library);
 
-    /// To be called before draw(): tells the pixels of the found surface (r32f, metres, 0 =
-    /// nothing, negative = guessed) apart. The depth texture that the picture is to be drawn with.
+    /// Classifies the pixels of the fused surface (r32f, metres, 0 = nothing, negative =
+    /// inpainted). Call it before draw(). Returns the depth texture that draw()'s target must have.
     const Texture& sort(const Texture& fused_depth);
 
-    /// The picture at little cost, with hard depth edges; needs no sort().
+    /// Draws the image at low cost, with hard depth edges; needs no sort().
     void draw_plainly(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,
                       bool notes_origins);
 
-    /// Draws the picture; its target has what sort() returned.
+    /// Draws the image. The target's depth texture is the one that sort() returned.
     void draw(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,
               bool notes_origins);
 

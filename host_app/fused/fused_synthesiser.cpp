@@ -14,12 +14,9 @@
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
-constexpr float softness = 0.005f;
-
-/// The best that is done live: of rigs' surfaces that were bettered by each other, those that they
-/// agree on are found for every pixel, each rig that sees a surface gives its colour to it, and
-/// close to depth edges the rigs' colours decide which surface it is.
+/// The product's synthesiser. It fuses the rigs' refined surfaces for every pixel by a consistency
+/// check, blends the colours of the rigs that see the surface, and lets the rigs' colours decide
+/// between two surfaces beside depth edges.
 class FusedRenderer final : public ViewRenderer {
   public:
     explicit FusedRenderer(const ShaderLibrary& library)
@@ -74,7 +71,7 @@ class FusedRenderer final : public ViewRenderer {
         const RigLayers& layers = blender_.layers();
         depth_pass_[layers.used().size() - 1].draw(fused_depth_.target(), [&](Program& program) {
             layers.bind(program);
-            program.set("softness", softness);
+            program.set("softness", same_surface_share);
         });
     }
 
@@ -91,10 +88,11 @@ class FusedRenderer final : public ViewRenderer {
 }  // namespace
 
 SynthesiserEntry fused_synthesiser_entry() {
-    return {"fused",
-            "per-pixel visibility in all rigs, soft depth edges, colours trusted by their place",
-            [](const ShaderLibrary& library) { return std::make_unique<StagedPreparer>(library); },
-            [](const ShaderLibrary& library) { return std::make_unique<FusedRenderer>(library); }};
+    return {
+        "fused",
+        "per-pixel visibility in all rigs, soft depth edges, background apart from the foreground",
+        [](const ShaderLibrary& library) { return std::make_unique<StagedPreparer>(library); },
+        [](const ShaderLibrary& library) { return std::make_unique<FusedRenderer>(library); }};
 }
 
 }  // namespace vantage

@@ -11,19 +11,20 @@
 namespace vantage {
 namespace {
 
-/// Between two models of a set at the best level, and between two works of improve().
+/// Least time between two background models of a rig at the best level, and between two
+/// refinements.
 constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
-/// Before improve() makes a rig's best model anew: first, then twice as long each time, for what
-/// stands still is soon known as well as it will be. What has changed since a model is not of it.
+/// Time before a rig's best model is refined again: the first time, and doubled each time up to the
+/// longest, since a background that stands still is soon known as well as it can be.
 constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
-/// Before the sets are matched, from when they are learnt; and between two matches: first, then
-/// twice as long each time, for what is found in a set that stands still hardly changes.
+/// Time from the first learning to background stereo, and between two runs of it: the first time,
+/// and doubled each time up to the longest, since results for a still background hardly change.
 constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
-/// For so long the cheapest levels keep the shape of a known set, colours change every instant.
+/// Time for which the cheapest levels keep a known background's shape; colours are always new.
 constexpr double shape_kept_s = 1;
-/// Instants, before which there is nothing to remember.
+/// Instants that must be learnt before hidden parts of the background are remembered.
 constexpr int remembered_from = 3;
-/// Between two looks at how much of the sets is known, and at the mattes.
+/// Time between two status updates of the backgrounds and the mattes.
 constexpr double look_period_s = 1;
 
 }  // namespace
@@ -54,13 +55,13 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
 }
 
 void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView& target) {
-    // So many that there is something to remember, and time to better the set.
+    // Enough instants to remember a background, with enough time between them to refine it.
     match_anew(std::numeric_limits<double>::infinity());
     for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
     (void)prepare(target, best_of_one);
-    // A set that is matched is bettered in another way.
+    // Refinement of a matched background uses other shaders.
     for (RigHistory* rig : uploaded_) {
         const DepthImage none(rig->depth().size(), 0.0f);
         rig->set_background_match(none, none, ColourImage(none.size()));
@@ -85,7 +86,7 @@ void StagedPreparer::learn(std::span<RigHistory* const> rigs) {
         if (holds(learnt_) || !holds(uploaded_)) continue;
         sets_.learn(*rig);
         learnt_.push_back(rig);
-        // Performers are carved by all that have learnt.
+        // The foreground's depth depends on all rigs whose background is learnt.
         has_depths_.clear();
     }
 }
@@ -109,12 +110,14 @@ void StagedPreparer::begin_with_learnt(RigHistory& rig) {
                                     [&](const RigBackground& set) { return set.rig == name; });
     std::string misfit;
     if (found == begins_with_->rigs.end())
-        misfit = fmt::format("the set that was loaded has none of rig {}: it is learnt anew", name);
+        misfit = fmt::format(
+            "the loaded background has no rig {}: that rig's background is learnt anew", name);
     else if (found->calibration !=
              calibration_of(rig.camera(), rig.fresh_colour().size(), rig.depth().size()))
         misfit = fmt::format(
-            "the set that was loaded was learnt with another calibration or picture size of rig "
-            "{}: it is learnt anew",
+            "the loaded background was learnt with another calibration or image size of rig {}: "
+            "that "
+            "rig's background is learnt anew",
             name);
     else
         BackgroundModel::restore(rig, *found);
@@ -217,7 +220,7 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
         rig->set_background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
         if (!rig->model()) continue;
-        // As soon as there is time.
+        // The model is due as soon as there is time.
         RigHistory::Model model = *rig->model();
         model.rest_s = 0;
         rig->set_background_model(model);
@@ -309,7 +312,7 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
         triangles_.build_rims(surface);
     }
     surface.set_has_fine_grid(level.has_fine_grid);
-    // What is not known yet comes to light instant by instant.
+    // A background that is not known yet grows with every instant.
     const bool is_kept = !level.is_refined && rig.model()->rank == 0;
     rig.set_shape_made_s(is_kept ? std::optional(now_s_) : std::nullopt);
 }
@@ -385,7 +388,7 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
 
 void StagedPreparer::begin_refining(const VirtualView& target) {
     if (now_s_ - improved_s_ < improvement_period_s) return;
-    // Of those that are looked at the one whose model is due for longest.
+    // The rig in view whose model has been due for longest.
     const auto due_s = [](const RigHistory& rig) {
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
     };

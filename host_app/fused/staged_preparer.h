@@ -21,8 +21,8 @@
 
 namespace vantage {
 
-/// Takes a stage for two things: a set, which is learnt along time, bettered by all rigs and kept,
-/// and performers before it, who are cut out of every instant with a matte.
+/// The product's preparer. It separates the stage into a background, which is learnt over time,
+/// refined by all rigs and kept, and a foreground, which a matte cuts out of every instant.
 class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
   public:
     explicit StagedPreparer(const ShaderLibrary& library);
@@ -44,52 +44,52 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     Background learnt() const override;
     std::vector<RigBackgroundState> states() const override { return states_; }
 
-    /// The sets of those rigs of the newest instant of which it was not done yet.
+    /// Learns the backgrounds of those of the newest instant's rigs that were not learnt yet.
     void learn(std::span<RigHistory* const> rigs);
-    /// Of the newest instant, at levels that do not need all: those that were prepared last, and of
-    /// the others the one whose set was learnt longest ago.
+    /// Returns the newest instant's rigs whose background is learnt at levels that do not need all:
+    /// those that were prepared last, and the one that was learnt longest ago.
     std::vector<RigHistory*> rigs_in_turn() const;
-    /// A rig without a past begins with what was loaded of it, if that fits.
+    /// Lets a rig without a past begin with the loaded background if it fits.
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
-    /// A model that is made a step at a time, between instants.
+    /// A background model that is refined in steps between instants.
     struct Refining {
         struct Rig {
             RigHistory* rig = nullptr;
             cv::Size colour, depth;
             bool is_matched = false;
         };
-        std::vector<Rig> rigs;  ///< that it needs, of these sizes
+        std::vector<Rig> rigs;  ///< the rigs it needs, with their sizes
         std::deque<MultiViewRefinement::Step> steps;
     };
     void begin_refining(const VirtualView& target);
-    /// Whether all that it needs is still as it was.
+    /// Whether all rigs that it needs are unchanged.
     bool is_under_way(const Refining& refining) const;
-    /// What make_model() does. The rigs must stay what they are until the last step.
-    std::deque<MultiViewRefinement::Step> model_in_steps(RigHistory& rig, const PrepareLevel& level);
-    /// Makes the model of the rig's set anew.
+    /// The steps of make_model(). The rigs must not change until the last step.
+    std::deque<MultiViewRefinement::Step> model_in_steps(RigHistory& rig,
+                                                         const PrepareLevel& level);
+    /// Makes the rig's background model anew.
     void make_model(RigHistory& rig, const PrepareLevel& level);
-    /// The depth of the rig's set as the other rigs better it.
+    /// Returns the rig's background depth, refined by the other rigs.
     const Texture& refined_background(RigHistory& rig);
-    /// Sets that are to be matched against each other: read back rig by rig, matched, and taken
-    /// over.
+    /// A run of background stereo: the rigs' backgrounds are read back one by one, matched against
+    /// each other on another thread, and taken over.
     struct Matched {
         std::vector<RigHistory*> rigs;
-        std::vector<BackgroundView> sets;       ///< of the first of them
+        std::vector<BackgroundView> sets;   ///< read back so far
         std::vector<cv::Size> depth_sizes;  ///< likewise
     };
-    /// A step of that, if it is time. True: more of them is left to be read back.
+    /// Does a step of background stereo if one is due. Returns true if more is left to read back.
     bool match_a_step(BackgroundStereoTask::Manner manner);
-    /// As without `manner`, in which sets are matched.
+    /// improve_a_step() with the manner in which background stereo runs.
     bool improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
     void take_match(std::span<const DepthImage> depths_m);
-    /// What is under way is of no use any more; the next one begins then, on now_s_'s clock.
+    /// Discards the run in progress. The next one begins at `due_s` on now_s_'s clock.
     void match_anew(double due_s);
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
-    /// Whether at this level the shape of the rig's set is not made anew for every instant, and
-    /// that of the last one will do.
+    /// Whether the background's shape of the last instant is reused at this level.
     bool has_shape(const RigHistory& rig, const PrepareLevel& level) const;
     void make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                     const PrepareLevel& level);
@@ -98,11 +98,11 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     RecyclePool<RigSurface> surfaces_;
     std::shared_ptr<RigSurface::Shapes> shapes_ = std::make_shared<RigSurface::Shapes>();
     RigRoster rigs_;
-    std::vector<RigHistory*> uploaded_;    ///< those of the newest instant
-    std::vector<RigHistory*> learnt_;      ///< of them: whose sets were learnt
-    std::set<RigHistory*> has_depths_;     ///< of them: whose performers were found
-    PrepareLevel level_;                   ///< of the last instant that was prepared
-    std::set<RigHistory*> prepared_rigs_;  ///< for it
+    std::vector<RigHistory*> uploaded_;    ///< the newest instant's rigs
+    std::vector<RigHistory*> learnt_;      ///< those of them whose background was learnt
+    std::set<RigHistory*> has_depths_;     ///< those whose foreground depth was computed
+    PrepareLevel level_;                   ///< of the last prepared instant
+    std::set<RigHistory*> prepared_rigs_;  ///< for that instant
     std::optional<Refining> refinement_pass_;
     std::optional<Matched> matched_;
     BackgroundStereoTask matching_;
@@ -115,12 +115,13 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     TriangleBuilder triangles_;
     FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
-    /// The next instant is shown as soon as can be: rigs that it does not show are left for later.
+    /// The next instant is shown as early as possible: rigs that it does not show are learnt later.
     bool is_after_cut_ = false;
-    double now_s_ = 0;  ///< instants' time since the first one
+    double now_s_ = 0;  ///< time of the newest instant since the first one
     double improved_s_ = 0;
     std::shared_ptr<const Background> begins_with_;
-    std::map<std::string, std::string> misfits_;  ///< by rig that begins_with_ was tried for
+    std::map<std::string, std::string>
+        misfits_;  ///< why the loaded background does not fit, by rig
     std::vector<RigBackgroundState> states_;
     double looked_s_ = 0;
 };

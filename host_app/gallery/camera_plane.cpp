@@ -10,16 +10,16 @@
 namespace vantage {
 namespace {
 
-/// Cameras look within this angle of their mean.
-constexpr double widest_rad = 70 * std::numbers::pi / 180;
-/// Share of the array's width that its cameras may stand before or behind their plane.
-constexpr double least_flat = 0.35;
-/// Share of the array's width below which a height is a row's unevenness.
-constexpr double least_height = 0.05;
-/// Share of the mean distance of columns below which two cameras stand in one.
+/// Largest angle of a camera to the mean line of sight.
+constexpr double max_angle_rad = 70 * std::numbers::pi / 180;
+/// Largest extent of the cameras along the line of sight, relative to the array's width.
+constexpr double max_depth_share = 0.35;
+/// Height relative to the width below which an array counts as an uneven row.
+constexpr double min_height_share = 0.05;
+/// Distance relative to the mean column distance below which two cameras share a column.
 constexpr double same_column = 0.3;
 
-/// Sorted middles of the columns (or rows) that places along one direction form.
+/// Returns the sorted centres of the columns (or rows) that places along one direction form.
 std::vector<double> columns_of(std::vector<double> places, std::size_t cameras) {
     std::sort(places.begin(), places.end());
     const double extent = places.back() - places.front();
@@ -37,14 +37,14 @@ std::vector<double> columns_of(std::vector<double> places, std::size_t cameras) 
     return middles;
 }
 
-/// To the columns before and after the one that `place` stands in.
+/// Returns the distances to the columns before and after the one that `place` is in.
 std::pair<double, double> reach(const std::vector<double>& columns, double place) {
     const auto nearest = std::min_element(columns.begin(), columns.end(), [&](double a, double b) {
         return std::abs(a - place) < std::abs(b - place);
     });
     const double before = nearest == columns.begin() ? 0 : place - *(nearest - 1);
     const double after = nearest + 1 == columns.end() ? 0 : *(nearest + 1) - place;
-    // At the rim a camera reaches as far out as in.
+    // A camera at the border reaches as far outward as inward.
     return {before > 0 ? before : after, after > 0 ? after : before};
 }
 
@@ -54,8 +54,8 @@ CameraPlane camera_plane(const std::vector<Pose>& poses) {
     CameraPlane plane;
     if (poses.size() < 2) {
         plane.refusal = fmt::format(
-            "a light field is made of two cameras or more in a row or a grid, not of {}: give a "
-            "view set of more views",
+            "a light field needs at least two cameras in a row or a grid, not {}: give a view set "
+            "with more views",
             poses.size());
         return plane;
     }
@@ -68,19 +68,19 @@ CameraPlane camera_plane(const std::vector<Pose>& poses) {
     }
     const auto refuse = [&](const std::string& what) {
         plane.refusal = fmt::format(
-            "a light field's cameras stand in one plane and look the same way; of these {} {}: "
+            "a light field's cameras must lie in one plane and face the same way; of these {} {}: "
             "choose views of a row or a grid",
             poses.size(), what);
         return plane;
     };
-    if (ahead.norm() < 1e-6) return refuse("some look against others");
+    if (ahead.norm() < 1e-6) return refuse("some face opposite directions");
     ahead.normalize();
     for (const Pose& pose : poses)
         if (const double angle = std::acos(std::clamp(pose.linear().col(2).dot(ahead), -1.0, 1.0));
-            angle > widest_rad)
-            return refuse(
-                fmt::format("one looks {:.0f} degrees aside of their mean, more than {:.0f}",
-                            angle * 180 / std::numbers::pi, widest_rad * 180 / std::numbers::pi));
+            angle > max_angle_rad)
+            return refuse(fmt::format(
+                "one faces {:.0f} degrees away from their mean direction, more than {:.0f}",
+                angle * 180 / std::numbers::pi, max_angle_rad * 180 / std::numbers::pi));
     // Columns along the cameras' own right, however the array is stretched.
     Eigen::Vector3d across = down.cross(ahead).normalized();
     plane.world_from_plane.linear() << across, ahead.cross(across), ahead;
@@ -99,12 +99,12 @@ CameraPlane camera_plane(const std::vector<Pose>& poses) {
         return *most - *least;
     };
     const double width = std::max(extent(x_m), extent(y_m));
-    if (width < 1e-9) return refuse("all stand at one place");
-    if (extent(z_m) > least_flat * width)
-        return refuse(fmt::format("some stand {:.2f} m before others, with a width of {:.2f} m",
+    if (width < 1e-9) return refuse("all are at one place");
+    if (extent(z_m) > max_depth_share * width)
+        return refuse(fmt::format("some are {:.2f} m in front of others, with a width of {:.2f} m",
                                   extent(z_m), width));
-    const bool has_width = extent(x_m) > least_height * width,
-               has_height = extent(y_m) > least_height * width;
+    const bool has_width = extent(x_m) > min_height_share * width,
+               has_height = extent(y_m) > min_height_share * width;
     plane.is_row = !(has_width && has_height);
     // In a row every camera is a column of its own.
     const std::size_t of = plane.is_row ? poses.size() * poses.size() : poses.size();

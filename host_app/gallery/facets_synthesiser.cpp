@@ -14,10 +14,11 @@
 namespace vantage {
 namespace {
 
-/// Facets of two rigs that are nearer to each other than this share of their depth are of one
-/// surface: two voxels of two pixels apart.
+/// Relative depth difference up to which the facets of two rigs count as one surface: about two
+/// voxels of two pixels.
 constexpr float softness = 0.01f;
-/// Half a voxel's diagonal, before and behind which a facet is clipped.
+/// Half a voxel's diagonal, in voxel sides: depth beyond it in front of or behind a facet is
+/// clipped.
 constexpr double half_diagonal = 0.87;
 
 /// Microfacet billboarding (Yamazaki, Sagawa, Kawasaki, Ikeuchi, Sakauchi, "Microfacet
@@ -101,7 +102,8 @@ class FacetRenderer final : public ViewRenderer {
 SynthesiserEntry facets_synthesiser_entry() {
     return {
         .name = "facets",
-        .summary = "a small square a voxel, facing the camera, textures clipped by depth",
+        .summary =
+            "one small square for each voxel, facing the camera, its texture clipped by depth",
         .make_preparer =
             [](const ShaderLibrary& library) { return std::make_unique<PlainPreparer>(library); },
         .make_renderer = {},

@@ -3,7 +3,7 @@
 namespace vantage {
 namespace {
 
-/// Instants before which nothing is known of a set.
+/// Instants that a rig must have learnt before its background counts as known.
 constexpr int known_from = 3;
 
 }  // namespace
@@ -15,8 +15,8 @@ void ForegroundPreparer::copy(const Texture& source, const Framebuffer& target) 
 }
 
 std::shared_ptr<RigSurface> ForegroundPreparer::surface_of(const RigHistory& rig,
-                                                          const Texture& depth_m,
-                                                          const Texture& colour) {
+                                                           const Texture& depth_m,
+                                                           const Texture& colour) {
     std::shared_ptr<RigSurface> surface = surfaces_.take();
     surface->begin(rig.camera(), colour.size(), depth_m.size(), rig.samples());
     copy(depth_m, surface->depth_target());
@@ -30,13 +30,13 @@ void ForegroundPreparer::take(std::span<const DepthView> views, double dt_s) {
     auto performers = std::make_shared<ForegroundInstant>();
     for (RigHistory* rig : rigs_.upload(views, dt_s)) {
         sets_.learn(*rig);
-        const std::shared_ptr<RigSurface> set =
+        const std::shared_ptr<RigSurface> background =
             surface_of(*rig, rig->steady_depth(), rig->colour());
-        triangles_.build(set->grid(QuadGrid::fine));
+        triangles_.build(background->grid(QuadGrid::fine));
         const std::shared_ptr<ForegroundInstant::Matte> matte = mattes_.take();
         matte->share.resize(rig->matte().texture().size());
         copy(rig->matte().texture(), matte->share.target());
-        performers->rigs.push_back({set, matte, rig->learnt_instants() >= known_from});
+        performers->rigs.push_back({background, matte, rig->learnt_instants() >= known_from});
         instant->rigs.push_back({surface_of(*rig, rig->depth(), rig->fresh_colour())});
     }
     instant->extra = std::move(performers);
@@ -44,7 +44,7 @@ void ForegroundPreparer::take(std::span<const DepthView> views, double dt_s) {
 }
 
 std::shared_ptr<const Instant> ForegroundPreparer::prepare(const VirtualView& /*target*/,
-                                                          const PrepareLevel& /*level*/) {
+                                                           const PrepareLevel& /*level*/) {
     return instant_;
 }
 

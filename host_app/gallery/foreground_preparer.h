@@ -12,23 +12,24 @@
 
 namespace vantage {
 
-/// What an instant shows of the performers apart from the set; a rig each in the order of
-/// Instant::rigs, whose surfaces are as they came.
+/// The foreground of an instant, separated from the background, for each rig in the order of
+/// Instant::rigs. The surfaces of Instant::rigs are unchanged.
 struct ForegroundInstant final : InstantExtra {
     struct Matte {
-        /// r8, of the picture's size: the performers' share of each pixel.
+        /// r8, in the image's size: the foreground's share of each pixel.
         DrawnTexture share{TextureFormat::r8, Filter::linear};
     };
     struct Rig {
-        std::shared_ptr<const RigSurface> set;  ///< what the rig has learnt of it, its colour too
+        std::shared_ptr<const RigSurface> background;  ///< as the rig has learnt it, with colour
         std::shared_ptr<const Matte> matte;
-        bool is_known = false;  ///< the set has been seen long enough to tell performers from it
+        bool is_known =
+            false;  ///< the background has been seen for long enough to separate the foreground
     };
     std::vector<Rig> rigs;
 };
 
-/// Learns the set of every rig along time, as the product does (SetLearner), and hands on what it
-/// tells from it; nothing is bettered.
+/// Learns every rig's background over time, as the product does (BackgroundModel), and separates
+/// the foreground from it; refines nothing.
 class ForegroundPreparer final : public InstantPreparer {
   public:
     explicit ForegroundPreparer(const ShaderLibrary& library)

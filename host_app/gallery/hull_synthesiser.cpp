@@ -16,9 +16,9 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t most_rigs = RigLayers::max_layers;
-/// Sets that are nearer to each other than this share of their depth are one.
-constexpr float set_softness = 0.005f;
-/// Performers are looked for from and to these shares of the rigs' typical depth.
+/// Relative depth difference up to which two rigs' backgrounds count as the same surface.
+constexpr float background_softness = 0.005f;
+/// Range of depth that is searched for foreground, relative to the rigs' typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 3;
 
 struct SeenRig {
@@ -34,13 +34,14 @@ std::vector<SeenRig> rigs_with_silhouettes(const Instant& instant) {
     return rigs;
 }
 
-/// Image-based visual hulls (Matusik et al., 2000): the performers' silhouettes are intersected
-/// along each pixel's line of sight, in the rigs' pictures and without a volume, and what is met
-/// first is shaded from the rigs that see it. The set behind is drawn as quad grids.
+/// Image-based visual hulls (Matusik et al., 2000): the foreground's silhouettes are intersected
+/// along each pixel's line of sight, in the rigs' images and without a volume, and the nearest
+/// point of the intersection is shaded from the rigs that see it. The background is drawn as quad
+/// grids.
 class HullRenderer final : public ViewRenderer {
   public:
     explicit HullRenderer(const ShaderLibrary& library)
-        : blend_background_(library, "mesh_blend.frag", set_softness), blender_(library) {
+        : blend_background_(library, "mesh_blend.frag", background_softness), blender_(library) {
         for (std::size_t rigs = 1; rigs <= most_rigs; ++rigs) {
             const ShaderDefines defines{{"RIGS", std::to_string(rigs)}};
             depth_.emplace_back(library, "hull_depth.frag", defines);
@@ -52,8 +53,8 @@ class HullRenderer final : public ViewRenderer {
         const std::size_t rigs = rigs_with_silhouettes(instant).size();
         if (rigs >= 2) return {};
         return fmt::format(
-            "hull intersects the silhouettes of two rigs or more, and knows the set, from which "
-            "they stand out, of {}: give the instants before (--earlier), or let it run for some",
+            "hull intersects silhouettes against the background of at least two rigs and knows the "
+            "background of {}: give earlier instants (--earlier), or let it run for some",
             rigs);
     }
 
@@ -64,7 +65,7 @@ class HullRenderer final : public ViewRenderer {
         std::vector<DrawnLayer> sets;
         if (used_.size() >= 2)
             for (const SeenRig& rig : used_)
-                sets.push_back({rig.apart->set.get(), rig.now->presence});
+                sets.push_back({rig.apart->background.get(), rig.now->presence});
         blender_.layers().draw(sets, view);
         return blender_.blend(
             view,
@@ -102,14 +103,15 @@ class HullRenderer final : public ViewRenderer {
             set("picture_size", Eigen::Vector2f(static_cast<float>(matte.width_px()),
                                                 static_cast<float>(matte.height_px())));
             matte.bind(unit);
-            rig.apart->set->depth().bind(rigs + unit);
+            rig.apart->background->depth().bind(rigs + unit);
         }
     }
 
-    void find_depth(const VirtualView& target, const Texture* background_behind, DrawnTexture& into) {
+    void find_depth(const VirtualView& target, const Texture* background_behind,
+                    DrawnTexture& into) {
         double typical_m = 0;
         for (const SeenRig& rig : used_)
-            typical_m = std::max(typical_m, rig.apart->set->median_depth_m());
+            typical_m = std::max(typical_m, rig.apart->background->median_depth_m());
         into.resize({target.width_px, target.height_px});
         FullscreenPass& pass = depth_[used_.size() - 1];
         Program& program = pass.use();
@@ -141,7 +143,7 @@ class HullRenderer final : public ViewRenderer {
         Program& program = pass.use();
         bind_silhouettes(program, view);
         const Pose target_from_world = view.world_from_camera.inverse();
-        // Of the silhouettes the shader only takes where they are: their units are free.
+        // The shader uses the silhouettes' matrices and not their textures: those units are free.
         int unit = 0;
         const auto bind = [&](const std::string& name, const Texture& texture) {
             program.set(name, unit);
@@ -178,7 +180,7 @@ class HullRenderer final : public ViewRenderer {
 
 SynthesiserEntry hull_synthesiser_entry() {
     return {
-        "hull", "performers as the intersection of their silhouettes, shaded from nearest rigs",
+        "hull", "foreground as the intersection of its silhouettes, shaded from the nearest rigs",
         [](const ShaderLibrary& library) { return std::make_unique<ForegroundPreparer>(library); },
         [](const ShaderLibrary& library) { return std::make_unique<HullRenderer>(library); },
         false};

@@ -13,10 +13,10 @@ class LayerSplitter {
   public:
     explicit LayerSplitter(const ShaderLibrary& library);
 
-    /// Fills depth() and colour() of two surfaces of the same camera from those of `source`: of
-    /// `main`, all that is not in front of a depth edge nearby, its colours freed from what is; of
-    /// `boundary`, a strip of the nearer surface along depth edges (no depth elsewhere), alpha its
-    /// matte.
+    /// Fills the depth and colour of two surfaces of the same camera from `source`. `main` gets
+    /// everything except the nearer surface along depth edges, whose colour is also removed from
+    /// mixed pixels. `boundary` gets a strip of the nearer surface along depth edges and no depth
+    /// elsewhere; its alpha is the matte.
     void split(const RigSurface& source, RigSurface& main, RigSurface& boundary);
 
   private:

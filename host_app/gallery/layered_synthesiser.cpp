@@ -10,13 +10,13 @@
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
 constexpr float softness = 0.01f;
 /// As in the paper, the two nearest cameras are blended.
 constexpr std::size_t blended_views = 2;
 
-/// Layered view interpolation after Zitnick et al. (2004). Their cameras stand in a row, where two
-/// neighbours see all; what the two nearest rigs do not see is asked of the next two.
+/// Layered view interpolation after Zitnick et al. (2004). Their cameras form a row, where two
+/// neighbours see everything; here the next two rigs fill what the two nearest ones do not see.
 class LayeredRenderer final : public ViewRenderer {
   public:
     explicit LayeredRenderer(const ShaderLibrary& library)
@@ -50,7 +50,7 @@ class LayeredRenderer final : public ViewRenderer {
             });
     }
 
-    /// Of the two nearest rigs only.
+    /// Records the shares of the two nearest rigs only.
     bool note_origins(bool noted) override {
         blender_.note_origins(noted);
         return true;

@@ -15,9 +15,9 @@
 namespace vantage {
 namespace {
 
-/// Cameras whose rays are added by one pass.
-constexpr std::size_t cameras_a_pass = 4;
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+/// Number of cameras whose rays one pass adds.
+constexpr std::size_t cameras_per_pass = 4;
+/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
 constexpr float softness = 0.005f;
 
 std::vector<Pose> poses_of(const Instant& instant) {
@@ -38,7 +38,7 @@ class LightFieldRenderer final : public ViewRenderer {
           surface_(library, "mesh_blend.frag", softness),
           layers_(library),
           filler_(library) {
-        for (std::size_t cameras = 1; cameras <= cameras_a_pass; ++cameras)
+        for (std::size_t cameras = 1; cameras <= cameras_per_pass; ++cameras)
             add_.emplace_back(library, "lightfield_add.frag",
                               ShaderDefines{{"CAMERAS", std::to_string(cameras)}});
     }
@@ -47,7 +47,7 @@ class LightFieldRenderer final : public ViewRenderer {
         const CameraPlane plane = camera_plane(poses_of(instant));
         if (!plane.refusal.empty()) return plane.refusal;
         if (focal_m(instant, plane) == 0)
-            return "no view has depth to lay the focal plane by: say where it is, as in "
+            return "no view has depth to place the focal plane: give its distance, as in "
                    "lightfield:focal-m=3";
         return {};
     }
@@ -65,7 +65,7 @@ class LightFieldRenderer final : public ViewRenderer {
             sums_[0].target().bind();
             const float nothing[4] = {0, 0, 0, 0};
             glClearBufferfv(GL_COLOR, 0, nothing);
-            for (std::size_t i = 0; i < instant.rigs.size(); i += cameras_a_pass) {
+            for (std::size_t i = 0; i < instant.rigs.size(); i += cameras_per_pass) {
                 add(instant, plane, focal, view, i);
                 std::swap(sums_[0], sums_[1]);
             }
@@ -77,7 +77,7 @@ class LightFieldRenderer final : public ViewRenderer {
     }
 
   private:
-    /// Of the focal plane from the cameras' one; 0: nothing tells.
+    /// Returns the distance of the focal plane from the cameras' plane; 0: unknown.
     double focal_m(const Instant& instant, const CameraPlane& plane) const {
         if (focal_m_ > 0) return focal_m_;
         std::vector<double> depths_m;
@@ -91,7 +91,7 @@ class LightFieldRenderer final : public ViewRenderer {
         return std::max(*middle, 1e-6);
     }
 
-    /// What the views with depth show of the surfaces, where it is asked for.
+    /// Draws the surfaces of the views with depth, if rays are corrected by them.
     void find_surface(const Instant& instant, const VirtualView& view) {
         geometry_.resize({view.width_px, view.height_px});
         layers_.draw(
@@ -103,10 +103,10 @@ class LightFieldRenderer final : public ViewRenderer {
             surface_.use(layers_, false).draw(geometry_.target());
     }
 
-    /// Adds the rays of the cameras from `first` on to sums_[0], in sums_[1].
+    /// Adds the rays of the cameras from `first` on to sums_[0] and stores the result in sums_[1].
     void add(const Instant& instant, const CameraPlane& plane, double focal,
              const VirtualView& view, std::size_t first) {
-        const std::size_t count = std::min(cameras_a_pass, instant.rigs.size() - first);
+        const std::size_t count = std::min(cameras_per_pass, instant.rigs.size() - first);
         FullscreenPass& pass = add_[count - 1];
         Program& program = pass.use();
         const Pose target_from_plane = view.world_from_camera.inverse() * plane.world_from_plane;

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
 constexpr float softness = 0.005f;
 
 /// The system of Edling and Franke (2006): every rig's depth map as a quad grid displaced by depth,

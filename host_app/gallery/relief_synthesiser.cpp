@@ -17,9 +17,9 @@
 namespace vantage {
 namespace {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
 constexpr float softness = 0.005f;
-/// Lines of sight are searched from and to these shares of the rig's typical depth.
+/// Range of depth in which lines of sight are searched, relative to the rig's typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 4;
 
 /// Relief texture mapping (Oliveira et al., 2000): every rig's picture with depth is pre-warped in

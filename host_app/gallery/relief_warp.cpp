@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// The plane stands at least this share of the typical depth before the virtual camera.
+/// Least distance of the plane in front of the virtual camera, relative to the typical depth.
 constexpr double least_before = 0.3;
 
 Texture stage(TextureFormat format, cv::Size size) {

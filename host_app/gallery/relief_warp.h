@@ -20,7 +20,7 @@ class ReliefWarp {
 
     explicit ReliefWarp(const ShaderLibrary& library);
 
-    /// Keeps the result until the next call.
+    /// Warps the surface; the result is valid until the next call.
     void warp(const RigSurface& surface, const VirtualView& target);
 
     const Texture& colour() const { return stages_->colour[1]; }    ///< rgba8, alpha 0 = nothing

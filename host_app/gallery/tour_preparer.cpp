@@ -7,17 +7,17 @@
 namespace vantage {
 namespace {
 
-/// Of the matte, from which on a pixel is a performer's.
-constexpr int least_share = 26;
-/// Share of the picture below which a part is a speck.
+/// Matte value of 255 from which on a pixel is foreground.
+constexpr int min_matte = 26;
+/// Part of the image below which a connected part is a speck and is ignored.
 constexpr double speck = 0.0008;
-/// Rows at its bottom that tell where a part stands.
+/// Lowest rows of a part that give its position on the floor.
 constexpr int foot_rows = 3;
 
 }  // namespace
 
 std::vector<CutOut> cut_outs(const cv::Mat1b& matte, std::size_t most, cv::Mat1b& labels) {
-    const cv::Mat1b hard = matte >= least_share;
+    const cv::Mat1b hard = matte >= min_matte;
     cv::Mat1i numbers;
     cv::Mat statistics, centroids;
     const int count = cv::connectedComponentsWithStats(hard, numbers, statistics, centroids);

@@ -8,30 +8,30 @@
 
 namespace vantage {
 
-/// A part of a rig's matte that hangs together: a performer, or some who hide each other.
+/// A connected part of a rig's matte: one person, or several who occlude each other.
 struct CutOut {
-    cv::Point2d foot_px;  ///< the middle of where it ends at the bottom
+    cv::Point2d foot_px;  ///< centre of its lowest rows
     int area_px = 0;
 };
 
-/// The parts of a matte from the largest on, at most `most`, without specks; `labels` becomes the
-/// number of each pixel's part, from 1 on, 0 = none.
+/// Returns at most `most` parts of a matte, the largest first, without specks. Sets `labels` to the
+/// number of each pixel's part, counted from 1; 0 = none.
 std::vector<CutOut> cut_outs(const cv::Mat1b& matte, std::size_t most, cv::Mat1b& labels);
 
-/// PerformerInstant with every rig's performers told apart.
+/// A ForegroundInstant with the connected parts of every rig's foreground.
 struct TourInstant final : InstantExtra {
     struct Labels {
-        std::optional<Texture> numbers;  ///< r8, of the picture's size
+        std::optional<Texture> numbers;  ///< r8, in the image's size
     };
     struct Rig {
         std::vector<CutOut> cut_outs;
         std::shared_ptr<const Labels> labels;
     };
-    std::shared_ptr<const Instant> performers;  ///< its extra is a PerformerInstant
-    std::vector<Rig> rigs;                      ///< as there
+    std::shared_ptr<const Instant> performers;  ///< its extra is a ForegroundInstant
+    std::vector<Rig> rigs;                      ///< in the same order
 };
 
-/// Reads mattes back to tell performers apart.
+/// Reads the mattes back from the GPU and splits them into connected parts.
 class TourPreparer final : public InstantPreparer {
   public:
     static constexpr std::size_t most_cut_outs = 8;
@@ -45,7 +45,7 @@ class TourPreparer final : public InstantPreparer {
   private:
     ForegroundPreparer performers_;
     RecyclePool<TourInstant::Labels> labels_;
-    std::shared_ptr<const Instant> instant_;  ///< null: not yet made of what was taken
+    std::shared_ptr<const Instant> instant_;  ///< null: not made yet from what was taken
 };
 
 }  // namespace vantage

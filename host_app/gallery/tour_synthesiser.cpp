@@ -15,12 +15,12 @@
 namespace vantage {
 namespace {
 
-/// Of what a rig shows: the back plane stands where so large a share of it is nearer.
+/// Share of a rig's surface points that lie nearer than the back plane.
 constexpr double back_share = 0.85;
-/// The shortest way to the back plane, as a share of it, that the virtual camera keeps.
-constexpr double least_before = 0.1;
+/// Least distance of the virtual camera to the back plane, relative to the rig's.
+constexpr double min_distance_share = 0.1;
 
-/// The upright layout of a single camera's film, in the world.
+/// The upright layout of a single camera's video, in world coordinates.
 struct Layout {
     Eigen::Vector3d up, ahead;  ///< unit; ahead is level
     double floor_m = 0;         ///< of the floor along up
@@ -28,8 +28,8 @@ struct Layout {
 };
 
 /// Tour into the video (Kang and Shin, "Tour into the video: image-based navigation scheme for
-/// video sequences of dynamic scenes", 2002): one camera's film; its set, learnt from the whole of
-/// it, on a floor and a back plane, its performers as billboards that stand on the floor.
+/// video sequences of dynamic scenes", 2002): the video of one camera. Its learnt background is
+/// projected onto a floor and a back plane; its foreground stands on the floor as billboards.
 class TourRenderer final : public ViewRenderer {
   public:
     TourRenderer(const ShaderLibrary& library, const SynthesiserChoices& choices)
@@ -41,24 +41,26 @@ class TourRenderer final : public ViewRenderer {
 
     std::string lacks(const Instant& instant, const VirtualView& view) const override {
         const InstantRig* rig = rig_for(instant, view);
-        if (!rig) return "tour flies in the film of one rig, and none sees what is looked at";
+        if (!rig)
+            return "tour shows the video of one rig, and no rig sees what the camera looks at: "
+                   "turn the camera";
         const Layout layout = layout_of(*rig);
         const Eigen::Vector3d eye = view.world_from_camera.translation();
         if (std::abs(layout.ahead.norm() - 1) > 0.01)
             return fmt::format(
-                "rig {} looks straight up or down, so that no upright layout fits it: say which "
-                "way is up, as in tour:up=z",
+                "rig {} faces straight up or down, so that no upright layout fits it: give the up "
+                "axis, as in tour:up=z",
                 rig->camera().name);
         if (layout.up.dot(rig->camera().world_from_camera.translation()) <= layout.floor_m)
             return fmt::format(
-                "rig {} stands below the floor of the tour: say where that is, as in "
+                "rig {} is below the floor of the tour: give the floor's height, as in "
                 "tour:up=-y,floor-m=-1",
                 rig->camera().name);
         const double before_m = layout.back_m - layout.ahead.dot(eye);
         const double own_m =
             layout.back_m - layout.ahead.dot(rig->camera().world_from_camera.translation());
-        if (layout.up.dot(eye) <= layout.floor_m || before_m < least_before * own_m)
-            return "the tour's camera has to stay above the floor and before the back plane";
+        if (layout.up.dot(eye) <= layout.floor_m || before_m < min_distance_share * own_m)
+            return "the tour's camera must stay above the floor and in front of the back plane";
         return {};
     }
 
@@ -104,7 +106,7 @@ class TourRenderer final : public ViewRenderer {
         return layout;
     }
 
-    /// Where a pixel's line of sight meets the floor, or the back plane if that is nearer.
+    /// Returns where a pixel's line of sight meets the floor, or the back plane if that is nearer.
     static Eigen::Vector3d stands_at(const DepthView& camera, const cv::Point2d& pixel,
                                      const Layout& layout) {
         const Eigen::Vector3d eye = camera.world_from_camera.translation();
@@ -151,7 +153,7 @@ class TourRenderer final : public ViewRenderer {
             program.set(name, unit);
             texture.bind(unit++);
         };
-        bind("background_colour", told.rigs[number].set->colour());
+        bind("background_colour", told.rigs[number].background->colour());
         bind("picture", picture);
         bind("matte", told.rigs[number].matte->share.texture());
         bind("numbers", *tour.rigs[number].labels->numbers);
@@ -170,7 +172,7 @@ class TourRenderer final : public ViewRenderer {
 SynthesiserEntry tour_synthesiser_entry() {
     return {
         .name = "tour",
-        .summary = "one rig's film on a floor and a back plane, performers as billboards",
+        .summary = "one rig's video on a floor and a back plane, the foreground as billboards",
         .make_preparer =
             [](const ShaderLibrary& library) { return std::make_unique<TourPreparer>(library); },
         .make_renderer = {},

@@ -56,7 +56,8 @@ bool differs(const InstantRequest& request, const InstantRequest& before) {
         return !view.world_from_camera.isApprox(other.world_from_camera, 1e-6);
     };
     return request.level.rank < before.level.rank || is_elsewhere(request.target, before.target) ||
-           (request.preview && (!before.preview || is_elsewhere(*request.preview, *before.preview)));
+           (request.preview &&
+            (!before.preview || is_elsewhere(*request.preview, *before.preview)));
 }
 
 /// Adds copies of a view, moved aside, until there are as many views as `rigs` or as refinement
@@ -309,8 +310,8 @@ void InstantThread::Loop::answer_background_requests() {
                     "the first frames");
             request.set_value(std::move(background));
         } catch (const ContextLost&) {
-            request.set_exception(std::make_exception_ptr(Error(
-                "the GPU was reset while the background was read from it: save it again")));
+            request.set_exception(std::make_exception_ptr(
+                Error("the GPU was reset while the background was read from it: save it again")));
             throw;
         } catch (...) {
             request.set_exception(std::current_exception());
@@ -394,8 +395,8 @@ void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRe
     if (is_counted) owner_.stats_.begin(next.set);
     const double pulse = static_cast<double>(next.set.trigger_index) + next.share;
     // Time may run backwards; that is no cut.
-    const double dt_s = last_pulse_ ? std::abs(pulse - *last_pulse_) / settings_.pulse_rate_hz
-                                    : 2 * max_gap_s;
+    const double dt_s =
+        last_pulse_ ? std::abs(pulse - *last_pulse_) / settings_.pulse_rate_hz : 2 * max_gap_s;
     if (dt_s > max_gap_s) preparer_->cut();
     last_pulse_ = pulse;
     const std::vector<DepthView> views = views_.views_of(next.set, is_counted);

@@ -13,26 +13,27 @@
 
 namespace vantage {
 
-/// Which rigs the virtual views need, so that network and GPU load stay bounded while the stage
-/// grows: the most useful ones, by what they showed when they were last seen. One that becomes
-/// useful is asked for at once; one that is no longer is let go only after a while, for the camera
-/// may turn back.
+/// Decides which rigs must send, so that network and GPU load stay bounded on a large stage: those
+/// that are most useful to the virtual views, by the surfaces that they showed last. A rig that
+/// becomes useful is asked for at once; one that is no longer useful is stopped after a while,
+/// since the camera may turn back. Belongs to one thread.
 class RigDemand {
   public:
-    /// Rigs that send for a view: those of one picture, and one to spare for the camera's next
-    /// move.
+    /// Rigs that send for one view: those that a frame is rendered from, and a spare one for the
+    /// camera's next move.
     static constexpr std::size_t most_rigs = 5;
+    /// How long a rig keeps sending after it was last useful.
     static constexpr std::chrono::seconds hold{3};
 
-    /// Takes note of what rigs show.
+    /// Updates the surfaces that the rigs show.
     void see(std::span<const DepthView> views);
 
     struct Change {
         std::string rig;
         bool streaming;
     };
-    /// What to ask of which rig from now on; empty as long as nothing changes. Rigs send until they
-    /// are told otherwise.
+    /// Returns the rigs that must start or stop sending; empty if nothing changes. A new rig counts
+    /// as sending.
     std::vector<Change> update(std::span<const VirtualView> targets, MonotonicTime now);
 
   private:

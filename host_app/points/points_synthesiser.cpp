@@ -15,8 +15,8 @@
 namespace vantage {
 namespace {
 
-/// Every pixel of every rig as a splat, nothing cut, blended or filled: what the depth maps say,
-/// for inspection.
+/// Draws every pixel of every rig as a splat and cuts, blends and fills nothing, so that the depth
+/// maps can be inspected.
 class PointsRenderer final : public ViewRenderer {
   public:
     explicit PointsRenderer(const ShaderLibrary& library)

@@ -10,17 +10,17 @@
 
 namespace vantage {
 
-/// Fills what nobody saw, by pull and push (Gortler et al., 1996): the picture is halved again and
-/// again, averaging what is known, and the holes take their colour from the coarser pictures. What
-/// is behind a hole is more likely than what stands before it, so only the farther part of each
-/// neighbourhood is averaged.
+/// Fills the pixels that no rig saw by pull and push (Gortler et al., 1996): the image is halved
+/// repeatedly, averaging the known pixels, and holes take their colour from the coarser images. A
+/// hole most likely shows the farther surface, so only the farther pixels of each neighbourhood are
+/// averaged. Belongs to one context.
 class HoleFiller {
   public:
     explicit HoleFiller(const ShaderLibrary& library);
 
-    /// `colour` is rgba8 with alpha 0 in holes; `depth_m` its r32f depth. The result is rgba8:
-    /// alpha as given where the picture was known, 64/255 where it was filled, 0 where nothing at
-    /// all was known. Valid until the next call.
+    /// `colour` is rgba8 with alpha 0 in holes; `depth_m` is its depth, r32f. Returns an rgba8
+    /// image, valid until the next call. Its alpha is unchanged in known pixels, 64/255 in filled
+    /// ones and 0 everywhere if no pixel was known.
     const Texture& fill(const Texture& colour, const Texture& depth_m);
 
   private:
@@ -34,7 +34,7 @@ class HoleFiller {
     void resize(cv::Size size);
 
     FullscreenPass pull_, push_;
-    std::vector<std::unique_ptr<Level>> levels_;  ///< the first is half the picture's size
+    std::vector<std::unique_ptr<Level>> levels_;  ///< the first has half the image's size
     std::optional<Texture> filled_;
     std::optional<Framebuffer> filled_target_;
 };

@@ -12,30 +12,30 @@
 
 namespace vantage {
 
-/// The end of the road of those synthesisers that differ in how they lay out and weigh the rigs'
-/// surfaces: shaders make the picture from the layers, and what stayed empty is filled.
+/// The last stage of every synthesiser that draws the rigs' surfaces as layers: a shader merges the
+/// layers into an image, and holes are filled. Belongs to one context.
 class LayerBlender {
   public:
     explicit LayerBlender(const ShaderLibrary& library) : layers_(library), filler_(library) {}
 
-    /// To be drawn before blend().
+    /// The layers, which must be drawn before blend().
     RigLayers& layers() { return layers_; }
 
-    /// Draws the picture of the layers, of which there is at least one.
+    /// Merges the layers into an image. Called only if there is at least one layer.
     using Drawing = std::function<void(const DepthPicture& into, bool notes_origins)>;
-    /// Adds to a picture before its holes are filled.
+    /// Adds to the merged image before its holes are filled.
     using BeforeFilling = std::function<const DepthPicture&(const DepthPicture& blended)>;
-    /// The picture of the layers that were drawn last, of the view's size; valid until the next
-    /// call. `depth_test`, of the view's size too, is the depth texture that is drawn with.
+    /// Returns the image of the layers that were drawn last, in the view's size; valid until the
+    /// next call. `depth_test` is a depth texture of the same size for depth-tested drawing.
     const Texture& blend(const VirtualView& view, const Drawing& drawing,
                          const BeforeFilling& before_filling = {},
                          const Texture* depth_test = nullptr);
-    /// The same, drawn by one pass.
+    /// Merges the layers with a single pass.
     const Texture& blend(const VirtualView& view, LayerPass& pass);
 
     void note_origins(bool noted) { notes_origins_ = noted; }
     const PixelOrigins* origins() const { return origins_ ? &*origins_ : nullptr; }
-    /// Of the last picture's layers, as ViewRenderer says. Precondition: blend() was called.
+    /// The depth of the last image, as ViewRenderer::depth_m(). Precondition: blend() was called.
     const Texture& depth_m() const { return blended_.depth_m(); }
 
   private:

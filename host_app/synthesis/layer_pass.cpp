@@ -5,14 +5,14 @@
 namespace vantage {
 
 LayerPass::LayerPass(const ShaderLibrary& library, std::string fragment, float softness,
-                     ShaderDefines more, std::size_t layers_a_rig, std::size_t least_layers)
+                     ShaderDefines more, std::size_t layers_per_rig, std::size_t min_layers)
     : library_(&library),
       fragment_(std::move(fragment)),
       softness_(softness),
       more_(std::move(more)) {
-    // At once, for a driver that takes its time over them would halt a flight.
-    for (std::size_t layers = std::max(layers_a_rig, least_layers); layers <= RigLayers::max_layers;
-         layers += layers_a_rig)
+    // Compiled at once, since compiling during a flight would stall it.
+    for (std::size_t layers = std::max(layers_per_rig, min_layers); layers <= RigLayers::max_layers;
+         layers += layers_per_rig)
         plain_[layers - 1].emplace(library, fragment_, defines(layers, false));
 }
 

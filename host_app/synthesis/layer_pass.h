@@ -9,21 +9,22 @@
 
 namespace vantage {
 
-/// Surfaces of two rigs that are nearer to each other than this share of their depth are one.
+/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
 inline constexpr float same_surface_share = 0.005f;
 
-/// A fragment shader over layers, which includes rig_layers.glsl and writes colour and depth of a
-/// DepthPicture; a program for every number of layers.
+/// A fragment shader that merges layers. It includes rig_layers.glsl and writes the colour and the
+/// depth of a DepthPicture. There is one program for every number of layers.
 class LayerPass {
   public:
-    /// `softness` is the shader's uniform of that name; every rig has `layers_a_rig` layers; there
-    /// are no programs for fewer than `least_layers`.
+    /// `softness` is the value of the shader's uniform: the relative depth difference up to which
+    /// two surfaces are one. Every rig has `layers_per_rig` layers. No programs are made for fewer
+    /// than `min_layers` layers.
     LayerPass(const ShaderLibrary& library, std::string fragment, float softness,
-              ShaderDefines more = {}, std::size_t layers_a_rig = 1, std::size_t least_layers = 1);
+              ShaderDefines more = {}, std::size_t layers_per_rig = 1, std::size_t min_layers = 1);
 
-    /// The pass for so many layers as there are (at least `least_layers`), its program in use with
-    /// the layers bound, ready for more uniforms; texture units from layers.first_free_unit() on
-    /// are free. `notes_origins`: it writes the layers' shares too.
+    /// Returns the pass for the number of layers (at least `min_layers`). Its program is in use,
+    /// with the layers bound, and ready for more inputs. `notes_origins` also writes the layers'
+    /// shares.
     FullscreenPass& use(const RigLayers& layers, bool notes_origins);
 
   private:
@@ -33,7 +34,7 @@ class LayerPass {
     std::string fragment_;
     float softness_;
     ShaderDefines more_;
-    /// By number of layers less one. Those that note origins are made when they are asked for.
+    /// By the number of layers minus one. Programs that note origins are made on first use.
     std::array<std::optional<FullscreenPass>, RigLayers::max_layers> plain_, noting_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// The `rigs` most useful rigs of an instant, best first.
+/// Returns the `rigs` most useful rigs of an instant for the view, best first.
 inline std::vector<const InstantRig*> ranked_rigs(const Instant& instant, const VirtualView& view,
                                                   std::size_t rigs) {
     std::vector<const InstantRig*> all;
@@ -18,7 +18,7 @@ inline std::vector<const InstantRig*> ranked_rigs(const Instant& instant, const 
     return most_useful(all, view, rigs);
 }
 
-/// One part of each: its surface, or what stands before that.
+/// Returns one layer of each rig: its background surface, or the foreground in front of it.
 inline std::vector<DrawnLayer> layers_of(
     std::span<const InstantRig* const> rigs,
     std::shared_ptr<const RigSurface> InstantRig::*part = &InstantRig::surface) {
@@ -27,13 +27,13 @@ inline std::vector<DrawnLayer> layers_of(
     return layers;
 }
 
-/// The surfaces of the `rigs` most useful rigs.
+/// Returns the surfaces of the `rigs` most useful rigs as layers, best first.
 inline std::vector<DrawnLayer> layers_of(const Instant& instant, const VirtualView& view,
                                          std::size_t rigs) {
     return layers_of(ranked_rigs(instant, view, rigs));
 }
 
-/// How many of the layers are drawn by every pixel.
+/// Returns how many of the layers are drawn with one vertex per pixel.
 inline std::size_t finely_drawn(const Instant& instant, const RenderLevel& level) {
     return level.rank == 0 && instant.rigs.size() <= most_drawn_rigs ? most_drawn_rigs
                                                                      : level.finely;

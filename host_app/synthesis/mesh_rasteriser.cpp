@@ -10,18 +10,19 @@
 namespace vantage {
 namespace {
 
-/// Half a pixel is where an edge is to be expected beyond the last pixel's middle. Seen from aside,
-/// a body's outline is another one, and of the rims of several rigs the widest shows.
-constexpr double widest_rim_px = 0.5, widest_rim_angle_rad = 0.07;
+/// Width of a rim beyond the centre of a surface's last pixel: an edge lies half a pixel beyond it
+/// on average. From more than this angle aside a body has another outline, and rims get narrower,
+/// because the widest rim of all rigs shows.
+constexpr double max_rim_px = 0.5, max_rim_angle_rad = 0.07;
 
-/// From the view's pixels' middles, for its angle to the target.
+/// Returns the rims' width for the angle between the view and the target, px.
 double rim_px(const RigSurface& view, const VirtualView& target) {
     const Pose& world_from_camera = view.camera().world_from_camera;
     const Eigen::Vector3d point = world_from_camera * Eigen::Vector3d(0, 0, view.median_depth_m());
     const Eigen::Vector3d a = point - world_from_camera.translation();
     const Eigen::Vector3d b = point - target.world_from_camera.translation();
     const double angle_rad = std::atan2(a.cross(b).norm(), a.dot(b));
-    return widest_rim_px * std::min(1.0, widest_rim_angle_rad / (angle_rad + 1e-9));
+    return max_rim_px * std::min(1.0, max_rim_angle_rad / (angle_rad + 1e-9));
 }
 
 Program program(const ShaderLibrary& library, MeshRasteriser::Depths depths, const char* rims) {

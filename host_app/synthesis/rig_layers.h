@@ -12,18 +12,18 @@
 
 namespace vantage {
 
-/// One surface in a virtual view, and how far it takes part, 0..1.
+/// One surface of a virtual view, with its weight 0..1 while its rig fades in or out.
 struct DrawnLayer {
     const RigSurface* surface = nullptr;
     float presence = 1;
 };
 
-/// A near plane that clips nothing one would want to see: a hundredth of the scene's typical depth.
+/// Returns the distance of the near plane: a hundredth of the scene's typical depth, metres.
 double near_plane_m(std::span<const DrawnLayer> layers);
 
-/// The surfaces of the rigs that take part in one virtual view, each drawn alone into a depth
-/// buffer of the view's size, ready to be merged by a fragment shader that includes
-/// rig_layers.glsl.
+/// The rigs' surfaces in one virtual view. Each is drawn into a depth buffer of its own, in the
+/// view's size; a fragment shader that includes rig_layers.glsl merges them. Belongs to one
+/// context.
 class RigLayers {
   public:
     static constexpr std::size_t max_layers = most_drawn_rigs;
@@ -32,21 +32,22 @@ class RigLayers {
     explicit RigLayers(const ShaderLibrary& library, Depths depths = Depths::plain)
         : rasteriser_(library, depths) {}
 
-    /// Draws the surfaces, those after the first `fine` ones by their coarse grids.
-    /// Preconditions: at most max_layers, none null; the grids' triangles have been built.
+    /// Draws the surfaces, the first `fine` ones by their fine grids and the others by their coarse
+    /// grids. Preconditions: at most max_layers, none null; the grids' triangles have been built.
     void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               std::size_t fine = max_layers);
-    /// The same by another way of drawing a surface than its grid's triangles: into a depth-only
-    /// framebuffer of the target's size, 1 - near / z, 1 where there is nothing.
+    /// Draws one surface into a depth-only framebuffer of the target's size: 1 - near / z, and 1
+    /// where there is no surface.
     using Drawing = std::function<void(const RigSurface& surface, double near_m,
                                        const Framebuffer& depth_only)>;
+    /// Draws the surfaces with `drawing` instead of their grids.
     void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               const Drawing& drawing);
 
     /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
     /// and sets the uniforms of rig_layers.glsl. The program must be in use.
     void bind(Program& program) const;
-    /// The first texture unit that bind() leaves alone.
+    /// Returns the first texture unit that bind() does not use.
     int first_free_unit() const { return 3 * static_cast<int>(used_.size()); }
 
     std::span<const DrawnLayer> used() const { return used_; }

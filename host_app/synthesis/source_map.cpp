@@ -15,7 +15,7 @@ Eigen::Vector3f as_float(cv::Vec3b colour) {
     return Eigen::Vector3f(colour[0], colour[1], colour[2]) / 255.0f;
 }
 
-/// A saturated colour of this hue, 0..1.
+/// Returns a saturated colour of this hue, 0..1.
 cv::Vec3b of_hue(double hue) {
     const auto channel = [&](double offset) {
         const double k = std::fmod(offset + 6 * hue, 6.0);
@@ -27,7 +27,7 @@ cv::Vec3b of_hue(double hue) {
 }  // namespace
 
 cv::Vec3b source_colour(std::size_t rig) {
-    // Told apart by those too who see colours differently (Okabe and Ito, 2008), but for its black.
+    // The palette for colour-blind readers (Okabe and Ito, 2008), with grey instead of black.
     constexpr unsigned char palette[][3] = {{230, 159, 0},   {86, 180, 233}, {0, 158, 115},
                                             {240, 228, 66},  {0, 114, 178},  {213, 94, 0},
                                             {204, 121, 167}, {200, 200, 200}};
@@ -69,8 +69,9 @@ SourceShares source_shares(const ColourImage& picture, const PixelOrigins& origi
 void SourceMapOverlay::require(bool can_tell, const std::string& name) {
     if (!can_tell)
         fail(
-            "the synthesiser '{}' cannot tell which rig a pixel comes from, so that there is no "
-            "novelty overlay with it; take {}",
+            "the synthesiser '{}' does not report which rig a pixel comes from, so that there is "
+            "no "
+            "source map with it: choose {}",
             name, default_synthesiser);
 }
 
@@ -94,8 +95,9 @@ const Texture& SourceMapOverlay::lay(const Texture& picture, const PixelOrigins&
     program.set("shares", 1);
     for (std::size_t i = 0; i < origins.rigs.size(); ++i)
         program.set(fmt::format("rig_colour[{}]", i), as_float(colour_of(origins.rigs[i])));
-    program.set("filled_colour", as_float({source_map_inpainted_colour[0], source_map_inpainted_colour[1],
-                                           source_map_inpainted_colour[2]}));
+    program.set("filled_colour",
+                as_float({source_map_inpainted_colour[0], source_map_inpainted_colour[1],
+                          source_map_inpainted_colour[2]}));
     program.set("remembered_colour",
                 as_float({source_map_remembered_colour[0], source_map_remembered_colour[1],
                           source_map_remembered_colour[2]}));

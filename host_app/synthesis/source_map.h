@@ -12,46 +12,45 @@
 
 namespace vantage {
 
-/// The colour that stands for the rig of this number: distinct for the first eight.
+/// Returns the colour of the rig with this number; those of the first eight are easy to tell apart.
 cv::Vec3b source_colour(std::size_t rig);
-/// The colour of what no rig has seen.
+/// Colour of pixels that no rig has seen.
 inline constexpr unsigned char source_map_inpainted_colour[3] = {255, 0, 255};
-/// The colour of what a rig has seen before, and none sees now.
+/// Colour of pixels that no rig sees now and one saw before.
 inline constexpr unsigned char source_map_remembered_colour[3] = {0, 255, 255};
 
-/// Where the pixels of a picture come from, as shares of all of them; they add up to 1.
+/// The sources of an image's pixels, as shares of all pixels. They add up to 1.
 struct SourceShares {
     std::map<std::string, double> rigs;
     double filled = 0;      ///< seen by no rig
-    double remembered = 0;  ///< seen by a rig before what hides it now came
+    double remembered = 0;  ///< hidden from all rigs now, seen by one before
 };
 nlohmann::ordered_json to_json(const SourceShares& shares);
-/// `picture` is the one that came with the origins.
+/// Counts the sources of an image. `picture` must be the image that the origins belong to.
 SourceShares source_shares(const ColourImage& picture, const PixelOrigins& origins);
 
-/// Shows which pixels of the virtual view come from which rig: a colour a rig, mixed by their
-/// shares, over the picture's brightness; what no rig sees is hatched. The context that was
-/// current at construction must be current at every call.
+/// The source map: an overlay that shows which rig each pixel of the virtual view comes from. Every
+/// rig has a colour; the colours are mixed by the rigs' shares and keep the image's brightness.
+/// Pixels that no rig sees are hatched. The context that was current at construction must be
+/// current at every call.
 class SourceMapOverlay {
   public:
-    explicit SourceMapOverlay(const ShaderLibrary& library)
-        : pass_(library, "source_map.frag") {}
+    explicit SourceMapOverlay(const ShaderLibrary& library) : pass_(library, "source_map.frag") {}
 
-    /// Rigs get their colours in the order in which they are named first, and keep them.
+    /// Gives rigs their colours in the order in which they are first named. They keep them.
     void name_rigs(const std::vector<std::string>& rigs);
     struct Key {
         std::string rig;
         cv::Vec3b colour;
     };
-    /// Of all rigs that were named.
+    /// Returns the colours of all rigs that were named.
     const std::vector<Key>& legend() const { return legend_; }
 
-    /// Throws Error, with the mend, if the synthesiser of this name cannot tell where its pixels
-    /// come from.
+    /// Throws Error if the synthesiser of this name does not report its pixels' sources.
     static void require(bool can_tell, const std::string& name);
 
-    /// The result is rgba8 and of the picture's size, alpha as in `picture`; valid until the next
-    /// call.
+    /// Returns the overlaid image, rgba8, in the picture's size and with its alpha; valid until the
+    /// next call.
     const Texture& lay(const Texture& picture, const PixelOrigins& origins);
 
   private:

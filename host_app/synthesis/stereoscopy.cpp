@@ -12,6 +12,7 @@
 namespace vantage {
 namespace {
 
+/// Default parallax of infinitely far points, in picture widths: see Stereoscopy::interaxial_m.
 constexpr double far_parallax_widths = 0.02, quilt_parallax_widths = 0.08;
 
 bool is_whole(StereoLayout layout) { return layout == StereoLayout::anaglyph; }
@@ -19,12 +20,12 @@ bool is_whole(StereoLayout layout) { return layout == StereoLayout::anaglyph; }
 VirtualView eye(const VirtualView& view, double right_m, double convergence_m) {
     VirtualView eye = view;
     eye.world_from_camera.translation() += right_m * view.world_from_camera.linear().col(0);
-    // What is at the convergence distance stays where the view's own camera has it.
+    // Points at the convergence distance stay where the view's own camera shows them.
     eye.K(0, 2) += view.K(0, 0) * right_m / convergence_m;
     return eye;
 }
 
-/// A picture whose pixels hold `by` as many columns and rows, the first ones `first` farther on.
+/// Divides the view's size by `by`; its first pixel then lies `first_px` into the old image.
 void shrink(VirtualView& view, cv::Size by, const Eigen::Vector2d& first_px) {
     view.width_px /= by.width;
     view.height_px /= by.height;
@@ -116,7 +117,7 @@ std::vector<VirtualView> eye_views(const VirtualView& view, const Stereoscopy& s
     for (std::size_t i = 0; i < settled.eyes(); ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(settled.eyes() - 1) - 0.5;
         eyes.push_back(eye(view, share * settled.interaxial_m, settled.convergence_m));
-        // A pixel's middle is that of those it holds, and of interleaved rows each eye has its own.
+        // A pixel's centre is the mean of those it covers; interleaved rows belong to one eye each.
         const Eigen::Vector2d first_px =
             settled.layout == StereoLayout::interleaved_rows
                 ? Eigen::Vector2d(0, static_cast<double>(i))
@@ -161,7 +162,7 @@ void EyeMosaic::put(const Texture& eye, std::size_t number) {
                   place * (by.height - 1) * eye.height_px()});
             return;
         case StereoLayout::quilt:
-            // Displays take the leftmost view at the lower left.
+            // Quilts begin with the leftmost view at the lower left.
             copy(eye, picture_.target(),
                  {place % by.width * eye.width_px(),
                   (by.height - 1 - place / by.width) * eye.height_px()});

@@ -14,7 +14,7 @@
 
 namespace vantage {
 
-/// How the pictures of the eyes make one that a 3D display takes.
+/// How the eyes' images are packed into one frame for a 3-D display.
 enum class StereoLayout {
     side_by_side,      ///< left eye in the left half, each at half the width
     top_and_bottom,    ///< left eye in the upper half, each at half the height
@@ -25,51 +25,51 @@ enum class StereoLayout {
 /// In the order of the enumerators: "side-by-side", ...
 std::span<const std::string> stereo_layout_names();
 
-/// How the eyes of a stereoscopic picture stand to each other.
+/// Geometry and packing of a stereoscopic picture.
 struct Stereoscopy {
-    /// From the leftmost eye to the rightmost. 0: so that what is infinitely far lies 2 % of the
-    /// picture's width apart, which eyes still fuse with ease, whatever the distance and the field
-    /// of view; in a quilt, which shows two neighbouring views at a time, four times that.
+    /// Distance between the outermost eyes. 0: chosen so that infinitely far points lie 2 % of the
+    /// picture's width apart, which eyes fuse with ease at any distance and field of view; four
+    /// times that in a quilt, which shows two neighbouring views at a time.
     double interaxial_m = 0;
-    /// Distance of what appears at the screen's depth. 0: that of the camera's pivot.
+    /// Distance of the points that appear at the screen. 0: that of the camera's pivot.
     double convergence_m = 0;
     StereoLayout layout = StereoLayout::side_by_side;
     cv::Size quilt = {8, 6};  ///< columns and rows of views
 
-    /// Columns and rows of pictures.
+    /// Columns and rows of images in the frame.
     cv::Size tiles() const;
     std::size_t eyes() const;
-    /// Of a picture that is rendered `scale` as large as `full`: one that can be enlarged to it.
+    /// Returns the size of a frame rendered at `scale` times `full` that can be enlarged to it.
     cv::Size rendered_size(cv::Size full, double scale) const;
 
-    /// With the defaults put in: `focus_m` is the distance of what the camera looks at. Throws
-    /// Error if a picture of this size cannot be in the layout.
+    /// Returns a copy with the defaults filled in; `focus_m` is the distance that the camera looks
+    /// at. Throws Error if a picture of this size does not fit the layout.
     Stereoscopy settled(const VirtualView& view, double focus_m) const;
 };
 
 nlohmann::ordered_json to_json(const Stereoscopy& settled);
 
-/// The cameras of the eyes from left to right, each of its part of the view's size: parallel ones
-/// beside the view's own, their pictures shifted so that what is at the convergence distance is at
-/// the same place in all; turning them inward instead would bend the picture (keystone).
-/// Precondition: `settled`.
+/// Returns the eyes' cameras from left to right, each with its part of the view's size. The cameras
+/// are parallel, and their images are shifted so that points at the convergence distance coincide;
+/// turning the cameras inward instead would distort the images (keystone). Precondition: `settled`
+/// comes from Stereoscopy::settled().
 std::vector<VirtualView> eye_views(const VirtualView& view, const Stereoscopy& settled);
 
-/// The median depth of what the views show in a virtual view; 0: they show nothing of it.
+/// Returns the median depth of the views' surfaces in a virtual view, metres; 0: they show none.
 double typical_depth_m(std::span<const DepthView> views, const VirtualView& target);
 
-/// Makes one picture of the eyes' ("frame-compatible"): 3D displays take it as any other.
+/// Packs the eyes' images into one frame ("frame-compatible" 3-D). Belongs to one context.
 class EyeMosaic {
   public:
     /// The library must outlive it.
     explicit EyeMosaic(const ShaderLibrary& library) : library_(&library) {}
 
-    /// Begins a picture of this size. Keeps what there is if the size stays.
+    /// Begins a frame of this size. Its textures are reused if the size stays the same.
     void begin(cv::Size size, const Stereoscopy& settled);
-    /// Takes the picture of an eye, rgba8 of the size of its eye_views(); they are counted from
-    /// the left.
+    /// Takes an eye's image, rgba8 in the size of its eye_views(). Eyes are counted from the left.
     void put(const Texture& eye, std::size_t number);
-    /// Once all eyes are there. Valid until the next begin().
+    /// Returns the frame, valid until the next begin(). Precondition: put() was called for all
+    /// eyes.
     const Texture& picture();
 
   private:

@@ -68,7 +68,8 @@ std::string synthesisers_help() {
         }
     };
     add(synthesiser_entries());
-    text += "\nThe gallery, what was known before; options follow the name, NAME:OPTION=VALUE,...:";
+    text +=
+        "\nGallery of historic synthesisers; options follow the name, as in NAME:OPTION=VALUE,...:";
     add(gallery_entries());
     return text;
 }

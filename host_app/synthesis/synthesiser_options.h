@@ -8,20 +8,20 @@
 
 namespace vantage {
 
-/// Something that can be chosen of a synthesiser: a word out of some, or a number.
+/// An option of a synthesiser: one of several words, or a number.
 struct SynthesiserOption {
     std::string name;  ///< with its unit: "focal-m"
     std::string summary;
     std::string by_default;
-    std::vector<std::string> words;  ///< empty: a number within the limits
+    std::vector<std::string> words;  ///< the allowed words; empty: a number within the limits
     double least = 0, most = 0;
 };
 
-/// What was chosen, or is so by default, of every option that a synthesiser has.
+/// The values of all options of a synthesiser, chosen or default.
 class SynthesiserChoices {
   public:
-    /// `text` is "NAME=VALUE,NAME=VALUE..." or empty. Throws Error that names the option, what it
-    /// takes and which ones `synthesiser` has.
+    /// Parses "NAME=VALUE,NAME=VALUE..." or an empty text. Throws Error, which names the option and
+    /// the allowed values, if something does not fit.
     SynthesiserChoices(std::string_view synthesiser, std::string_view text,
                        std::span<const SynthesiserOption> options);
 

@@ -1,2 +1,2 @@
-// The blocks of pixels for which foreground_far.frag finds a depth.
-const int block_px = 4;  // sides
+// Side of the blocks of pixels that foreground_far.frag computes one depth for.
+const int block_px = 4;

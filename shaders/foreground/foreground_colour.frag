@@ -1,14 +1,14 @@
-// What of a rig's picture is its performers': their share of each pixel, and their colour times that. What a rig has learnt
-// of its set behind them is taken away from the pixels that show both; what is left is between such a pixel's colour and
-// that of the neighbour which is a performer's most, for shares of a few per cent tell of no colour.
+// The foreground of a rig's image: its share of each pixel, and its colour premultiplied by that share. The learnt
+// background colour is subtracted from pixels that show both. The result is clamped between the pixel's colour and that
+// of the neighbour with the largest share, because a share of a few per cent does not determine a colour.
 uniform sampler2D picture;
 uniform sampler2D background_colour;
-uniform sampler2D matte;  // the performers' share
+uniform sampler2D matte;  // the foreground's share of each pixel
 
 layout(location = 0) out vec4 performers;
 
-const float beside_px = 1.5;
-const float noise = 0.03;  // of colours (0..1)
+const float beside_px = 1.5;  // to the neighbours that are compared
+const float noise = 0.03;  // of the camera's colours (0..1)
 
 void main() {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy * texel;
@@ -16,6 +16,9 @@ void main() {
     vec3 own = textureLod(picture, uv, 0.0).rgb;
     performers = vec4(share * own, share);
     if (share == 0.0 || share == 1.0) return;
+#ifdef WITHOUT_UNMIXING  // tests/bench/step_worth.py
+    return;
+#endif
     vec2 inside = uv;
     float most = share;
     for (int k = 0; k < 4; ++k) {

@@ -1,13 +1,13 @@
-// The depth of what stands before a rig's set: measured where it was, elsewhere that of the nearest around; smoothed
-// within surfaces. Beyond the matte it goes on for some pixels, negative, unless the set stands before it: the matte
-// ends a performer, not where depth does.
+// The depth of a rig's foreground: the measured depth, or that of the nearest surface around where it is missing, smoothed
+// within surfaces. Depth continues for some pixels outside the matte, as a negative number, unless the background is in
+// front of it: the matte ends the foreground, and not the depth map.
 #ifndef FAR
-#define FAR 0  // 1: also what foreground_far.frag found
+#define FAR 0  // 1: also use the depth of foreground_far.frag
 #endif
 #include "foreground_blocks.glsl"
 
 uniform sampler2D depth_map;  // metres, 0 = unknown
-uniform sampler2D matte;      // the performers' share
+uniform sampler2D matte;      // the foreground's share of each pixel
 uniform sampler2D background_depth;  // metres
 #if FAR
 uniform sampler2D far_depth;  // metres, 0 = none
@@ -16,13 +16,17 @@ uniform float edge_ratio;     // two depths whose ratio is larger lie on two sur
 
 layout(location = 0) out float performer_m;  // metres, 0 = nothing, negative = beyond the matte
 
-// Around a pixel: rings of eight.
+// Neighbours in rings of eight.
 const int rings = 3, ring_taps = 8;
 const ivec2 taps[rings * ring_taps] = ivec2[](
     ivec2(1, 2), ivec2(-1, 2), ivec2(-2, 1), ivec2(-2, -1), ivec2(-1, -2), ivec2(1, -2), ivec2(2, -1), ivec2(2, 1),
     ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3), ivec2(4, 0),
     ivec2(2, 6), ivec2(-2, 6), ivec2(-6, 2), ivec2(-6, -2), ivec2(-2, -6), ivec2(2, -6), ivec2(6, -2), ivec2(6, 2));
-const float smooth_weight = 0.24;  // of the first ring in the mean
+#ifdef WITHOUT_SMOOTHING  // tests/bench/step_worth.py
+const float smooth_weight = 0.0;
+#else
+const float smooth_weight = 0.24;  // of each pixel of the first ring in the mean, the centre being 1
+#endif
 const float none = 1e9;
 
 float nearer(float nearest, float z) { return z > 0.0 ? min(nearest, z) : nearest; }

@@ -1,14 +1,14 @@
-// Which pixels show what stands before the set. What cannot be told at a pixel is told by those around it that look
-// like it. Drawn only where anything is apart (see matte_tiles.frag).
+// The hard matte: which pixels show the foreground. Pixels whose own comparison with the background is undecided follow
+// the neighbours of similar colour. Drawn only in tiles that may have foreground (see matte_tiles.frag).
 #include "background_kinds.glsl"
 
-uniform sampler2D picture;  // this instant's
+uniform sampler2D picture;  // this instant's image
 uniform sampler2D seen;     // from background_compare.frag
 
 layout(location = 0) out float performer;  // 0 or 1
 
 const int reach = 2;              // steps to either side
-const int step_px = 2;            // of the picture
+const int step_px = 2;            // from one step to the next, px of the image
 const float like_colour = 0.05;   // difference (0..1) at which a pixel's word counts 1/e
 const float like_set_here = 0.04; // difference below which those around decide
 const float least_around = 0.15;  // share of pixels before the set around one that is taken for one

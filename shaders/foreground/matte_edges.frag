@@ -1,18 +1,17 @@
-// A matte with the share that performers have of the pixels at its edges. What stands behind them is known there, and a
-// pixel farther in shows their colour: where those two differ, the pixel's colour says how much it shows of either
-// (a matte with a known background: Smith and Blinn, 1996). Where they do not, the share that lens and sensor make of a
-// hard edge.
+// The soft matte: the foreground's share of the pixels at the hard matte's edges. The background's colour is known and a
+// pixel farther inside has the foreground's: where the two differ, the pixel's colour determines the share (matting with
+// a known background: Smith and Blinn, 1996). Where they do not, the share is what lens and sensor make of a hard edge.
 uniform sampler2D hard;        // from matte.frag: 0 or 1
 uniform sampler2D picture;     // this instant's
-uniform sampler2D background_colour;  // mean of the instants that showed the set
+uniform sampler2D background_colour;  // mean of the instants that showed the background
 
-layout(location = 0) out float share;  // of the pixel, that is before the set
+layout(location = 0) out float share;  // the foreground's share of the pixel
 
-const vec2 smooth_edge = vec2(0.2, 0.8);  // shares around below and above which a pixel is all of one
-const vec2 certain = vec2(0.1, 0.9);      // likewise, of colours
-const float inward_px = 2.0;          // from an edge to what is all performer
-const float told_from = 0.08;         // distance of two colours (0..1) from which on they tell
-const float third = 2.0;              // how much less they tell for what a colour is off their line
+const vec2 smooth_edge = vec2(0.2, 0.8);  // filtered shares below and above which a pixel is pure
+const vec2 certain = vec2(0.1, 0.9);      // the same for shares by colour
+const float inward_px = 2.0;          // from an edge to a pixel of pure foreground
+const float told_from = 0.08;         // distance of two colours (0..1) from which on they decide
+const float third = 2.0;              // penalty for a colour's distance from the line between the two
 const float whole = 0.99;
 
 vec2 texel, uv;
@@ -43,7 +42,7 @@ void main() {
     vec3 own = textureLod(picture, uv, 0.0).rgb - behind;
     float apart = dot(span, span);
     float seen = clamp(dot(own, span) / max(apart, 1e-6), 0.0, 1.0);
-    // What is neither of the two colours, nor between them, is of a third one.
+    // A colour off the line between the two belongs to a third surface.
     float told = smoothstep(0.5 * told_from, told_from, sqrt(apart) - third * length(own - seen * span));
     share = mix(share, clamp((seen - certain.x) / (certain.y - certain.x), 0.0, 1.0), told);
 }

@@ -1,8 +1,8 @@
-// The inverse of the nearest depth in every cell of a grid over a picture: at an edge, of what stands before it.
+// The inverse of the nearest depth in every cell of a grid over an image; at an edge that of the nearer surface.
 uniform sampler2D depth_m;  // its magnitude counts; 0 = nothing
 uniform ivec2 cells;        // columns and rows of the grid
 
-layout(location = 0) out float inverse_depth;  // 1/m; 0 = nothing is there
+layout(location = 0) out float inverse_depth;  // 1/m; 0 = nothing
 
 void main() {
     ivec2 size = textureSize(depth_m, 0);

@@ -1,21 +1,22 @@
-// Performers before the set, in the virtual view. Of each rig's performers as they look from here the nearest count that
-// the silhouettes in the two most useful rigs' pictures allow. How far they cover what is behind them the mattes say, not
-// the depth maps, which go on beyond the mattes' edges.
+// Composites the foreground over the background in the virtual view. Takes the nearest of the rigs' foreground surfaces
+// that the silhouettes in the two most useful rigs' images allow. Coverage comes from the mattes, since the depth maps
+// continue beyond the mattes' edges.
 #ifndef LAYERS
 #define LAYERS 2
 #endif
 #ifndef PLAIN
 #define PLAIN 0  // 1: colours are no sharper than bilinear
 #endif
-// Of the performers: colours are times alpha, the share of a rig's pixel; source_depth is negative beyond the matte.
+// The foreground's layers: colours are premultiplied by alpha, the share of a pixel; source_depth is negative outside the
+// matte.
 #include "rig_layers.glsl"
 #include "two_stages.glsl"
 #if !PLAIN
 #include "sharp_sample.glsl"
 #endif
 
-uniform sampler2D picture;    // of the set
-uniform sampler2D background_depth;  // of the view, metres, 0 = nothing, negative = guessed
+uniform sampler2D picture;    // the background's
+uniform sampler2D background_depth;  // of the view, metres, 0 = nothing, negative = inpainted
 #if ORIGINS
 uniform sampler2D background_shares;
 #endif
@@ -24,20 +25,20 @@ uniform float softness;       // relative depth within which two surfaces are on
 layout(location = 0) out vec4 shown;
 layout(location = 1) out float shown_z;
 
-const float body = 0.1;        // relative depth: the silhouette of what stands farther away says nothing of a point
-const float hidden = 0.97;     // a set nearer than this share of a performer's depth hides it
-const float about_px = 1.5;    // that depth may err by: a silhouette is so much wider to other rigs
-const float least_say = 1e-3;  // of a rig that does not see the point: something is better than nothing
-const float whole = 0.9;       // share from which on nothing behind need be asked for
-const float one_body = 0.04;   // relative depth within which two rigs mean the same place
+const float body = 0.1;        // relative depth: the silhouettes of surfaces farther away from a point are ignored
+const float hidden = 0.97;     // a background nearer than this share of the foreground's depth hides it
+const float about_px = 1.5;    // error of depth: silhouettes are widened by it for other rigs
+const float least_say = 1e-3;  // weight of a rig that does not see the point, used where no rig does
+const float whole = 0.9;       // share from which on surfaces behind are not examined
+const float one_body = 0.04;   // relative depth within which two rigs show the same place
 
 struct Seen {
     vec3 sum;             // of colours times alpha
     float weight;         // of that
     vec4 shares;          // each layer's part of the weight
     float covers, words;  // the rigs' shares of the pixel, by how close they look; their weight
-    float most;           // that the silhouettes allow
-    float best;           // how well that rig sees it which does best, 0..1
+    float most;           // largest share that the silhouettes allow
+    float best;           // visibility in the rig that sees the point best, 0..1
     float first;          // how much of it the first two see, 0..1
 };
 
@@ -62,7 +63,7 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
     float sure = 1.0 - smoothstep(1.0, 2.0, nearest / (softness + spread[i] * q.z));
     float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
     float sees = presence[i] * smoothstep(0.0, 0.04, inside);
-    // The other rigs have a say where neither of the first two sees the point.
+    // The other rigs count where neither of the first two sees the point.
     float say = i < 2 ? 1.0 : 1.0 - smoothstep(0.2, 0.6, seen.best);
     seen.best = max(seen.best, sees * sure);
     if (i < 2) seen.first = max(seen.first, c.a * sees * sure);
@@ -98,8 +99,8 @@ void main() {
     Seen best;
     float share = 0.0, best_z = 0.0;
     vec3 ray = ray_from_pixel * vec3(pixel, 1.0);
-    // From farther aside errors of depth are longer: the other rigs are asked only where the first two show neither
-    // performers nor, now, the set, or for what one of these sees.
+    // Depth errors grow with the angle to a rig: the other rigs count only where the first two show neither foreground
+    // nor, at this instant, the background.
     float nearest = min(z[0], z[min(1, LAYERS - 1)]);
     bool are_first = true;
     for (int tries = 0; tries < LAYERS; ++tries) {
@@ -109,7 +110,7 @@ void main() {
             FOR_LAYERS(NEAREST)
         }
         if (nearest == nothing) break;
-        // Where the rigs mean it that agree, and what is next behind.
+        // The mean of the rigs that have this surface, and the next surface behind it.
         float next = nothing, sum = 0.0, weights = 0.0;
 #define AVERAGE(i)                                                                                             \
     if (z[i] < nothing) {                                                                                      \

@@ -1,13 +1,13 @@
-// The surfaces around a pixel of the virtual view, as fused_depth.frag found them, guessed ones among them: what lies beside
-// them is as much an edge.
-uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = guessed
+// The surfaces of fused_depth.frag around a pixel of the virtual view, inpainted ones included, since they have edges
+// too.
+uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = inpainted
 uniform float edge_ratio;       // two depths whose ratio is larger lie on two surfaces
 
 bool same_surface(float a, float b) { return max(a, b) < min(a, b) * edge_ratio; }
 
 struct Around {
     float z[25];  // of the pixels around, rows of five, 0 = nothing
-    float own;    // of the pixel, negative where it is guessed
+    float own;    // of the pixel, negative where it is inpainted
     float here;   // the surface that it lies on, 0 = nothing; the nearest pixel's where it has none
     float other;  // the nearest pixel's on another surface, 0 = there is none
 };

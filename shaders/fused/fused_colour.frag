@@ -1,15 +1,15 @@
-// The colour of the virtual view on the surface that fused_depth.frag found. Every rig whose own depth map says that it
-// sees a point gives its colour, weighted by how close its line of sight is to the virtual camera's, its resolution
-// there and its distance from depth edges (an unstructured lumigraph: Buehler et al., 2001). Close to a depth edge the
-// two surfaces are mixed by the share that lens and sensor would see of each, and, since depth is least to be trusted
-// there, by how well the rigs' colours agree on either. What only rigs from far aside show counts as seen if some rig
-// has seen that nothing stands before it. The first two rigs are the most useful ones: where one of them sees a
-// place well, and no other from nearly as close, the others have no say.
+// The colour of the virtual view on the surface of fused_depth.frag. Every rig whose own depth map has the point
+// contributes its colour, weighted by the angle of its line of sight to the virtual camera's, by its resolution there and
+// by its distance from depth edges (an unstructured lumigraph: Buehler et al., 2001). Beside a depth edge the two surfaces
+// are mixed by the shares that lens and sensor would see, and, since depth is least certain there, by how well the rigs'
+// colours match on either. A surface that only rigs from far aside show counts as seen if some rig has seen that the
+// space in front of it is empty. The first two rigs are the most useful ones: where one of them sees a place well, the
+// other rigs count only if they look from nearly as close.
 #ifndef EDGES
 #define EDGES 1  // 1: for pixels beside depth edges; 0: for those within a surface
 #endif
 #ifndef FIRST_RIGS_ONLY
-#define FIRST_RIGS_ONLY 0  // 1: leaves out the pixels where other rigs than the first two have a say
+#define FIRST_RIGS_ONLY 0  // 1: discards the pixels where other rigs than the first two count
 #endif
 #include "fused_around.glsl"
 #include "rig_layers.glsl"
@@ -20,21 +20,21 @@ uniform float softness;  // relative depth within which two surfaces are one
 layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
-// Doubts, in units of each other.
+// Penalties of a surface, relative to each other.
 const float cost_penalty = 8.0;   // per squared difference of the rigs' colours (0..1)
 const float unchecked_penalty = 0.3;   // only one rig shows the surface
 const float fringe_penalty = 3.0;   // only one rig shows it, and that one beside the surface's edge
 const float see_through_penalty = 0.5;  // per rig that sees through it
 const float hidden_penalty = 0.35;   // it lies behind one that a rig shows right here
-const float decisiveness = 4.0;   // how fast a surface fades with its doubt
+const float decisiveness = 4.0;   // how fast a surface's weight falls with its penalty
 const float blur_px = 0.75;         // standard deviation of what lens and sensor spread
 const float direct_support = 0.01;
-const vec2 well_seen = vec2(0.15, 0.5);  // by one of the first two rigs, from where to where others lose their say
-const vec2 as_close = vec2(0.3, 0.6);    // by which share of those two's closeness others gain it back
-const float far_aside = 0.1;          // 1 - cosine of an angle at which a rig's word on what is hidden means little
+const vec2 well_seen = vec2(0.15, 0.5);  // visibility in one of the first two rigs between which the others lose their weight
+const vec2 as_close = vec2(0.3, 0.6);    // closeness relative to those two between which the others keep it
+const float far_aside = 0.1;          // 1 - cosine of the angle from which on a rig says little about occlusion
 
-const float least_share = 0.05;       // of the colour so far, from which on it matters how a rig's picture is resampled
-const float fine_share = 0.2;         // likewise, from which on a colour is made as sharp as the virtual camera's
+const float least_share = 0.05;       // weight relative to the sum so far, from which on a rig's image is resampled sharply
+const float fine_share = 0.2;         // the same, from which on a colour is matched to the virtual camera's sharpness
 
 struct Evidence {
     vec3 sum, squares;
@@ -44,13 +44,13 @@ struct Evidence {
     float through;   // rigs that see through it
     float direct;    // the best support by a rig whose depth map has it right there
     float apart;     // from the nearest line of sight that supports it
-    float say;       // of the next rig, 0..1
-    float seen;      // how well that one sees it that does best, 0..1
-    float confidence;     // the most in a rig's colour, 0..1
+    float say;       // weight of the next rig, 0..1
+    float seen;      // visibility in the rig that sees the point best, 0..1
+    float confidence;     // the largest of a rig's colour, 0..1
 };
 
 // The share of a rig's four pixels around a point that lie on its surface.
-float agreement(sampler2D map, vec2 uv, float z, float tolerance) {
+float consistency(sampler2D map, vec2 uv, float z, float tolerance) {
     vec4 surface = abs(textureGather(map, uv));
     float least = min(min(surface.x, surface.y), min(surface.z, surface.w));
     float most = max(max(surface.x, surface.y), max(surface.z, surface.w));
@@ -61,7 +61,7 @@ float agreement(sampler2D map, vec2 uv, float z, float tolerance) {
     return dot(1.0 - smoothstep(1.0, 2.0, abs(surface / z - 1.0) / tolerance), vec4(0.25));
 }
 
-// As long as a pixel may be of use as a measure of the spread: depth is not exact.
+// Limits the length of a pixel's footprint, since it is computed from inexact depth.
 vec2 limited(vec2 pixel) { return pixel * min(1.0, 1.6 / max(length(pixel), 1e-6)); }
 
 float closeness(float away) { return 1.0 / (away + 1e-5); }
@@ -75,7 +75,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     float inside = min(margin.x, margin.y);
     if (inside < 0.0) return;
     float tolerance = softness + spread[i] * q.z;
-    float sure = agreement(map, uv, q.z, tolerance);
+    float sure = consistency(map, uv, q.z, tolerance);
     sure *= sure * sure;
     e.direct = max(e.direct, sure);
     if (near_edge && sure < 0.5) {
@@ -105,13 +105,16 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     e.seen = max(e.seen, seen);
     e.apart = min(e.apart, away);
     e.confidence = max(e.confidence, middle.a);
-    // The most useful rigs come first; finesse is lost on what hardly counts beside them.
+    // The most useful rigs come first; a rig with a small weight beside them needs no sharp resampling.
     vec3 c = middle.rgb;
     if (weight > least_share * e.weight) {
         float lod = detail_level(pixel_from_target[i], z, q.z);
         c = sharp(picture, uv, lod);
         float share = weight / max(e.weight, 1e-20);
         float finesse = clamp(share / fine_share - 1.0, 0.0, 1.0);
+#ifdef WITHOUT_SHARPNESS  // tests/bench/step_worth.py
+        fine = false;
+#endif
         if (fine && lod <= smooth_from_lod && finesse > 0.0)
             c = clamp(c + finesse * respread(picture, uv, 1.0 / colour_size[i], right, down, middle.rgb), 0.0, 1.0);
     }
@@ -123,7 +126,7 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
 }
 
 #if LAYERS > 2
-// What the rigs after the first two have to say of a point that those have been asked about.
+// Returns the weight of the rigs after the first two for a point that those two were sampled for.
 float say_of_others(vec2 pixel, float z, Evidence e) {
     vec3 point = ray_from_pixel * vec3(pixel, 1.0) * z;
     float first = 0.5 * (closeness(apart(point, centre[0])) + closeness(apart(point, centre[1])));
@@ -138,7 +141,7 @@ float say_of_others(vec2 pixel, float z, Evidence e) {
 
 Evidence gather(vec2 pixel, float z, vec2 slope, bool near_edge) {
     Evidence e = Evidence(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0);
-    // Within a surface, where others have a say, the first two see little.
+    // Inside a surface, where other rigs count, the first two see little.
     const bool are_first_fine = EDGES == 1 || FIRST_RIGS_ONLY == 1 || LAYERS <= 2;
 #define ADD(i) add(i, colour[i], source_depth[i], pixel, z, slope, near_edge, i >= 2 || are_first_fine, e);
     ADD(0)
@@ -157,8 +160,11 @@ Evidence gather(vec2 pixel, float z, vec2 slope, bool near_edge) {
     return e;
 }
 
-// How little the evidence speaks for a surface.
-float doubt(Evidence e) {
+// Returns the penalty of a surface: how little the evidence supports it.
+float penalty(Evidence e) {
+#ifdef WITHOUT_COLOUR_PENALTY  // tests/bench/step_worth.py
+    if (e.weight > 0.0) return 0.0;
+#endif
     if (e.weight == 0.0) return 1e3;
     vec3 mean = e.sum / e.weight;
     vec3 variance = max(e.squares / e.weight - mean * mean, 0.0);
@@ -167,7 +173,7 @@ float doubt(Evidence e) {
            see_through_penalty * e.through;
 }
 
-// Whether a rig sees the point and nothing there: what it shows on that line of sight is farther.
+// Whether a rig sees that the point is empty: its surface on that line of sight is farther.
 bool sees_empty(int i, sampler2D map, vec2 pixel, float z) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
@@ -175,8 +181,8 @@ bool sees_empty(int i, sampler2D map, vec2 pixel, float z) {
     return abs(texelFetch(map, ivec2(uv * vec2(textureSize(map, 0))), 0).r) > q.z;
 }
 
-// Whether some rig has seen that nothing stands before a surface, at steps along the virtual camera's ray. A rig that
-// looks from far aside may show what is behind a thing that no rig shows.
+// Whether the rigs have seen that the space in front of a surface is empty, at steps along the virtual camera's ray. A rig
+// from far aside may see a surface past an object that hides it from the virtual camera and that no rig shows.
 bool is_clear(vec2 pixel, float z) {
     for (float part = 0.5; part < 0.95; part += 0.075) {
         bool empty = false;
@@ -194,7 +200,7 @@ float slope_of(float before, float z, float after) {
     return a == 0.0 ? b : b == 0.0 ? a : 0.5 * (a + b);
 }
 
-void tell(vec4 colour, float z, vec4 shares) {
+void put(vec4 colour, float z, vec4 shares) {
     fused = colour;
     fused_z = z;
     tell_origins(shares);
@@ -206,8 +212,8 @@ void main() {
     vec2 pixel = vec2(at);
     Around near = look_around(at);
     float z = near.here, other = near.other;
-    tell(vec4(0.0), 0.0, vec4(0.0));
-    // The share of either surface in what lens and sensor would see here.
+    put(vec4(0.0), 0.0, vec4(0.0));
+    // The share of each surface that lens and sensor would see here.
     float mine = 0.0, its = 0.0, its_nearness = 0.0;
     for (int k = 0; k < 25; ++k) {
         if (near.z[k] <= 0.0) continue;
@@ -223,15 +229,15 @@ void main() {
     other = its / its_nearness;
     vec2 slope = vec2(slope_of(near.z[11], z, near.z[13]), slope_of(near.z[7], z, near.z[17]));
     Evidence a = gather(pixel, z, slope, true), b = gather(pixel, other, vec2(0.0), true);
-    float doubt_a = doubt(a), doubt_b = doubt(b);
+    float penalty_a = penalty(a), penalty_b = penalty(b);
     if (z < other)
-        doubt_b += hidden_penalty * step(direct_support, a.direct);
+        penalty_b += hidden_penalty * step(direct_support, a.direct);
     else
-        doubt_a += hidden_penalty * step(direct_support, b.direct);
-    float min_penalty = min(doubt_a, doubt_b);
-    float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (doubt_a - min_penalty)) : 0.0;
-    float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (doubt_b - min_penalty)) : 0.0;
-    // Where nothing was drawn, only the surface behind reaches in, and only if a rig shows it right here.
+        penalty_a += hidden_penalty * step(direct_support, b.direct);
+    float min_penalty = min(penalty_a, penalty_b);
+    float wa = a.weight > 0.0 ? mine * exp2(-decisiveness * (penalty_a - min_penalty)) : 0.0;
+    float wb = b.weight > 0.0 ? its * exp2(-decisiveness * (penalty_b - min_penalty)) : 0.0;
+    // In a hole only the farther surface extends, and only if a rig shows it at this very place.
     if (near.own == 0.0) {
         if (z < other || a.direct == 0.0) wa = 0.0;
         if (z > other || b.direct == 0.0) wb = 0.0;
@@ -241,7 +247,7 @@ void main() {
     bool is_known = near.own > 0.0;
     if (wa > wb ? a.apart > far_aside && !is_clear(pixel, z) : b.apart > far_aside && !is_clear(pixel, other))
         is_known = false;
-    tell(vec4(c / (wa + wb), alpha_of(is_known, wa > wb ? a.confidence : b.confidence)), wa > wb ? z : other,
+    put(vec4(c / (wa + wb), alpha_of(is_known, wa > wb ? a.confidence : b.confidence)), wa > wb ? z : other,
          (wa > 0.0 ? wa * a.shares / a.weight : vec4(0.0)) / (wa + wb) +
              (wb > 0.0 ? wb * b.shares / b.weight : vec4(0.0)) / (wa + wb));
 }
@@ -255,7 +261,7 @@ void main() {
     vec2 slope = vec2(slope_of(z_at(at - ivec2(1, 0)), z, z_at(at + ivec2(1, 0))),
                       slope_of(z_at(at - ivec2(0, 1)), z, z_at(at + ivec2(0, 1))));
     Evidence e = gather(pixel, z, slope, false);
-    tell(vec4(0.0), 0.0, vec4(0.0));
+    put(vec4(0.0), 0.0, vec4(0.0));
 #if FIRST_RIGS_ONLY
     if (e.say > 0.0) discard;
     bool is_known = own > 0.0;
@@ -263,6 +269,6 @@ void main() {
     if (e.weight == 0.0) return;
     bool is_known = own > 0.0 && (e.apart <= far_aside || is_clear(pixel, z));
 #endif
-    tell(vec4(e.sum / e.weight, alpha_of(is_known, e.confidence)), z, e.shares / e.weight);
+    put(vec4(e.sum / e.weight, alpha_of(is_known, e.confidence)), z, e.shares / e.weight);
 }
 #endif

@@ -1,30 +1,29 @@
-// The surface at every pixel of the virtual view: the nearest one that one of the two most useful rigs has measured, or,
-// where neither has, another rig, averaged over the rigs that agree on it within a soft distance. From farther aside
-// errors of depth are longer, and would stand before what those two see. What more rigs see through than have it is not
-// there, nor what as many do in whose pictures it looks otherwise (votes for and against a surface, after Penner and
-// Zhang, Soft 3D reconstruction, 2017): the next one behind it counts, if there is one for which rigs vote. A guessed
-// depth counts only where nobody measured.
+// The surface at every pixel of the virtual view: the nearest one that one of the two most useful rigs has measured, or
+// another rig where neither has, averaged over the rigs that have it within a soft distance. Depth errors grow with the
+// angle to a rig, and those of other rigs would hide what the first two see. A consistency check rejects a surface that
+// more rigs see through than have, or as many whose colours differ there (after Penner and Zhang, Soft 3D reconstruction,
+// 2017); then the next surface behind it is checked. Inpainted depth counts only where no rig has measured.
 #include "rig_layers.glsl"
 #include "two_stages.glsl"
 
 uniform float softness;  // relative depth within which two surfaces are one
 
-layout(location = 0) out float fused_depth;  // metres, 0 = nothing, negative = guessed
+layout(location = 0) out float fused_depth;  // metres, 0 = nothing, negative = inpainted
 
-const float alike = 0.06;  // range of the rigs' colours (0..1, mean of channels) at one surface, at most
+const float alike = 0.06;  // largest range of the rigs' colours (0..1, mean of channels) at one surface
 
 bool is_inpainted(int i, sampler2D map, vec2 pixel, float z) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     return all(lessThanEqual(textureGather(map, (q.xy / q.z + 0.5) / colour_size[i]), vec4(0.0)));
 }
 
-struct Votes {
-    float rigs;        // that have a surface there
-    float through;     // that see through it to a measured one
-    vec3 least, most;  // colours of those that are not hidden
+struct Support {
+    float rigs;        // rigs that have a surface there
+    float through;     // rigs that see through it to a measured surface
+    vec3 least, most;  // range of the colours of the rigs from which it is not hidden
 };
 
-void ask(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout Votes votes) {
+void examine(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout Support support) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
@@ -34,20 +33,23 @@ void ask(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout Vot
     float tolerance = 2.0 * (softness + spread[i] * q.z);
     if (all(lessThan(off, vec4(-tolerance)))) return;
     if (any(lessThan(abs(off), vec4(tolerance))))
-        votes.rigs += 1.0;
+        support.rigs += 1.0;
     else if (all(greaterThan(measured, vec4(tolerance))))
-        votes.through += 1.0;
+        support.through += 1.0;
     vec3 seen = textureLod(picture, uv, 0.0).rgb;
-    votes.least = min(votes.least, seen);
-    votes.most = max(votes.most, seen);
+    support.least = min(support.least, seen);
+    support.most = max(support.most, seen);
 }
 
-bool is_there(vec2 pixel, float z) {
-    Votes votes = Votes(0.0, 0.0, vec3(1.0), vec3(0.0));
-#define ASK(i) ask(i, colour[i], source_depth[i], pixel, z, votes);
-    FOR_LAYERS(ASK)
-    if (votes.through == 0.0 || votes.through < votes.rigs) return true;
-    return votes.through == votes.rigs && dot(votes.most - votes.least, vec3(1.0 / 3.0)) < alike;
+bool is_consistent(vec2 pixel, float z) {
+#ifdef WITHOUT_CONSISTENCY_CHECK  // tests/bench/step_worth.py
+    return true;
+#endif
+    Support support = Support(0.0, 0.0, vec3(1.0), vec3(0.0));
+#define EXAMINE(i) examine(i, colour[i], source_depth[i], pixel, z, support);
+    FOR_LAYERS(EXAMINE)
+    if (support.through == 0.0 || support.through < support.rigs) return true;
+    return support.through == support.rigs && dot(support.most - support.least, vec3(1.0 / 3.0)) < alike;
 }
 
 void main() {
@@ -77,24 +79,24 @@ void main() {
 #endif
     if (by_the_first < nothing) measured = by_the_first;
 #endif
-    bool is_voted_for = measured == nothing;
+    bool is_confirmed = measured == nothing;
 #if LAYERS == 2
-    // Both have it: nobody is left to see through it.
-    is_voted_for = is_voted_for || abs(candidates[0] - candidates[1]) < (softness + spread[0] * measured) * measured;
+    // Both rigs have it, so that none can see through it.
+    is_confirmed = is_confirmed || abs(candidates[0] - candidates[1]) < (softness + spread[0] * measured) * measured;
 #endif
     fused_depth = 0.0;
-    leave_to_second(!is_voted_for);
+    leave_to_second(!is_confirmed);
 #if !FIRST
-    is_voted_for = is_voted_for || is_there(pixel, measured);
+    is_confirmed = is_confirmed || is_consistent(pixel, measured);
     float next = measured;
-    for (int k = 1; k < LAYERS && !is_voted_for; ++k) {
+    for (int k = 1; k < LAYERS && !is_confirmed; ++k) {
         float before = next * (1.0 + 2.0 * softness);
         next = nothing;
         for (int i = 0; i < LAYERS; ++i)
             if (candidates[i] > before) next = min(next, candidates[i]);
         if (next == nothing) break;
-        is_voted_for = is_there(pixel, next);
-        if (is_voted_for) measured = next;
+        is_confirmed = is_consistent(pixel, next);
+        if (is_confirmed) measured = next;
     }
 #endif
     float nearest = measured < nothing ? measured : inpainted;

@@ -1,10 +1,10 @@
-// Tells the virtual view's pixels apart by what it takes to colour them: depths for a test that fused_colour.frag's
-// passes are drawn with.
+// Classifies the virtual view's pixels by the work that their colour takes, as depths for the depth test of
+// fused_colour.frag's passes.
 #include "fused_around.glsl"
 
-uniform float inner_kind;  // within a surface
+uniform float inner_kind;  // inside a surface
 uniform float edge_kind;   // beside a depth edge
-uniform float empty_kind;  // nothing there
+uniform float empty_kind;  // no surface
 
 void main() {
     Around a = look_around(ivec2(gl_FragCoord.xy));

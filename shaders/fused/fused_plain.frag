@@ -1,12 +1,12 @@
-// The colour of the virtual view on the surface that fused_depth.frag found, at little cost: every rig whose depth map
-// has it there gives its colour, weighted by how close its line of sight is to the virtual camera's and by how far its
-// colour can be trusted. Depth edges are as hard as the depth maps are.
+// The colour of the virtual view on the surface of fused_depth.frag at low cost: every rig whose depth map has the
+// surface contributes its colour, weighted by the angle of its line of sight to the virtual camera's and by its
+// confidence. Depth edges are as hard as in the depth maps.
 #ifndef LAYERS
 #define LAYERS 2
 #endif
 #include "rig_layers.glsl"
 
-uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = guessed
+uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = inpainted
 uniform float softness;         // relative depth within which two surfaces are one
 
 layout(location = 0) out vec4 fused;

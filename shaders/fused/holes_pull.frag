@@ -1,4 +1,4 @@
-// Halves a picture with holes: the average of the farther ones among up to four known pixels.
+// Halves an image with holes: each pixel is the mean of the farther ones of up to four known pixels.
 uniform sampler2D colour;   // alpha 0 = hole
 uniform sampler2D depth_m;
 

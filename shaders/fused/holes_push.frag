@@ -1,4 +1,4 @@
-// Keeps what is known and takes the rest from the picture of half the size.
+// Keeps known pixels and fills holes from the image of half the size.
 uniform sampler2D known;   // alpha 0 = hole
 uniform sampler2D coarse;
 uniform float filled_alpha;

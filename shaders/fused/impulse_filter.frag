@@ -1,5 +1,5 @@
-// Takes single pixels out of a picture that resemble none around them: one at a depth edge that is brighter, or darker,
-// in any channel than all but one of its eight neighbours, by more than a tolerance, gets the median of the nine.
+// Removes single wrong pixels: a pixel at a depth edge that is brighter or darker in any channel than all but one of its
+// eight neighbours, by more than a tolerance, becomes the median of the nine.
 #define MEDIAN_OF vec3
 #include "stereo_median9.glsl"
 #include "two_stages.glsl"
@@ -29,7 +29,11 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), most = textureSize(picture, 0) - 1;
     filtered = texelFetch(picture, at, 0);
 #if FIRST
+#ifdef WITHOUT_IMPULSE_FILTER  // tests/bench/step_worth.py
+    leave_to_second(false);
+#else
     leave_to_second(!is_one_surface(at));
+#endif
 #else
     // The least and the greatest two of the neighbours.
     vec3 low = vec3(1.0), next_low = vec3(1.0), high = vec3(0.0), next_high = vec3(0.0);

@@ -1,14 +1,14 @@
-// What RigLayers binds: the rigs' surfaces as the virtual camera sees them, and the rigs' own pictures.
+// The inputs that RigLayers binds: the rigs' surfaces in the virtual view, and the rigs' own images.
 #ifndef LAYERS
 #define LAYERS 4
 #endif
 #ifndef ORIGINS
-#define ORIGINS 0  // 1: the picture's shader tells the layers' shares in each colour
+#define ORIGINS 0  // 1: the shader writes the layers' shares in each colour
 #endif
 
 uniform sampler2D layer_depth[LAYERS];   // of the virtual view: 1 - near / z, 1 = nothing
 uniform sampler2D colour[LAYERS];        // the rigs' own
-uniform sampler2D source_depth[LAYERS];  // the rigs' own, metres; 0 = unknown, negative = guessed
+uniform sampler2D source_depth[LAYERS];  // the rigs' own, metres; 0 = unknown, negative = inpainted
 uniform mat4 pixel_from_target[LAYERS];  // the rigs' (u * z, v * z, z, 1) from the virtual camera's
 uniform vec2 colour_size[LAYERS];         // px
 uniform vec3 centre[LAYERS];             // of the rig's camera, in the virtual camera's coordinates
@@ -35,7 +35,7 @@ float layer_z(sampler2D layer, ivec2 at) {
     return d < 1.0 ? near_m / (1.0 - d) : nothing;
 }
 
-// Of a layer that matted_depth.frag drew.
+// Depth of a layer that matted_depth.frag drew.
 float matted_layer_z(sampler2D layer, ivec2 at) {
     float d = texelFetch(layer, at, 0).r;
     return d < 1.0 ? near_m / (1.0 - 2.0 * (d < 0.5 ? d : d - 0.5)) : nothing;
@@ -51,7 +51,7 @@ float detail_level(mat4 source_from_target, float z, float source_z) {
     return log2(max(length(source_from_target[0].xyz) * z / source_z, 1.0));
 }
 
-// Whether a surface is covered: what no rig sees now, but one remembers, is not.
+// The alpha of a surface: full if a rig sees it now, less if it is only remembered or inpainted.
 uniform float remembered_confidence;  // a colour's alpha, up to which it is only remembered
 uniform float remembered_alpha;  // of a picture
 
@@ -62,7 +62,7 @@ float alpha_of(bool is_known, float confidence) {
 #if ORIGINS
 layout(location = 2) out vec4 origins;
 #endif
-// The share of every layer in the colour of this pixel.
+// Writes the share of every layer in this pixel's colour.
 void tell_origins(vec4 shares) {
 #if ORIGINS
     origins = shares;

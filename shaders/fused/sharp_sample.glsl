@@ -1,4 +1,4 @@
-// The level of detail from which on a picture is minified, and trilinear filtering is right.
+// Level of detail from which on an image is minified and trilinear filtering is used.
 const float smooth_from_lod = 0.7;
 
 // Catmull-Rom interpolation by five bilinear fetches (the four corners' weights are negligible); trilinear where the
@@ -29,9 +29,9 @@ vec3 bend(sampler2D picture, vec2 uv, vec2 along, vec3 middle) {
     return textureLod(picture, uv + along, 0.0).rgb + textureLod(picture, uv - along, 0.0).rgb - 2.0 * middle;
 }
 
-// What is to be added to a colour so that it is as soft as the virtual camera would have made it. Lens and sensor spread
-// a point over as many pixels in either picture, but a surface that the source sees at a slant or from afar has its
-// pixels spread wider: to the second order the difference is one of second derivatives. `right` and `down` are a pixel
+// Returns the correction that matches a colour's sharpness to the virtual camera's. Lens and sensor spread a point over as
+// many pixels in either image, but the pixels of a source that sees the surface at a slant or from farther away cover
+// more of it: to the second order the difference is one of second derivatives. `right` and `down` are a pixel
 // of the virtual view in those of the source, `texel` one of the source in 0..1, `middle` the colour there.
 vec3 respread(sampler2D picture, vec2 uv, vec2 texel, vec2 right, vec2 down, vec3 middle) {
     const float half_variance = 0.25;  // of the spread, px^2

@@ -29,6 +29,9 @@ void main() {
     vec2 own = texelFetch(judged, at, 0).rg;
     adopted = own.r;
     if (own.g != 0.0) return;
+#ifdef WITHOUT_ADOPTION  // tests/bench/step_worth.py
+    return;
+#endif
     vec2 pixel = vec2(at);
     read_window(pixel, size);
     float own_cost = own.r > 0.0 ? cost_at(pixel, own.r) : unseen_cost;

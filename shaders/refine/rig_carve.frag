@@ -92,12 +92,14 @@ void main() {
     bool errs = share.g > faulty_share * share.b;
     float seen = 0.0, confirmed = 0.0, through = 0.0;
     if (z > 0.0) {
-#if MOVES
+#if MOVES && !defined(WITHOUT_MOVING)  // tests/bench/step_worth.py
         if (is_single_rig) z = moved(at, z, share);
 #endif
 #define CHECK(i) check(i, other_depth[i], other_colour[i], vec2(at), z, seen, confirmed, through);
         FOR_OTHERS(CHECK)
+#ifndef WITHOUT_CARVING  // tests/bench/step_worth.py
         if (through > confirmed) z = 0.0;
+#endif
     }
 #if MOVES
     bool is_kept = is_single_rig ? !errs || (z > 0.0 && seen == 0.0) : z > 0.0;

@@ -24,6 +24,9 @@ void main() {
     float own = texelFetch(before, at, 0).r, floor_inverse_m = dot(floor_plane, vec3(pixel, 1.0));
     with_floor = own;
     if (own <= 0.0 || floor_inverse_m < horizon) return;
+#ifdef WITHOUT_FLOOR  // tests/bench/step_worth.py
+    return;
+#endif
     read_window(pixel, textureSize(depth_map, 0));
     float on_floor = cost_on(pixel, floor_plane);
     if (on_floor > certain_floor && abs(floor_inverse_m - 1.0 / own) > near_sigmas * spread) return;

@@ -11,11 +11,12 @@
 namespace vantage {
 namespace {
 
-/// What ends at the pixels of the frame between: the nearest surface, and the nearest behind it.
+/// The surfaces that move to each pixel of the interpolated frame: the nearest one and the one
+/// behind.
 class Landed {
   public:
     struct Surface {
-        cv::Vec2f way{0, 0};  ///< from the first to the second frame, px of the colour picture
+        cv::Vec2f way{0, 0};  ///< motion between the frames, px of the colour image
         float nearness = -1;  ///< disparity steps; -1: nothing landed
     };
 
@@ -36,7 +37,7 @@ class Landed {
         }
     }
 
-    /// The nearest surface is not there, but what is behind it.
+    /// Removes the nearest surface of a pixel, so that the one behind it shows.
     void uncover(int x, int y) {
         layers_[place(x, y)] = std::exchange(layers_[place(x, y) + 1], {});
     }
@@ -48,10 +49,10 @@ class Landed {
     }
 
     cv::Size size_;
-    std::vector<Surface> layers_;  ///< two a pixel
+    std::vector<Surface> layers_;  ///< two for each pixel
 };
 
-/// Disparity of a pixel of the colour picture, steps; 0: unknown.
+/// The disparity of a pixel of the colour image, 1/32 px; 0: unknown.
 class NearnessOf {
   public:
     NearnessOf(DisparityImage disparity, cv::Size size)
@@ -65,16 +66,16 @@ class NearnessOf {
     cv::Size size_;
 };
 
-/// Where nothing landed: which frame tells what is there.
-enum class Teller { first, second, both };
+/// The frame that fills a pixel which no surface moved to.
+enum class FillFrom { first, second, both };
 
-/// By the disparities of both: behind what moves is the set, which stands still.
-Teller teller_of(float first_steps, float second_steps, bool is_followed, float share) {
-    if (!is_followed) return share >= 0.5f ? Teller::second : Teller::first;
+/// Chooses by both disparities: the farther surface is the background, which stands still.
+FillFrom fill_from(float first_steps, float second_steps, bool is_followed, float share) {
+    if (!is_followed) return share >= 0.5f ? FillFrom::second : FillFrom::first;
     if (first_steps > 0 && second_steps > 0 &&
         std::abs(first_steps - second_steps) > one_surface_steps)
-        return second_steps < first_steps ? Teller::second : Teller::first;
-    return Teller::both;
+        return second_steps < first_steps ? FillFrom::second : FillFrom::first;
+    return FillFrom::both;
 }
 
 void land(const RigFrame& frame, const cv::Mat2f& flow, const cv::Mat1b& sure, double share,
@@ -100,7 +101,7 @@ void land(const RigFrame& frame, const cv::Mat2f& flow, const cv::Mat1b& sure, d
             for (int ty = top; ty <= top + 1; ++ty)
                 for (int tx = left; tx <= left + 1; ++tx) {
                     if (tx < 0 || ty < 0 || tx >= size.width || ty >= size.height) continue;
-                    // What is hit at its rim only does not stand for the pixel.
+                    // A pixel that is only touched at its rim is not covered.
                     if (std::abs(static_cast<float>(tx) - px) > 0.75f ||
                         std::abs(static_cast<float>(ty) - py) > 0.75f)
                         continue;
@@ -119,7 +120,7 @@ cv::Vec4f sample(const ColourImage& picture, float x, float y) {
     return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
 }
 
-/// How much of a pixel around x, y this surface covers, or one before it.
+/// Returns the share of a pixel around x, y that this surface or a nearer one covers.
 float covered_at(const NearnessOf& nearness, cv::Size size, float x, float y, float steps) {
     x = std::clamp(x, 0.0f, static_cast<float>(size.width - 1));
     y = std::clamp(y, 0.0f, static_cast<float>(size.height - 1));
@@ -134,7 +135,7 @@ float covered_at(const NearnessOf& nearness, cv::Size size, float x, float y, fl
            v * ((1 - u) * covers(0, 1) + u * covers(1, 1));
 }
 
-/// Leaves to what is behind pixels of which a moving surface covers less than half.
+/// Removes moving surfaces from pixels of which they cover less than half.
 void trim_rims(Landed& landed, cv::Size size, const NearnessOf& first, const NearnessOf& second,
                float part) {
     for (int y = 0; y < size.height; ++y)
@@ -179,13 +180,13 @@ RigFrame frame_between(const RigFrame& first, const RigFrame& second, const RigM
             const auto [way, nearness] = landed.at(x, y);
             const bool is_hole = nearness < 0;
             if (is_hole || way == cv::Vec2f(0, 0)) {
-                const Teller teller = is_hole ? teller_of(near_first(x, y), near_second(x, y),
-                                                          is_followed(x, y), part)
-                                              : Teller::both;
+                const FillFrom filler = is_hole ? fill_from(near_first(x, y), near_second(x, y),
+                                                            is_followed(x, y), part)
+                                                : FillFrom::both;
                 const cv::Vec4b a = first.colour(y, x), b = second.colour(y, x);
                 between.colour(y, x) =
-                    teller == Teller::first ? a
-                    : teller == Teller::second
+                    filler == FillFrom::first ? a
+                    : filler == FillFrom::second
                         ? b
                         : cv::Vec4b((1 - part) * cv::Vec4f(a) + part * cv::Vec4f(b));
                 continue;
@@ -213,9 +214,9 @@ RigFrame frame_between(const RigFrame& first, const RigFrame& second, const RigM
             std::uint16_t a = first.disparity(y, x), b = second.disparity(y, x);
             const auto [way, nearness] = landed.at(pixel.x, pixel.y);
             if (nearness < 0) {
-                const Teller teller = teller_of(a, b, is_followed(pixel.x, pixel.y), part);
+                const FillFrom filler = fill_from(a, b, is_followed(pixel.x, pixel.y), part);
                 const bool is_second =
-                    teller == Teller::both ? part >= 0.5f : teller == Teller::second;
+                    filler == FillFrom::both ? part >= 0.5f : filler == FillFrom::second;
                 between.disparity(y, x) = is_second ? b : a;
                 continue;
             }

@@ -4,11 +4,11 @@
 
 namespace vantage {
 
-/// What the rig would have seen at `share` (0..1) of the time from `first` to `second`: colour and
-/// disparity go along the motion, the nearest surface before others, and a pixel is of a surface
-/// that covers half of it. Where none ends is what the farther one of both frames shows there: a
-/// set stands still behind those who move. Where motion is not followed all is as in the frame that
-/// is nearer in time. Precondition: the motion is theirs, and not empty.
+/// Interpolates the rig's frame at `share` (0..1) of the time from `first` to `second`. Colour and
+/// disparity move along the motion; nearer surfaces hide farther ones, and a pixel belongs to a
+/// surface that covers half of it. Pixels that no surface moves to show the farther surface of the
+/// two frames, since the background stands still. Where motion is not followed, the result is the
+/// frame that is nearer in time. Precondition: the motion is that of the two frames and not empty.
 RigFrame frame_between(const RigFrame& first, const RigFrame& second, const RigMotion& motion,
                        double share);
 

@@ -10,23 +10,24 @@
 
 namespace vantage {
 
-/// Frame sets of moments between two pulses, made of what moved from one to the other. Keeps the
-/// two sets that it looked at last with their motion, since slow motion asks for many moments
-/// between the same two. Belongs to one thread.
+/// Interpolates frame sets between two pulses along the motion from one to the other. Caches the
+/// last two frame sets and their motion, since slow motion requests many moments between the same
+/// two. Belongs to one thread.
 class InterpolatedFrameSets {
   public:
-    /// `share`: above 0, below 1. The set of `pulse` itself where the next pulse has none, and of a
-    /// rig its frame of `pulse` where it is not in both. Empty if there is no set of `pulse`. Works
-    /// a rig a thread, and waits.
+    /// Returns the frame set at `share` (above 0, below 1) of the time after `pulse`. If the next
+    /// pulse has no frame set, returns that of `pulse`; a rig that is not in both keeps its frame
+    /// of `pulse`. Empty if `pulse` has no frame set. Computes with one thread for each rig and
+    /// waits.
     std::optional<FrameSet> at(const PastFrameSets& past, std::uint64_t pulse, double share);
 
   private:
-    /// Null: there is no set of this pulse.
+    /// Returns the frame set of this pulse; null: there is none.
     const FrameSet* fetch(const PastFrameSets& past, std::uint64_t pulse);
 
-    std::map<std::uint64_t, FrameSet> sets_;  ///< by pulse: the two around the last moment
+    std::map<std::uint64_t, FrameSet> sets_;  ///< the two around the last moment, by pulse
     std::optional<std::uint64_t> motion_from_;
-    std::vector<RigMotion> motions_;  ///< from the set of motion_from_ to the next, a rig each
+    std::vector<RigMotion> motions_;  ///< from motion_from_ to the next pulse, by rig
 };
 
 }  // namespace vantage

@@ -8,18 +8,19 @@
 namespace vantage {
 namespace {
 
-/// Between two points that are asked about, px of the grid.
+/// Distance between two points that are checked, px of the grid.
 constexpr int stride_px = 3;
-/// A region with fewer answers is not judged; of them so many may be against it.
-constexpr int fewest_answers = 12;
-constexpr double most_against_share = 0.5;
-/// How far from where another rig has it a point may end, px of that rig's grid, and of its way.
-constexpr double most_off_px = 2, most_off_share = 0.3;
-/// What a matcher may err by between two pulses, disparity px: it tells how far a point comes
-/// nearer no finer than that.
-constexpr double penalty_px = 1;
+/// A region with fewer answers is not checked. It is rejected if more than this share contradicts
+/// it.
+constexpr int min_answers = 12;
+constexpr double max_against_share = 0.5;
+/// Largest distance of a point's end from that in another rig: px of its grid, plus a share of the
+/// length of the motion.
+constexpr double max_error_px = 2, max_error_share = 0.3;
+/// Matching error between two pulses, px of disparity: motion along the ray is known no finer.
+constexpr double disparity_error_px = 1;
 
-/// Between the grid of a rig's motion and space.
+/// Maps between the grid of a rig's motion and space.
 class Grid {
   public:
     explicit Grid(const FollowedRig& rig)
@@ -48,7 +49,8 @@ class Grid {
         return rig_->first->world_from_camera * in_camera;
     }
 
-    /// Place on the grid and disparity, px of the colour picture; false: it is behind the camera.
+    /// Projects a point to the grid and to a disparity, px of the colour image. Returns false if it
+    /// lies behind the camera.
     bool sees(const Eigen::Vector3d& point, Eigen::Vector2d& place, double& disparity_px) const {
         const Eigen::Vector3d in_camera = camera_from_world_ * point;
         if (in_camera.z() < 1e-3) return false;
@@ -67,7 +69,7 @@ class Grid {
     double px_per_grid_;
 };
 
-/// How far a place is from the line between two others.
+/// Returns the distance of a place from the line between two others.
 double off_line(const Eigen::Vector2d& place, const Eigen::Vector2d& from,
                 const Eigen::Vector2d& to) {
     const Eigen::Vector2d line = to - from;
@@ -79,7 +81,7 @@ double off_line(const Eigen::Vector2d& place, const Eigen::Vector2d& from,
 
 enum class Answer { none, yes, no };
 
-/// What `other` says to a point that goes from a pixel of `asking` to `there`.
+/// Whether `other` confirms that a point moves from a pixel of `asking` to `there`.
 Answer answer_of(const Grid& asking, const Grid& other, cv::Point pixel, cv::Point there) {
     const double began_px = asking.first_px(pixel.x, pixel.y);
     const double ended_px = asking.second_px(there.x, there.y);
@@ -90,24 +92,25 @@ Answer answer_of(const Grid& asking, const Grid& other, cv::Point pixel, cv::Poi
     const cv::Point at(cvRound(place.x()), cvRound(place.y()));
     if (!cv::Rect({}, other.size()).contains(at)) return Answer::none;
     const double seen_px = other.first_px(at.x, at.y);
-    // Hidden there, or seen to be elsewhere.
+    // The point is hidden there, or another surface is seen.
     if (seen_px <= 0 || std::abs(seen_px - expected_px) > one_surface_steps / 32.0)
         return Answer::none;
     const RigMotion& motion = other.motion();
     if (!motion.is_followed(at)) return Answer::no;
     if (!motion.is_sure_first(at)) return Answer::none;
-    const double farther_px = std::max(ended_px - penalty_px, 0.5 * ended_px);
-    if (!other.sees(asking.in_space(there.x, there.y, ended_px + penalty_px), near_end, ignored) ||
+    const double farther_px = std::max(ended_px - disparity_error_px, 0.5 * ended_px);
+    if (!other.sees(asking.in_space(there.x, there.y, ended_px + disparity_error_px), near_end,
+                    ignored) ||
         !other.sees(asking.in_space(there.x, there.y, farther_px), far_end, ignored))
         return Answer::none;
     const cv::Vec2f way = motion.forward(at);
     const Eigen::Vector2d end(at.x + way[0], at.y + way[1]);
     const double off_px = off_line(end, near_end, far_end);
-    return off_px <= most_off_px + most_off_share * std::hypot(way[0], way[1]) ? Answer::yes
-                                                                               : Answer::no;
+    return off_px <= max_error_px + max_error_share * std::hypot(way[0], way[1]) ? Answer::yes
+                                                                                 : Answer::no;
 }
 
-/// Of one rig, what others contradict.
+/// Returns the regions of one rig that the others contradict.
 std::vector<int> contradicted(const std::vector<Grid>& grids, std::size_t asking) {
     const Grid& grid = grids[asking];
     const RigMotion& motion = grid.motion();
@@ -130,8 +133,7 @@ std::vector<int> contradicted(const std::vector<Grid>& grids, std::size_t asking
         }
     std::vector<int> regions;
     for (std::size_t region = 1; region < answers.size(); ++region)
-        if (answers[region] >= fewest_answers &&
-            against[region] > most_against_share * answers[region])
+        if (answers[region] >= min_answers && against[region] > max_against_share * answers[region])
             regions.push_back(static_cast<int>(region));
     return regions;
 }
@@ -147,7 +149,7 @@ void agree_on_motion(const std::vector<FollowedRig>& rigs) {
         grids.emplace_back(rig);
         motions.push_back(rig.motion);
     }
-    // Whom one rig leaves alone another may follow no more: at most as often as there are rigs.
+    // A rejected region may leave another rig's region without support: at most one round per rig.
     for (std::size_t round = 0; round < grids.size(); ++round) {
         std::vector<std::vector<int>> all;
         for (std::size_t asking = 0; asking < grids.size(); ++asking)

@@ -6,18 +6,17 @@
 
 namespace vantage {
 
-/// A rig's frames of two pulses, and what moved from one to the other.
+/// A rig's frames of two pulses, with the motion from one to the other.
 struct FollowedRig {
     const RigFrame* first = nullptr;
     const RigFrame* second = nullptr;
-    RigMotion* motion = nullptr;  ///< empty: says nothing
+    RigMotion* motion = nullptr;  ///< empty: none is known
 };
 
-/// Has rigs ask each other what they follow: by flow and by the disparities at its ends a point
-/// goes from one place in space to another, and every other rig that sees the first has to see it
-/// go that way. A region of which too many points are contradicted, or not followed elsewhere, is
-/// left alone in this rig too, so that nobody is in two places at once. Frames without disparity
-/// neither ask nor answer.
+/// Checks the rigs' motions for consistency. Flow and the disparities at its ends give a point's
+/// motion in space, and every other rig that sees the point must see it move the same way. A region
+/// where too many points are contradicted, or not followed by other rigs, is marked as not
+/// followed, so that nobody is shown in two places at once. Frames without disparity take no part.
 void agree_on_motion(const std::vector<FollowedRig>& rigs);
 
 }  // namespace vantage

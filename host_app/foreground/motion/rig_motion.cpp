@@ -9,24 +9,25 @@
 namespace vantage {
 namespace {
 
-constexpr int most_columns = 512;
-/// Of a picture that is followed by itself, px.
+/// Largest width of the grid: it limits the time that optical flow takes.
+constexpr int max_columns = 512;
+/// Least side of an image part that optical flow works on, px.
 constexpr int least_side_px = 32;
-/// How far from where it began the way there and back may end, px of the grid, and of the way's
-/// length. Measured on the virtual stage: tests/bench/between_truth.
-constexpr float max_penalty_px = 1.2f, max_penalty_share = 0.2f;
-/// That a surface comes nearer, or goes, from pulse to pulse.
-constexpr int most_approach_steps = 128;
-/// Moving pixels that are so close to each other are of one region, px; of a region so much has to
-/// be sure.
+/// Largest distance between the start and the end of the flow there and back, px of the grid, plus
+/// a share of the flow's length. Measured on the virtual stage with tests/bench/between_truth.
+constexpr float max_round_trip_px = 1.2f, max_round_trip_share = 0.2f;
+/// Largest change of a surface's disparity from pulse to pulse, 1/32 px.
+constexpr int max_approach_steps = 128;
+/// Moving pixels this close to each other form one region, px. At least this share of a region must
+/// be reliable.
 constexpr int region_px = 7;
-constexpr double least_sure_share = 0.65;
-/// Around a region, so that what stands still beside it is seen to stand still, px.
+constexpr double min_sure_share = 0.65;
+/// Margin around a region, px, so that flow also covers the still pixels beside it.
 constexpr int margin_px = 8;
-/// What is seen to move looks the same there, grey levels, the mean of 3x3.
-constexpr int most_change = 40;
-/// What sensors make of one thing, grey levels, the mean of 3x3.
-constexpr int most_noise = 2;
+/// Largest difference between a moved pixel and its target, grey levels, mean of 3x3.
+constexpr int max_change = 40;
+/// Largest difference that is sensor noise, grey levels, mean of 3x3.
+constexpr int max_noise = 2;
 
 cv::Mat1b grey_of(const ColourImage& colour, cv::Size size) {
     cv::Mat1b grey;
@@ -35,12 +36,12 @@ cv::Mat1b grey_of(const ColourImage& colour, cv::Size size) {
     return grey;
 }
 
-/// Where both pictures show the same: there nothing moves, whatever moves beside it.
+/// Returns where both images are the same: nothing moves there.
 cv::Mat1b still_in(const cv::Mat1b& a, const cv::Mat1b& b) {
     cv::Mat1b difference;
     cv::absdiff(a, b, difference);
     cv::blur(difference, difference, {3, 3});
-    return difference <= most_noise;
+    return difference <= max_noise;
 }
 
 cv::Mat1b looks_the_same(const cv::Mat1b& here, const cv::Mat1b& there, const cv::Mat2f& way) {
@@ -52,10 +53,11 @@ cv::Mat1b looks_the_same(const cv::Mat1b& here, const cv::Mat1b& there, const cv
     cv::remap(there, moved, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
     cv::absdiff(here, moved, difference);
     cv::blur(difference, difference, {3, 3});
-    return difference <= most_change;
+    return difference <= max_change;
 }
 
-/// `disparity` of the frame that the way begins in, `disparity_there` of the other, on the grid.
+/// Returns where the flow is reliable. `disparity` belongs to the frame that it begins in and
+/// `disparity_there` to the other one, both on the grid.
 cv::Mat1b sure_of(const cv::Mat2f& there, const cv::Mat2f& back, const DisparityImage& disparity,
                   const DisparityImage& disparity_there) {
     cv::Mat1b sure(there.size());
@@ -68,21 +70,22 @@ cv::Mat1b sure_of(const cv::Mat2f& there, const cv::Mat2f& back, const Disparity
                 continue;
             }
             if (!disparity.empty() && disparity(y, x) > 0 && disparity_there(ty, tx) > 0 &&
-                std::abs(disparity(y, x) - disparity_there(ty, tx)) > most_approach_steps) {
+                std::abs(disparity(y, x) - disparity_there(ty, tx)) > max_approach_steps) {
                 sure(y, x) = 0;
                 continue;
             }
-            const cv::Vec2f doubt = way + back(ty, tx);
-            const float limit = max_penalty_px + max_penalty_share * std::hypot(way[0], way[1]);
-            sure(y, x) = std::hypot(doubt[0], doubt[1]) <= limit ? 255 : 0;
+            const cv::Vec2f round_trip = way + back(ty, tx);
+            const float limit =
+                max_round_trip_px + max_round_trip_share * std::hypot(way[0], way[1]);
+            sure(y, x) = std::hypot(round_trip[0], round_trip[1]) <= limit ? 255 : 0;
         }
     return sure;
 }
 
-/// What moves, taken apart.
+/// The moving pixels, in connected regions.
 struct Regions {
-    cv::Mat1i of;     ///< a pixel; 0: none
-    cv::Mat1i stats;  ///< a row a region, as OpenCV has them
+    cv::Mat1i of;     ///< region of each pixel; 0: none
+    cv::Mat1i stats;  ///< a row for each region, as OpenCV fills it
 };
 
 Regions regions_of(const cv::Mat1b& still) {
@@ -94,8 +97,8 @@ Regions regions_of(const cv::Mat1b& still) {
     return regions;
 }
 
-/// Rectangles that have all regions, and no pixel twice. What is no larger than two pixels' noise
-/// is left out.
+/// Returns disjoint rectangles that contain all regions. Regions as small as the noise of two
+/// pixels are left out.
 std::vector<cv::Rect> parts_with(const Regions& regions, cv::Size size) {
     constexpr int least_px = 2 * region_px * region_px;
     const cv::Rect all({}, size);
@@ -124,7 +127,7 @@ std::vector<cv::Rect> parts_with(const Regions& regions, cv::Size size) {
     return parts;
 }
 
-/// Flow of these parts of the pictures; elsewhere none.
+/// Computes the flow in these parts of the images; elsewhere it is zero.
 cv::Mat2f flow_in(const std::vector<cv::Rect>& parts, const cv::Mat1b& here,
                   const cv::Mat1b& there) {
     const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
@@ -141,8 +144,9 @@ cv::Mat2f flow_in(const std::vector<cv::Rect>& parts, const cv::Mat1b& here,
     return flow;
 }
 
-/// Of which too little is sure: half a leg that goes on is worse than a leg that waits.
-std::vector<int> doubted_regions(const RigMotion& motion, const cv::Mat1b& still) {
+/// Returns the regions of which too little is reliable: a leg of which only half moves looks worse
+/// than one that stays.
+std::vector<int> unreliable_regions(const RigMotion& motion, const cv::Mat1b& still) {
     std::vector<double> all(static_cast<std::size_t>(motion.regions)), sure(all.size());
     for (int y = 0; y < still.rows; ++y)
         for (int x = 0; x < still.cols; ++x) {
@@ -151,11 +155,11 @@ std::vector<int> doubted_regions(const RigMotion& motion, const cv::Mat1b& still
             all[region] += 2;
             sure[region] += (motion.is_sure_first(y, x) != 0) + (motion.is_sure_second(y, x) != 0);
         }
-    std::vector<int> doubted;
+    std::vector<int> unreliable;
     for (std::size_t region = 1; region < all.size(); ++region)
-        if (sure[region] < least_sure_share * all[region])
-            doubted.push_back(static_cast<int>(region));
-    return doubted;
+        if (sure[region] < min_sure_share * all[region])
+            unreliable.push_back(static_cast<int>(region));
+    return unreliable;
 }
 
 }  // namespace
@@ -177,8 +181,8 @@ RigMotion motion_between(const RigFrame& first, const RigFrame& second) {
         std::min(first.colour.cols, first.colour.rows) < least_side_px)
         return {};
     cv::Size size = first.colour.size();
-    if (size.width > most_columns)
-        size = {most_columns, std::max(least_side_px, size.height * most_columns / size.width)};
+    if (size.width > max_columns)
+        size = {max_columns, std::max(least_side_px, size.height * max_columns / size.width)};
     const cv::Mat1b before = grey_of(first.colour, size), after = grey_of(second.colour, size);
     const cv::Mat1b still = still_in(before, after);
     const Regions regions = regions_of(still);
@@ -200,7 +204,7 @@ RigMotion motion_between(const RigFrame& first, const RigFrame& second) {
     motion.region = regions.of;
     motion.regions = regions.stats.rows;
     motion.is_followed = cv::Mat1b(size, 255);
-    leave_alone(motion, doubted_regions(motion, still));
+    leave_alone(motion, unreliable_regions(motion, still));
     return motion;
 }
 

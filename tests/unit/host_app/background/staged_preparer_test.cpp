@@ -212,7 +212,7 @@ TEST_F(StagedPreparerTest, ExplainsWhyALoadedBackgroundDoesNotFit) {
     other_place.take({&moved, 1}, 0.2);
     RigBackgroundState state = other_place.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
-    EXPECT_NE(state.misfit.find("another calibration or picture size of rig only"),
+    EXPECT_NE(state.misfit.find("another calibration or image size of rig only"),
               std::string::npos)
         << state.misfit;
     EXPECT_EQ(state.known, 0);
@@ -224,7 +224,7 @@ TEST_F(StagedPreparerTest, ExplainsWhyALoadedBackgroundDoesNotFit) {
     other_rig.take({&view, 1}, 0.2);
     state = other_rig.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
-    EXPECT_NE(state.misfit.find("has none of rig only"), std::string::npos) << state.misfit;
+    EXPECT_NE(state.misfit.find("has no rig only"), std::string::npos) << state.misfit;
 }
 
 /// Neither a square that stood there from the start nor a loaded background comes back.

@@ -85,7 +85,7 @@ TEST_F(FusedColourTest, MixesTheRigsByTheAngleOfTheirLinesOfSight) {
     }
 }
 
-TEST_F(FusedColourTest, WeighsRigsByTheirTrustAndPresence) {
+TEST_F(FusedColourTest, WeighsRigsByTheirConfidenceAndPresence) {
     add(-0.2, red).colour.setTo(cv::Scalar(200, 20, 20, 64));
     add(0.2, blue);
     const double confidence = 64 / 255.0;
@@ -98,7 +98,7 @@ TEST_F(FusedColourTest, WeighsRigsByTheirTrustAndPresence) {
               1);
 }
 
-TEST_F(FusedColourTest, AsksOnlyRigsWhoseOwnDepthHasTheSurface) {
+TEST_F(FusedColourTest, SamplesOnlyRigsWhoseOwnDepthHasTheSurface) {
     add(-0.2, red).depth_m.setTo(1.8f);
     add(0.3, blue);
     EXPECT_LE(furthest(draw().colour(middle), blue), 1);
@@ -109,7 +109,7 @@ TEST_F(FusedColourTest, AsksOnlyRigsWhoseOwnDepthHasTheSurface) {
     EXPECT_EQ(draw(true).colour(middle), cv::Vec4b(0, 0, 0, 0));
 }
 
-TEST_F(FusedColourTest, LetsAThirdRigHaveNoSayWhereOneOfTheFirstTwoSeesWell) {
+TEST_F(FusedColourTest, IgnoresAThirdRigWhereOneOfTheFirstTwoSeesWell) {
     add(-0.2, red);
     add(0.2, red);
     add(0.6, green);
@@ -127,7 +127,7 @@ TEST_F(FusedColourTest, LetsAThirdRigHaveNoSayWhereOneOfTheFirstTwoSeesWell) {
     EXPECT_LE(furthest(both(28, 24), red), 1);
 }
 
-TEST_F(FusedColourTest, ClaimsNothingThatWasOnlyGuessed) {
+TEST_F(FusedColourTest, DoesNotClaimInpaintedSurfaces) {
     add(-0.2, red).depth_m.setTo(-wall_m);
     found_m_.setTo(-wall_m);
     for (const bool plainly : {false, true}) {

@@ -46,7 +46,7 @@ class FusedDepthTest : public testing::Test {
     RigLayers layers_{shaders_};
 };
 
-TEST_F(FusedDepthTest, AveragesRigsThatAgreeByTheAngleOfTheirLinesOfSight) {
+TEST_F(FusedDepthTest, AveragesConsistentRigsByTheAngleOfTheirLinesOfSight) {
     // Apart by less than the softness: both count in full.
     const double a = 2, b = 2.009;
     const double wa = weight(0.2, a), wb = weight(-0.4, b);
@@ -63,26 +63,26 @@ TEST_F(FusedDepthTest, TakesTheNearestOfDifferentSurfaces) {
     EXPECT_NEAR(fused({{0.1, 4}, {-0.2, 2}, {0.3, 2}}), 2, 2e-4);
 }
 
-TEST_F(FusedDepthTest, LeavesOutWhatMoreRigsSeeThroughThanHaveIt) {
+TEST_F(FusedDepthTest, RejectsASurfaceThatMoreRigsSeeThroughThanHave) {
     EXPECT_NEAR(fused({{0.1, 4}, {-0.2, 2}, {0.3, 4}}), 4, 4e-4);
     EXPECT_NEAR(fused({{0.1, 4}, {-0.2, 2}, {0.3, 3}}), 3, 4e-4) << "one for it, one against it";
 }
 
-TEST_F(FusedDepthTest, LeavesOutWhatAnotherRigSeesThroughAndInAnotherColour) {
+TEST_F(FusedDepthTest, RejectsASurfaceSeenThroughInAnotherColour) {
     const cv::Vec4b red(200, 40, 40, 255), blue(40, 40, 200, 255);
     EXPECT_NEAR(fused({{0.1, 4, 1, red}, {-0.2, 2, 1, blue}}), 4, 4e-4);
     EXPECT_NEAR(fused({{0.1, 4, 1, red}, {-0.2, 2, 1, red}}), 2, 2e-4) << "a matcher may err";
 }
 
-TEST_F(FusedDepthTest, KeepsWhatRigsSeeThroughWhereNothingIsBehindIt) {
+TEST_F(FusedDepthTest, KeepsASurfaceWithNothingBehindIt) {
     const cv::Vec4b red(200, 40, 40, 255), blue(40, 40, 200, 255);
     EXPECT_NEAR(fused({{0.1, -4, 1, red}, {-0.2, 2, 1, blue}}), 2, 2e-4);
 }
 
-TEST_F(FusedDepthTest, CountsAGuessOnlyWhereNobodyMeasured) {
+TEST_F(FusedDepthTest, UsesInpaintedDepthOnlyWhereNoRigMeasured) {
     EXPECT_NEAR(fused({{0.1, -2}, {-0.2, 4}}), 4, 4e-4);
     EXPECT_NEAR(fused({{0.1, -2}, {-0.2, -4}}), -2, 2e-4) << "negative: guessed";
-    // A guess that meets what was measured is not thrown away.
+    // Inpainted depth that meets a measured surface counts.
     EXPECT_NEAR(fused({{0.1, -2.005f}, {-0.2, 2}}), 2.004, 1e-3);
 }
 

@@ -38,7 +38,7 @@ class RememberedBackgroundTest : public testing::Test {
     const VirtualView target_{width_px, height_px, truth_.K, truth_.world_from_camera};
 };
 
-TEST_F(RememberedBackgroundTest, ShowsWhatAPerformerHidesNowAndDidNotBefore) {
+TEST_F(RememberedBackgroundTest, ShowsWhatTheForegroundHidesNowAndDidNotBefore) {
     see(film(0, 0));
     const ColourImage without = render();
     see(film(0, -1.2), long_enough);
@@ -101,7 +101,7 @@ TEST_F(RememberedBackgroundTest, DoesNotShowWhatHasGone) {
         }
 }
 
-TEST_F(RememberedBackgroundTest, IsCountedApartByTheNoveltyOverlay) {
+TEST_F(RememberedBackgroundTest, IsCountedSeparatelyByTheSourceMap) {
     ASSERT_TRUE(synthesiser_->note_origins(true));
     see(film(0, -1.2), long_enough);
     see(film(0, 0));

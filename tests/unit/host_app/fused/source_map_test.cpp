@@ -1,7 +1,8 @@
+#include "host_app/synthesis/source_map.h"
+
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "host_app/synthesis/source_map.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {
@@ -103,14 +104,14 @@ TEST_P(SourceMapTest, LeavesThePictureAsItIs) {
 INSTANTIATE_TEST_SUITE_P(All, SourceMapTest, testing::Values("mesh", "layered", "fused"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST(SourceMapOverlay, SaysWhichSynthesiserCannotTell) {
+TEST(SourceMapOverlay, NamesASynthesiserThatReportsNoSources) {
     const EglContext context;
     const ShaderLibrary shaders;
     const auto points = make_synthesiser("points", shaders);
     const std::string sentence =
         thrown_sentence([&] { SourceMapOverlay::require(points->note_origins(true), "points"); });
-    EXPECT_NE(sentence.find("'points' cannot tell"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("take fused"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("'points' does not report"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("choose fused"), std::string::npos) << sentence;
 }
 
 TEST(SourceMapColours, AreTenDistinctOnesAtLeast) {

@@ -220,7 +220,7 @@ DepthView grey_wall(const Eigen::Vector3d& from_m, double f_px, uchar grey) {
     return view;
 }
 
-TEST(FusedSynthesiser, AsksOtherRigsOnlyWhereTheTwoMostUsefulOnesSeeNothing) {
+TEST(FusedSynthesiser, SamplesOtherRigsOnlyWhereTheTwoMostUsefulSeeNothing) {
     const EglContext context;
     const ShaderLibrary shaders;
     const auto synthesiser = make_synthesiser("fused", shaders);
@@ -235,7 +235,7 @@ TEST(FusedSynthesiser, AsksOtherRigsOnlyWhereTheTwoMostUsefulOnesSeeNothing) {
     EXPECT_EQ(picture(45, 115)[3], 255) << "is covered";
 }
 
-TEST(FusedSynthesiser, AsksAllRigsThatAreAboutAsClose) {
+TEST(FusedSynthesiser, SamplesAllRigsThatAreAboutAsClose) {
     const EglContext context;
     const ShaderLibrary shaders;
     const auto synthesiser = make_synthesiser("fused", shaders);
@@ -247,7 +247,7 @@ TEST(FusedSynthesiser, AsksAllRigsThatAreAboutAsClose) {
 }
 
 /// A plain square leaves a matcher nothing to hold on to; its colour tells it from the wall.
-TEST(FusedSynthesiser, GuessesTheDepthOfWhatALikeColouredSurfaceSurrounds) {
+TEST(FusedSynthesiser, InpaintsDepthFromSurroundingsOfSimilarColour) {
     const EglContext context;
     const ShaderLibrary shaders;
     const DepthView truth = wall_and_square(-0.2, 121, 91);

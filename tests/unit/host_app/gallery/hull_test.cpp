@@ -50,13 +50,13 @@ TEST_F(HullTest, IsLargerTheFewerRigsCutIt) {
     EXPECT_GT(two, 1.05 * red_outline(synthesiser_->render(target).download()).area);
 }
 
-TEST_F(HullTest, SaysThatItKnowsNoSilhouettes) {
+TEST_F(HullTest, RefusesInstantsWithoutSilhouettes) {
     const DepthView views[] = {ball_and_wall(-13, {61, 47}, true),
                                ball_and_wall(13, {61, 47}, true)};
     synthesiser_->set_views(views);
     EXPECT_NE(thrown_sentence([&] {
                   synthesiser_->render(view_of_scene(views[0]));
-              }).find("silhouettes of two rigs or more"),
+              }).find("at least two rigs"),
               std::string::npos);
 }
 

@@ -34,7 +34,7 @@ std::vector<DepthView> grid(int columns, int rows, double step_m, bool has_ball 
 
 using LightFieldTest = GalleryRendering;
 
-TEST_F(LightFieldTest, MeetsWhatLiesInTheFocalPlaneWithoutAnyDepth) {
+TEST_F(LightFieldTest, MatchesSurfacesInTheFocalPlaneWithoutDepth) {
     std::vector<DepthView> views = grid(5, 3, 0.3, false);
     for (DepthView& view : views) view.depth_m.release();
     const DepthView truth = seen_at(0.11, -0.13, false);
@@ -68,7 +68,7 @@ TEST_F(LightFieldTest, BlursWhatIsOutOfFocusTheMoreTheWiderTheAperture) {
               1.5 * ball_error("lightfield:focal-m=5"));
 }
 
-TEST_F(LightFieldTest, GoesOnWhereACameraOfTheRowIsMissing) {
+TEST_F(LightFieldTest, BridgesAMissingCameraOfTheRow) {
     std::vector<DepthView> views = grid(5, 1, 0.1, false);
     const DepthView truth = views[2];
     views.erase(views.begin() + 2);
@@ -77,22 +77,22 @@ TEST_F(LightFieldTest, GoesOnWhereACameraOfTheRowIsMissing) {
     EXPECT_GT(psnr_db(picture, truth.colour, truth.depth_m == 5.0f), 34);
 }
 
-TEST_F(LightFieldTest, SaysWhatCannotBeOne) {
+TEST_F(LightFieldTest, RefusesArraysThatAreNoLightField) {
     const VirtualView target = view_of_scene(seen_at(0, 0));
     const auto refusal = [&](std::span<const DepthView> views) {
         return thrown_sentence([&] { render("lightfield", views, target); });
     };
     const std::vector<DepthView> one = grid(1, 1, 1);
-    EXPECT_NE(refusal(one).find("two cameras or more"), std::string::npos);
+    EXPECT_NE(refusal(one).find("at least two cameras"), std::string::npos);
     std::vector<DepthView> blind = grid(2, 1, 0.2);
     for (DepthView& view : blind) view.depth_m.release();
     EXPECT_NE(refusal(blind).find("lightfield:focal-m="), std::string::npos);
     std::vector<DepthView> against = grid(2, 1, 0.2);
     against[1].world_from_camera = look_at({0.4, 0, 3}, {0, 0, 0}, {0, -1, 0});
-    EXPECT_NE(refusal(against).find("look the same way"), std::string::npos);
+    EXPECT_NE(refusal(against).find("face the same way"), std::string::npos);
     std::vector<DepthView> deep = grid(2, 1, 0.2);
     deep[1].world_from_camera.translation().z() -= 1;
-    EXPECT_NE(refusal(deep).find("stand 1.00 m before others"), std::string::npos);
+    EXPECT_NE(refusal(deep).find("are 1.00 m in front of others"), std::string::npos);
 }
 
 TEST(CameraPlane, FindsTheColumnsAndRowsOfAGrid) {

@@ -37,7 +37,7 @@ class TourTest : public testing::Test {
     ShaderLibrary shaders_;
 };
 
-TEST_F(TourTest, ShowsFloorBackPlaneAndPerformerFromBesideTheFilm) {
+TEST_F(TourTest, ShowsFloorBackPlaneAndForegroundFromTheSide) {
     for (const Eigen::Vector3d& from :
          {Eigen::Vector3d(0.4, -0.6, -3), Eigen::Vector3d(-0.3, -0.8, -2.6)}) {
         const DepthView truth = seen_from(from, true);
@@ -51,23 +51,23 @@ TEST_F(TourTest, ShowsFloorBackPlaneAndPerformerFromBesideTheFilm) {
     }
 }
 
-TEST_F(TourTest, IsTheFilmFromItsOwnPlaceWhateverTheLayout) {
+TEST_F(TourTest, ReproducesTheVideoFromItsOwnPlaceInAnyLayout) {
     const DepthView film = seen_from({0, -0.6, -3}, true);
     EXPECT_GT(psnr_db(fly("tour:up=-y,floor-m=-1", film), film.colour), 30);
     EXPECT_GT(psnr_db(fly("tour:up=-y,floor-m=-1.5,back-m=9", film), film.colour), 30);
 }
 
-TEST_F(TourTest, SaysWhereItCannotGo) {
+TEST_F(TourTest, RefusesPlacesThatItCannotShow) {
     const DepthView film = seen_from({0, -0.6, -3}, true);
     EXPECT_NE(thrown_sentence([&] { fly("tour:up=y,floor-m=1", film); }).find("below the floor"),
               std::string::npos);
     EXPECT_NE(thrown_sentence([&] {
                   fly("tour:up=-y,floor-m=-1,back-m=5", seen_from({0.2, 0.2, 1.9}, true));
-              }).find("before the back plane"),
+              }).find("in front of the back plane"),
               std::string::npos);
 }
 
-TEST(CutOuts, ArePartsThatHangTogetherWithoutSpecks) {
+TEST(CutOuts, AreConnectedPartsWithoutSpecks) {
     cv::Mat1b matte = cv::Mat1b::zeros(100, 100);
     matte(cv::Rect(10, 20, 10, 30)) = 255;
     matte(cv::Rect(60, 40, 20, 50)) = 200;

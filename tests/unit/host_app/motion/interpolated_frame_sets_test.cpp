@@ -1,8 +1,8 @@
+#include "host_app/foreground/motion/interpolated_frame_sets.h"
+
 #include <map>
 
 #include <gtest/gtest.h>
-
-#include "host_app/foreground/motion/interpolated_frame_sets.h"
 
 namespace vantage {
 namespace {
@@ -38,7 +38,7 @@ class GreyFrameSets final : public PastFrameSets {
 
 int grey_of(const FrameSet& set) { return set.slots[0].frame->colour(24, 32)[0]; }
 
-TEST(InterpolatedFrameSetsTest, AMomentIsMadeOfThePulsesAroundIt) {
+TEST(InterpolatedFrameSetsTest, InterpolatesBetweenThePulsesAroundAMoment) {
     const GreyFrameSets past({1, 2, 3});
     InterpolatedFrameSets between;
     const auto set = between.at(past, 1, 0.5);
@@ -47,7 +47,7 @@ TEST(InterpolatedFrameSetsTest, AMomentIsMadeOfThePulsesAroundIt) {
     EXPECT_NEAR(grey_of(*set), 30, 1);
 }
 
-TEST(InterpolatedFrameSetsTest, EverySetIsFetchedOncePlayedEitherWay) {
+TEST(InterpolatedFrameSetsTest, FetchesEveryFrameSetOnceInBothDirections) {
     const GreyFrameSets past({1, 2, 3, 4});
     InterpolatedFrameSets between;
     for (const std::uint64_t pulse : {1, 2, 3})
@@ -60,14 +60,14 @@ TEST(InterpolatedFrameSetsTest, EverySetIsFetchedOncePlayedEitherWay) {
     EXPECT_LE(past.asked.at(1), 2);
 }
 
-TEST(InterpolatedFrameSetsTest, AcrossAGapThePulseBeforeItIsShown) {
+TEST(InterpolatedFrameSetsTest, ShowsThePulseBeforeAGap) {
     const GreyFrameSets past({1, 4});
     InterpolatedFrameSets between;
     EXPECT_EQ(grey_of(*between.at(past, 1, 0.5)), 20);
     EXPECT_FALSE(between.at(past, 2, 0.5));
 }
 
-TEST(InterpolatedFrameSetsTest, ARigThatIsInOneSetOnlyIsAsInTheFirst) {
+TEST(InterpolatedFrameSetsTest, KeepsTheFirstFrameOfARigThatTheSecondLacks) {
     GreyFrameSets past({1, 2, 3});
     past.absent = 2;
     InterpolatedFrameSets between;

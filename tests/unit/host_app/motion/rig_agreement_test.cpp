@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// Two rigs side by side, 0.3 m apart, that look at a square two metres away.
+/// Two rigs side by side, 0.3 m apart, facing a square two metres away.
 class RigAgreementTest : public testing::Test {
   protected:
     static constexpr int parallax_px = 24;
@@ -40,13 +40,13 @@ class RigAgreementTest : public testing::Test {
     const int in_first_ = 80 + square / 2, in_second_ = in_first_ - parallax_px;
 };
 
-TEST_F(RigAgreementTest, WhatBothSeeMoveAlikeIsFollowed) {
+TEST_F(RigAgreementTest, FollowsMotionThatBothRigsSeeAlike) {
     agree(rigs_);
     EXPECT_TRUE(follows(rigs_[0], in_first_));
     EXPECT_TRUE(follows(rigs_[1], in_second_));
 }
 
-TEST_F(RigAgreementTest, WhatOneLeavesAloneTheOtherDoesToo) {
+TEST_F(RigAgreementTest, FollowsNoMotionThatTheOtherRigDoesNotFollow) {
     std::vector<int> all;
     for (int region = 1; region < rigs_[1].motion.regions; ++region) all.push_back(region);
     leave_alone(rigs_[1].motion, all);
@@ -57,7 +57,7 @@ TEST_F(RigAgreementTest, WhatOneLeavesAloneTheOtherDoesToo) {
     EXPECT_EQ(between.colour(height / 2, in_first_), rigs_[0].first.colour(height / 2, in_first_));
 }
 
-TEST_F(RigAgreementTest, WhereWaysContradictEachOtherNothingIsFollowed) {
+TEST_F(RigAgreementTest, FollowsNoContradictoryMotion) {
     rigs_[1] = rig_at(0.3, 80 - parallax_px, 72 - parallax_px);
     ASSERT_TRUE(follows(rigs_[1], in_second_));
     agree(rigs_);
@@ -65,14 +65,14 @@ TEST_F(RigAgreementTest, WhereWaysContradictEachOtherNothingIsFollowed) {
     EXPECT_FALSE(follows(rigs_[1], in_second_));
 }
 
-TEST_F(RigAgreementTest, WhoDoesNotSeeItDoesNotSpeak) {
+TEST_F(RigAgreementTest, IgnoresRigsThatDoNotSeeThePoint) {
     rigs_[1] = rig_at(3, 80 - parallax_px, 72 - parallax_px);
     agree(rigs_);
     EXPECT_TRUE(follows(rigs_[0], in_first_));
     EXPECT_TRUE(follows(rigs_[1], in_second_));
 }
 
-TEST_F(RigAgreementTest, WithoutDisparityNobodyIsAsked) {
+TEST_F(RigAgreementTest, ChecksNothingWithoutDisparity) {
     rigs_[1] = rig_at(0.3, 80 - parallax_px, 72 - parallax_px);
     rigs_[1].first.disparity = rigs_[1].second.disparity = DisparityImage();
     agree(rigs_);

@@ -16,7 +16,7 @@ double mean_error(const cv::Mat& a, const cv::Mat& b, const cv::Rect& where) {
     return (mean[0] + mean[1] + mean[2]) / 3;
 }
 
-TEST(RigMotionTest, WhatMovesIsHalfWayAtHalfTheTimeWithItsDepth) {
+TEST(RigMotionTest, MovesASurfaceHalfWayAtHalfTheTimeWithItsDepth) {
     const RigFrame first = frame_at(50, 1000), second = frame_at(58, 5000);
     const RigFrame truth = frame_at(54, 3000);
     const RigMotion motion = motion_between(first, second);
@@ -37,21 +37,21 @@ TEST(RigMotionTest, WhatMovesIsHalfWayAtHalfTheTimeWithItsDepth) {
     EXPECT_LT(wrong, 4 * square * 2) << "but for its rims";
 }
 
-TEST(RigMotionTest, ASurfaceIsAsWideBetweenAsItIs) {
+TEST(RigMotionTest, KeepsASurfacesWidth) {
     const RigFrame first = frame_at(50, 0), second = frame_at(57, 1000);
     const RigFrame between = frame_between(first, second, motion_between(first, second), 0.5);
     for (int y = height / 2 - 10; y < height / 2 + 10; ++y)
         EXPECT_NEAR(cv::countNonZero(between.disparity.row(y) == near_steps), square, 1) << y;
 }
 
-TEST(RigMotionTest, WhatStandsStillStays) {
+TEST(RigMotionTest, KeepsStillSurfaces) {
     const RigFrame first = frame_at(50, 0), second = frame_at(50, 1000);
     const RigFrame between = frame_between(first, second, motion_between(first, second), 0.5);
     EXPECT_LT(mean_error(between.colour, first.colour, {0, 0, width, height}), 0.5);
     EXPECT_EQ(cv::countNonZero(between.disparity != first.disparity), 0);
 }
 
-TEST(RigMotionTest, TheEndsAreTheFrames) {
+TEST(RigMotionTest, ReturnsTheFramesAtTheEnds) {
     const RigFrame first = frame_at(50, 0), second = frame_at(58, 1000);
     const RigMotion motion = motion_between(first, second);
     const cv::Rect all(0, 0, width, height);
@@ -61,7 +61,7 @@ TEST(RigMotionTest, TheEndsAreTheFrames) {
               1.5);
 }
 
-TEST(RigMotionTest, FramesThatCannotBeComparedHaveNoMotion) {
+TEST(RigMotionTest, IsEmptyForFramesThatCannotBeCompared) {
     const RigFrame first = frame_at(50, 0);
     RigFrame other = frame_at(50, 0);
     other.colour = ColourImage(60, 80);
@@ -71,7 +71,7 @@ TEST(RigMotionTest, FramesThatCannotBeComparedHaveNoMotion) {
     EXPECT_TRUE(motion_between(other, other).empty());
 }
 
-TEST(RigMotionTest, FramesWithoutDisparityHaveNoneBetween) {
+TEST(RigMotionTest, InterpolatesNoDisparityFromFramesWithout) {
     RigFrame first = frame_at(50, 0), second = frame_at(58, 0);
     first.disparity = second.disparity = DisparityImage();
     const RigFrame between = frame_between(first, second, motion_between(first, second), 0.5);
@@ -79,7 +79,7 @@ TEST(RigMotionTest, FramesWithoutDisparityHaveNoneBetween) {
     EXPECT_EQ(between.colour.size(), first.colour.size());
 }
 
-TEST(RigMotionTest, DisparityMayBeCoarserThanColour) {
+TEST(RigMotionTest, AllowsDisparityCoarserThanColour) {
     RigFrame first = frame_at(50, 0), second = frame_at(58, 0);
     for (RigFrame* frame : {&first, &second}) {
         cv::Mat coarse;

@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the preparers of a test are asked, and what they do.
+/// What a test's preparers must do, and counters of what they did.
 struct Orders {
     std::atomic<bool> fails_to_take = false;
     std::atomic<bool> fails_to_prepare = false;
@@ -40,13 +40,13 @@ class OrderedPreparer final : public InstantPreparer {
     }
     void take(std::span<const DepthView> views, double dt_s) override {
         if (orders_->fails_to_take) fail("the driver is lost");
-        // A picture that is marked cannot be prepared.
-        // With an end, so that a test that fails ends too.
+        // Bounded, so that a failing test ends.
         if (orders_->draws_next_until_released.exchange(false))
             for (int i = 0; i < 5000 && !orders_->is_released; ++i) {
                 SlicedDrawing::current()->give_way();
                 std::this_thread::sleep_for(2ms);
             }
+        // Preparing a marked image fails.
         is_marked_ = !views.empty() && views.front().colour(0, 0)[3] == 7;
         orders_->dt_s = dt_s;
         ++orders_->taken;
@@ -111,7 +111,7 @@ class InstantThreadTest : public testing::Test {
     std::unique_ptr<InstantThread> thread_;
 };
 
-TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
+TEST_F(InstantThreadTest, DescribesTheInstantsSource) {
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
     const auto first = thread_->newest();
@@ -125,21 +125,21 @@ TEST_F(InstantThreadTest, SaysOfWhatAnInstantIs) {
     EXPECT_GT(thread_->newest()->number, first->number);
 }
 
-/// A rehearsal takes seconds, and forgets what was learnt: it has to be over before the show.
-TEST_F(InstantThreadTest, RehearsesWithTheFirstSetThoughARigIsYetToCome) {
+/// A warm-up takes seconds and forgets what was learnt, so it must be over before the show.
+TEST_F(InstantThreadTest, WarmsUpWithTheFirstFrameSetThoughARigIsMissing) {
     feed_.push(feed_.set(4, {"south"}));
     ASSERT_TRUE(wait_for_pulse(4));
     EXPECT_EQ(orders_->warm_ups, 1);
     EXPECT_EQ(orders_->taken_at_warm_up, 0);
-    EXPECT_EQ(orders_->warm_up_rigs, 2u) << "what rigs do for each other is rehearsed too";
-    EXPECT_GT(orders_->warm_up_apart_m, 0) << "from one place they would tell nothing new";
+    EXPECT_EQ(orders_->warm_up_rigs, 2u) << "shaders that compare rigs are compiled too";
+    EXPECT_GT(orders_->warm_up_apart_m, 0) << "rigs at the same place are not compared";
     push(5);
     ASSERT_TRUE(wait_for_pulse(5));
     EXPECT_EQ(orders_->warm_ups, 1);
 }
 
-/// Shaders differ by how many rigs are compared with one, but there is a most.
-TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
+/// Shaders differ by the number of rigs that are compared, which is limited.
+TEST_F(InstantThreadTest, WarmsUpWithTheLargestNumberOfComparedRigs) {
     thread_.reset();
     make_thread(feed_of_six_.feed());
     feed_of_six_.push(feed_of_six_.set(4, {"b", "c"}));
@@ -147,7 +147,7 @@ TEST_F(InstantThreadTest, RehearsesWithAsManyRigsAsAreComparedAtTheMost) {
     EXPECT_EQ(orders_->warm_up_rigs, 4u);
 }
 
-TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
+TEST_F(InstantThreadTest, BeginsWithTheFrameSetThatArrivedDuringWarmUp) {
     orders_->at_warm_up = [&] {
         for (const std::uint64_t pulse : {5, 6}) push(pulse);
         ASSERT_TRUE(eventually([&] { return thread_->stats().replaced.sets == 1; }));
@@ -159,34 +159,34 @@ TEST_F(InstantThreadTest, BeginsWithWhatCameWhileItRehearsed) {
     EXPECT_EQ(thread_->stats().replaced.frames.at("north"), 2u);
 }
 
-TEST_F(InstantThreadTest, MomentsBetweenPulsesArePreparedWhereTheyAreWishedFor) {
+TEST_F(InstantThreadTest, PreparesRequestedMomentsBetweenPulses) {
     for (const std::uint64_t pulse : {4, 5, 6}) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
     }
     const auto shows = [&](double pulse, int moments, std::uint64_t wanted, double share) {
-        thread_->request({.pulse = pulse, .moments_a_pulse = moments, .target = {}, .level = {}});
+        thread_->request({.pulse = pulse, .moments_per_pulse = moments, .target = {}, .level = {}});
         return eventually([&] {
             const auto newest = thread_->newest();
             return newest->set->trigger_index == wanted && newest->share == share;
         });
     };
-    EXPECT_TRUE(shows(4.05, 4, 4, 0)) << "what was filmed comes before what is made";
+    EXPECT_TRUE(shows(4.05, 4, 4, 0)) << "filmed frames take precedence";
     EXPECT_TRUE(shows(4.375, 4, 4, 0.375));
     EXPECT_NEAR(orders_->dt_s, 0.0375, 1e-9);
     EXPECT_TRUE(shows(4.75, 4, 4, 0.75));
     EXPECT_TRUE(shows(5.0, 4, 5, 0));
     EXPECT_NEAR(orders_->dt_s, 0.025, 1e-9);
     const std::uint64_t shown = thread_->newest()->number;
-    EXPECT_TRUE(shows(5.125, 4, 5, 0)) << "half a moment on";
+    EXPECT_TRUE(shows(5.125, 4, 5, 0)) << "less than a moment later";
     EXPECT_TRUE(shows(5.5, 1, 5, 0));
     EXPECT_EQ(thread_->newest()->number, shown);
     EXPECT_TRUE(shows(6.5, 4, 6, 0.5)) << "there is no next one";
     EXPECT_EQ(thread_->stats().between, 3u);
-    EXPECT_EQ(thread_->stats().prepared, 3u) << "of a stage's past all was counted when it came";
+    EXPECT_EQ(thread_->stats().prepared, 3u) << "the past was counted when it was live";
 }
 
-TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
+TEST_F(InstantThreadTest, PassesThePreparerTheTimeBetweenFrameSets) {
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
     const int cuts = orders_->cuts;
@@ -196,13 +196,13 @@ TEST_F(InstantThreadTest, TellsThePreparerHowMuchTimeWentBy) {
     EXPECT_EQ(orders_->cuts, cuts);
     push(100);
     ASSERT_TRUE(wait_for_pulse(100));
-    EXPECT_EQ(orders_->cuts, cuts + 1) << "after nine seconds nothing follows";
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "nothing is tracked across nine seconds";
     push(2);
     ASSERT_TRUE(wait_for_pulse(2));
-    EXPECT_EQ(orders_->cuts, cuts + 2) << "the stage began anew";
+    EXPECT_EQ(orders_->cuts, cuts + 2) << "the stage was restarted";
 }
 
-TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
+TEST_F(InstantThreadTest, AJumpInTimeCancelsPlayback) {
     for (const std::uint64_t pulse : {1, 2, 3}) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
@@ -220,7 +220,7 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
     go_to(3, 2);
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(orders_->prepared, prepared + 1);
-    // Of what was given up the preparer has a part: what is shown is not bettered with that.
+    // The preparer holds a part of the cancelled frame set, so the shown one is taken again.
     const int taken = orders_->taken;
     ASSERT_TRUE(draw_until_the_jump(2, 2));
     go_to(3, 3);
@@ -236,7 +236,7 @@ TEST_F(InstantThreadTest, WhatIsPlayedGivesWayToAJumpInTime) {
     EXPECT_EQ(thread_->stats().faults, 0);
 }
 
-TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) {
+TEST_F(InstantThreadTest, FinishesTheTargetOfAJumpSoThatAJogShowsIt) {
     for (const std::uint64_t pulse : {1, 2, 3}) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
@@ -252,7 +252,7 @@ TEST_F(InstantThreadTest, WhatWasJumpedToIsFinishedSoThatAJogShowsWhatItPasses) 
     EXPECT_EQ(orders_->prepared, prepared + 2);
 }
 
-TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
+TEST_F(InstantThreadTest, RefinesTheShownInstantWhileHeldAndTakesNoNewOne) {
     thread_->request({.pulse = {}, .target = {}, .level = prepare_levels()[2]});
     push(1);
     ASSERT_TRUE(eventually([&] { return orders_->prepared > 0; }));
@@ -267,12 +267,12 @@ TEST_F(InstantThreadTest, TakesNothingNewWhileHeldAndBettersWhatThereIs) {
     ASSERT_TRUE(eventually([&] { return feed_.drained(); }));
     std::this_thread::sleep_for(300ms);
     EXPECT_EQ(thread_->newest()->set, before->set);
-    EXPECT_EQ(orders_->prepared, prepared) << "nothing better is wished for";
+    EXPECT_EQ(orders_->prepared, prepared) << "no better instant is requested";
     thread_->request({.pulse = {}, .target = {}, .level = {}});
     EXPECT_TRUE(wait_for_pulse(2));
 }
 
-TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
+TEST_F(InstantThreadTest, TakesThePastFromTheReplayBufferAndCountsItOnce) {
     for (const std::uint64_t pulse : {1, 2, 3}) {
         push(pulse);
         ASSERT_TRUE(wait_for_pulse(pulse));
@@ -283,7 +283,7 @@ TEST_F(InstantThreadTest, TakesThePastFromTheBufferAndCountsItNotAgain) {
     EXPECT_EQ(thread_->stats().prepared, 3u);
 }
 
-TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
+TEST_F(InstantThreadTest, StopsNoRigWhileHeldOrInThePast) {
     ScriptedFeed many{{"1", "2", "3", "4", "5", "6"}};
     StageFeed feed = many.feed();
     std::atomic<int> asks = 0;
@@ -311,7 +311,7 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
         push_all(pulse);
         ASSERT_TRUE(shows(pulse));
     }
-    // The sixth is one more than the camera needs, and would be asked to stop a while later.
+    // The camera does not need the sixth rig, which would be asked to stop after a while.
     static_assert(RigDemand::most_rigs == 5);
     request.is_held = true;
     thread.request(request);
@@ -327,23 +327,23 @@ TEST_F(InstantThreadTest, OfWhatIsHeldOrPastTheCameraStopsNoRig) {
     request.pulse.reset();
     thread.request(request);
     push_all(4);
-    EXPECT_TRUE(eventually([&] { return asks == 1; })) << "live it is";
+    EXPECT_TRUE(eventually([&] { return asks == 1; })) << "live, the sixth rig is stopped";
 }
 
-TEST_F(InstantThreadTest, MakesAPreparerThatFailsAnewAndGoesOn) {
+TEST_F(InstantThreadTest, RecoversFromAPreparerThatFails) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     orders_->fails_to_take = true;
     push(2);
-    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 2; })) << "it tries again";
-    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "what was ready stays";
+    ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 2; })) << "it retries";
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "the last instant stays available";
     orders_->fails_to_take = false;
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
     EXPECT_GE(orders_->made, 3);
 }
 
-TEST_F(InstantThreadTest, KeepsThePreparerOfASynthesiserThatAnotherTookOverFrom) {
+TEST_F(InstantThreadTest, KeepsThePreparersOfEarlierSynthesisers) {
     push(4);
     ASSERT_TRUE(wait_for_pulse(4));
     const auto change_to = [&](const std::string& synthesiser, std::shared_ptr<Orders> orders) {
@@ -359,19 +359,20 @@ TEST_F(InstantThreadTest, KeepsThePreparerOfASynthesiserThatAnotherTookOverFrom)
     ASSERT_TRUE(change_to("other", others));
     EXPECT_EQ(orders_->made, 1);
     EXPECT_EQ(others->made, 1);
-    EXPECT_EQ(orders_->cuts, cuts + 1) << "what moved meanwhile was not seen";
+    EXPECT_EQ(orders_->cuts, cuts + 1) << "it did not see what moved meanwhile";
 }
 
-TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
+TEST_F(InstantThreadTest, PreparesTheShownInstantAnewAfterAGpuReset) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     const auto before = thread_->newest();
     reset_gpu();
-    // What was lost shows at the next set, and this one counts as one that could not be prepared.
+    // The loss is noticed with the next frame set, which counts as not prepared.
     push(2);
     ASSERT_TRUE(eventually([&] { return thread_->newest()->generation > before->generation; }));
     EXPECT_EQ(contexts_.losses(), 1);
-    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u) << "of what was shown, at once";
+    EXPECT_EQ(thread_->newest()->set->trigger_index, 1u)
+        << "the shown frame set is prepared at once";
     push(3);
     ASSERT_TRUE(wait_for_pulse(3));
     EXPECT_EQ(contexts_.losses(), 1);
@@ -380,17 +381,17 @@ TEST_F(InstantThreadTest, MakesWhatIsShownAnewWhenTheGpuWasReset) {
     EXPECT_EQ(thread_->stats().prepared + thread_->stats().replaced.sets, 3u);
 }
 
-TEST_F(InstantThreadTest, GoesOnAfterASetThatCannotBePrepared) {
+TEST_F(InstantThreadTest, ContinuesAfterAFrameSetThatCannotBePrepared) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
     ASSERT_TRUE(eventually([&] { return thread_->stats().faults >= 1; }));
     push(3);
     EXPECT_TRUE(wait_for_pulse(3));
-    EXPECT_EQ(thread_->stats().faults, 1) << "it is not tried again";
+    EXPECT_EQ(thread_->stats().faults, 1) << "it is not retried";
 }
 
-TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
+TEST_F(InstantThreadTest, RecoversFromAFaultDespiteAJumpInTime) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
@@ -404,7 +405,7 @@ TEST_F(InstantThreadTest, MakesAnewAfterAFaultWhateverIsJumpedToMeanwhile) {
     EXPECT_EQ(thread_->stats().faults, 1);
 }
 
-TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
+TEST_F(InstantThreadTest, CountsEveryFrameSetOnceAlsoThoseThatFail) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     push_marked(2);
@@ -422,7 +423,7 @@ TEST_F(InstantThreadTest, CountsEverySetOnceAlsoThoseThatFail) {
         EXPECT_EQ(stats.frames.at(rig) + stats.replaced.frames.at(rig), 4u);
 }
 
-TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {
+TEST_F(InstantThreadTest, RethrowsWhatTheFeedThrew) {
     feed_.fail_with("the receiver broke");
     EXPECT_TRUE(eventually([&] {
         try {
@@ -434,7 +435,7 @@ TEST_F(InstantThreadTest, HandsOnWhatTheFeedThrew) {
     }));
 }
 
-TEST_F(InstantThreadTest, WhatIsReadyOutlivesIt) {
+TEST_F(InstantThreadTest, InstantsOutliveTheThread) {
     push(1);
     ASSERT_TRUE(wait_for_pulse(1));
     const auto kept = thread_->newest();
