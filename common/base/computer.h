@@ -4,7 +4,8 @@
 
 namespace vantage {
 
-/// This computer in a line: system, kernel, architecture, processors, memory. Not its name.
+/// One line about this computer: system, kernel, architecture, processors and memory, without its
+/// host name.
 std::string computer_words();
 
 }  // namespace vantage

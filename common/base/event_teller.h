@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-/// What happens while a command runs, on stdout: words for a person at a terminal or, a line of
-/// JSON each, facts for a program. At once, since somebody waits for it.
+/// Prints the progress of a command to stdout as it happens: text for people or, with --json, one
+/// JSON object per line. Flushes after each event.
 class EventTeller {
   public:
     explicit EventTeller(bool as_json) : as_json_(as_json) {}
-    /// `words` end their lines themselves: a question leaves its own open.
+    /// `words` includes its own line end, so that a question can leave its line open.
     void tell(const nlohmann::ordered_json& facts, const std::string& words) const;
 
   private:

@@ -5,13 +5,13 @@
 
 namespace vantage {
 
-/// Uploads pictures of one camera and corrects them on the GPU on their way into a texture. The
+/// Uploads the frames of one camera and corrects their colours on the GPU, into a texture. The
 /// context that was current at construction must be current at every call.
 class ColourCorrector {
   public:
     ColourCorrector() : pass_(library_) {}
 
-    /// `stage`: rgba8, of the picture's size; its first level is written.
+    /// `stage` is rgba8 and of the frame's size; only its first mip level is written.
     void upload(const ColourImage& picture, const ColourCorrection& correction,
                 const Texture& stage);
 

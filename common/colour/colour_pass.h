@@ -10,12 +10,12 @@
 namespace vantage {
 
 /// Applies a ColourCorrection on the GPU. The context that was current at construction must be
-/// current at every call; `library` must outlive it.
+/// current at every call; `library` must outlive the pass.
 class ColourPass {
   public:
     explicit ColourPass(const ShaderLibrary& library);
 
-    /// Both rgba8 and of one size; `target` shows the corrected picture.
+    /// Draws the corrected frame into `target`. Both textures are rgba8 and of the same size.
     void correct(const Texture& camera, const ColourCorrection& correction,
                  const Framebuffer& target);
 

@@ -12,7 +12,7 @@ void read_lens(const YamlSection& section, const char* K_key, const char* distor
                CameraModel& camera) {
     const std::string name = section.text("lens");
     const std::optional<LensModel> lens = lens_named(name);
-    if (!lens) fail("'{}lens' is '{}', and it must be pinhole or fisheye", section.name, name);
+    if (!lens) fail("'{}lens' is '{}', but must be pinhole or fisheye", section.name, name);
     camera.lens = *lens;
     const Eigen::Matrix3d K = section.matrix3(K_key);
     if (K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0 || K(2, 2) != 1)

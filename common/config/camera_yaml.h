@@ -13,9 +13,9 @@ namespace vantage {
 void read_lens(const YamlSection& section, const char* K_key, const char* distortion_key,
                CameraModel& camera);
 
-/// The keys of a camera's deviations, into the map that is open.
+/// Writes a camera's standard deviations into the open map.
 void write_lens_sigma(cv::FileStorage& file, const CalibrationSigma::Camera& sigma);
-/// Throws Error, also unless there is a deviation for each of so many coefficients.
+/// Reads them. Throws Error, also unless there is one per distortion coefficient.
 CalibrationSigma::Camera read_lens_sigma(const YamlSection& section, std::size_t coefficients);
 
 }  // namespace vantage

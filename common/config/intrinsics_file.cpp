@@ -18,7 +18,7 @@ std::string checksum_of(const CameraModel& camera, const CalibrationSigma::Camer
     return checksum.hex();
 }
 
-/// Files of version 1 left the uncertainties out.
+/// The checksum of version 1, which left out the uncertainties.
 std::string first_checksum_of(const CameraModel& camera) {
     NumberChecksum checksum;
     checksum.add(camera);

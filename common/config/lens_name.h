@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-/// A lens as calibration files name it, and the lens of that name; nothing for any other name.
+/// The name of a lens model in calibration files, and the model of a name; empty if unknown.
 const char* lens_name(LensModel lens);
 std::optional<LensModel> lens_named(std::string_view name);
 

@@ -18,7 +18,7 @@ void read_stream_name(TomlTable& table, std::string& name) {
     });
     if (!fits || name.empty() || name.size() > max_length)
         table.refuse("name",
-                     fmt::format("is '{}', and it must be 1 to {} letters, digits, '-' and '_'",
+                     fmt::format("is '{}', but must be 1 to {} letters, digits, '-' and '_'",
                                  name, max_length));
 }
 

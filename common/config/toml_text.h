@@ -4,11 +4,10 @@
 
 namespace vantage {
 
-/// A TOML string. Precondition: no control characters.
+/// Formats a TOML string. Precondition: no control characters.
 std::string toml_string(const std::string& text);
 
-/// What keeps this from being a name that a person gave something: "is longer than 40 bytes".
-/// Empty: nothing does.
+/// Why a text is not valid as a name given by a person: "is longer than 40 bytes"; empty if valid.
 std::string fault_of_name(const std::string& name);
 
 }  // namespace vantage

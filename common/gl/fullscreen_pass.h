@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-/// Runs a fragment shader once for every pixel of a framebuffer, with
-/// shaders/shared/fullscreen.vert; in bands where the thread has a SlicedDrawing. Row 0 of the
-/// target is the top of the picture, as in memory: gl_FragCoord.xy - 0.5 is the pixel's (x, y).
+/// Runs a fragment shader once per pixel of a framebuffer, with shaders/shared/fullscreen.vert; in
+/// bands if the thread has a SlicedDrawing. Row 0 of the target is the top of the image, as in
+/// memory: gl_FragCoord.xy - 0.5 is the pixel's (x, y).
 class FullscreenPass {
   public:
     FullscreenPass(const ShaderLibrary& library, std::string fragment, ShaderDefines defines = {});
@@ -17,12 +17,11 @@ class FullscreenPass {
     Program& use();
     /// Draws with the program in use; depth test, blending and culling off.
     void draw(const Framebuffer& target);
-    /// The same with a shader that writes gl_FragDepth into the target's depth texture.
+    /// Draws with a shader that writes gl_FragDepth into the target's depth texture.
     void draw_depth(const Framebuffer& target);
-    /// Draws only those pixels where `depth` compares so (GL_LESS, GL_GREATER, ...) with the
-    /// target's depth texture, and, with `writes`, puts it there unless the shader discards the
-    /// pixel: a shader that only some pixels need runs for no others.
-    void draw_where(const Framebuffer& target, GLenum comparison, float depth, bool writes);
+    /// Draws only the pixels whose value in the target's depth texture compares with `depth`
+    /// (GL_LESS, GL_GREATER, ...). With `writes`, stores `depth` for each pixel that the shader does
+    /// not discard. Saves an expensive shader on pixels that do not need it.
 
   private:
     void draw_triangle(const Framebuffer& target);

@@ -14,18 +14,19 @@ namespace {
 std::string trouble_of_link(const RigStatus& rig) {
     if (!rig.refused.empty()) return rig.refused;
     if (rig.connected) return {};
-    return rig.unreachable.empty() ? fmt::format("nothing was heard from {}", rig.endpoint)
+    return rig.unreachable.empty() ? fmt::format("{} is silent", rig.endpoint)
                                    : rig.unreachable;
 }
 
 std::string trouble_of_pulses(const RigStatus& rig) {
     if (rig.is_out_of_step)
-        return "it counts pulses differently from the rest of the stage: is its clock set?";
+        return "it counts pulses differently from the rest of the stage: check its clock";
     if (rig.lags)
-        return "its frames come beyond the latency budget, and nobody waits for them: is its clock "
-               "set, is its network slow?";
+        return "its frames arrive after the latency budget, so the host does not wait for them: "
+               "check its clock and its network";
     if (rig.names_no_pulse || (rig.unsynchronized > 0 && rig.in_frame_sets == 0))
-        return "its pictures name no pulse of the stage: give it a trigger, or see its wire";
+        return "its frames have no trigger pulse of the stage: configure a trigger, or check its "
+               "wire";
     return {};
 }
 
@@ -41,7 +42,7 @@ std::string clock_text(const RigStatus& rig) {
     else if (sync.ptp_state.empty())
         text = fmt::format("{} (no ptp4l at the rig)", clocks_not_disciplined);
     else if (sync.ptp_state == "SLAVE")
-        text = fmt::format("{} (ptp4l is SLAVE, but nothing sets the system clock by it: phc2sys)",
+        text = fmt::format("{} (ptp4l is SLAVE, but nothing sets the system clock: start phc2sys)",
                            clocks_not_disciplined);
     else
         text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
@@ -52,20 +53,20 @@ std::string clock_text(const RigStatus& rig) {
 
 std::string clock_step_text(const RigSync& sync) {
     if (sync.clock_steps == 0) return {};
-    return fmt::format("its clock was set {}, by {:+.1f} ms the last time",
+    return fmt::format("its clock was set {}, last by {:+.1f} ms",
                        counted_times(sync.clock_steps), sync.clock_step_ms);
 }
 
 std::string tai_worry(const RigStatus& rig) {
     if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
     return fmt::format(
-        "its TAI is {} s from UTC and this computer's {} s: give both the same, or neither any",
+        "its TAI offset from UTC is {} s and this computer's is {} s: set the same on both",
         rig.sync.tai_offset_s, rig.own_tai_offset_s);
 }
 
 std::string rate_worry(const RigStatus& rig) {
     if (rig.sync.rate_hz == 0 || rig.stage_rate_hz == 0) return {};
-    // On the grid, where 29.97 and 30000/1001 are the same.
+    // PulseGrid makes 29.97 and 30000/1001 equal.
     const double of_rig = PulseGrid(rig.sync.rate_hz).rate_hz();
     const double of_stage = PulseGrid(rig.stage_rate_hz).rate_hz();
     constexpr double same = 1e-6;

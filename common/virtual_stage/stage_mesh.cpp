@@ -25,7 +25,7 @@ Vector3f normal_of(const StageVertex& v) {
     return Vector3f(n[0], n[1], n[2]);
 }
 
-/// Two directions that make a right-handed frame with an axis.
+/// Two directions that form a right-handed frame with an axis.
 struct Across {
     Vector3f u, v;
 };

@@ -32,16 +32,16 @@ void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
         {"as", what}};
     const std::string text = claim.dump(1) + '\n';
     const std::filesystem::path file = folder / name;
-    // Parts of one export may be begun by several processes at a time: what one has written since
-    // this one looked is no other file.
+    // Several processes may begin parts of one export at a time. If another one has created
+    // export.json since the first check, its files are not foreign.
     if (!std::filesystem::exists(file) && holds_others(folder) && !std::filesystem::exists(file))
-        fail("{} holds other files: give a new name", folder.string());
+        fail("{} contains other files: choose a new name", folder.string());
     if (!std::filesystem::exists(file)) write_text_atomically(file, text);
     constexpr std::size_t most_bytes = 1 << 16;
     if (read_text_file(file, most_bytes) != text)
         fail(
-            "{} holds another export already, of another take or as something else: give a new "
-            "name, or take it away",
+             "{} contains another export, of another take or format: choose a new name, or delete "
+             "it",
             folder.string());
 }
 

@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// Makes the folder of an export of the take, or takes up one that such an export was begun in:
-/// export.json in it says of which take, and `what`. Throws Error if the folder holds something
-/// else. Several processes may do so at a time.
+/// Creates the folder of an export, or resumes the export that was begun in it: export.json in the
+/// folder identifies the take and `what`. Throws Error if the folder contains something else.
+/// Several processes may call it at a time.
 void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
                   const nlohmann::ordered_json& what);
 

@@ -25,7 +25,7 @@ std::array<half, 256> linear_light() {
     return table;
 }
 
-/// OpenEXR's vectors are rows; its camera looks along z, with y up.
+/// OpenEXR uses row vectors and a camera that looks along z with y up.
 Imath::M44f world_to_camera(const Pose& world_from_camera) {
     Eigen::Matrix4d camera_from_world = world_from_camera.inverse().matrix();
     camera_from_world.row(1) *= -1;
@@ -74,7 +74,7 @@ std::string exr_of(const MomentView& view) {
         pixels.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(depth_m.data),
                                       sizeof(float), depth_m.step));
     }
-    // In memory, since what fails at a file's end is not told.
+    // Written to memory first, since OpenEXR does not report errors at a file's end.
     Imf::StdOSStream bytes;
     {
         Imf::OutputFile file(bytes, header);

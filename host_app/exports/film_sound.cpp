@@ -10,13 +10,13 @@
 namespace vantage {
 namespace {
 
-/// Pulses that go by from the first to the last picture around one, in place of those that should.
+/// Whether pictures around one advance by as many pulses as at normal speed.
 bool is_at_normal_speed(const std::vector<FilmPicture>& pictures, std::size_t at,
                         std::size_t around, double pulses_a_picture) {
     const std::size_t first = at - std::min(at, around);
     const std::size_t last = std::min(at + around, pictures.size() - 1);
     const double due = pulses_a_picture * static_cast<double>(last - first);
-    // A picture shows the newest pulse, which may be one off at either end.
+    // A picture shows the newest pulse, so either end may be off by one.
     return std::abs(pictures[last].pulse - pictures[first].pulse - due) <=
            std::max(1.01, 0.05 * due);
 }
@@ -32,7 +32,7 @@ std::vector<std::optional<TaiTime>> even_times(const std::vector<FilmPicture>& p
     std::vector<std::optional<TaiTime>> times(pictures.size());
     for (std::size_t begin = 0; begin < pictures.size();) {
         std::size_t end = begin;
-        // By how many pulses the first picture of the run is late at the least.
+    // The smallest delay of the run's first picture behind its pulse.
         double first = pictures[begin].pulse;
         while (end < pictures.size() &&
                is_at_normal_speed(pictures, end, around, pulses_a_picture)) {

@@ -6,14 +6,14 @@
 
 namespace vantage {
 
-// What the rigs saw as coloured points and the surfaces between them, in metres; not there, or
-// whole. Throw Error if the file cannot be written.
+// Exports of one moment as coloured points and surfaces in metres, written atomically. Throw Error
+// if the file cannot be written.
 
-/// Stanford's polygon format (PLY), binary. World as the stage's: y up. Of points alone...
+/// Stanford's polygon format (PLY), binary, in the stage's world frame (y up): points only...
 void write_ply(const std::vector<SurfacePoint>& points, const std::filesystem::path& file);
-/// ...and with surfaces.
+/// ...and points with surfaces.
 void write_ply(const Moment& moment, const std::filesystem::path& file);
-/// glTF 2.0 in one file, a primitive of triangles without light; its axes are the stage's.
+/// glTF 2.0 in one file: an unlit primitive of triangles in the stage's world frame.
 void write_glb(const Moment& moment, const std::filesystem::path& file);
 
 }  // namespace vantage

@@ -21,14 +21,14 @@ namespace vantage {
 namespace {
 
 constexpr std::array<ExportFormat, 6> formats{{
-    {"ply", "coloured points and surfaces, a PLY file a moment", ".ply", write_ply},
-    {"glb", "coloured surfaces, a glTF file a moment", ".glb", write_glb},
-    {"exr", "colour as linear light and depth, a folder of OpenEXR files a moment", "",
+    {"ply", "coloured points and surfaces, a PLY file per moment", ".ply", write_ply},
+    {"glb", "coloured surfaces, a glTF file per moment", ".glb", write_glb},
+    {"exr", "colour as linear light and depth, a folder of OpenEXR files per moment", "",
      write_exr_folder},
-    {"training", "pictures, depth, transforms.json and a COLMAP model, a folder a moment", "",
+    {"training", "images, depth, transforms.json and a COLMAP model, a folder per moment", "",
      write_training_folder},
-    {"views", "a view set for vantage render, a folder a moment", "", write_view_set},
-    {"mpeg", "an MPEG view set (TMIV, RVS), a folder a moment", "", write_mpeg_views},
+    {"views", "a view set for vantage render, a folder per moment", "", write_view_set},
+    {"mpeg", "an MPEG view set (TMIV, RVS), a folder per moment", "", write_mpeg_views},
 }};
 
 std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& part) {
@@ -52,14 +52,14 @@ const ExportFormat& find_export_format(const std::string& name) {
         if (format.name == name) return format;
         names += std::string(", ") + format.name;
     }
-    fail("a take is not exported as '{}'; there are camera, film{}", name, names);
+    fail("a take cannot be exported as '{}'; the formats are camera, film{}", name, names);
 }
 
 ExportStats export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
                            const std::filesystem::path& folder,
                            const std::function<void(double)>& progress) {
     const std::vector<std::uint64_t> pulses = pulses_of(take, part);
-    if (pulses.empty()) fail("{} is not written: no frame is in that part", folder.string());
+    if (pulses.empty()) fail("{} is not written: the range has no frames", folder.string());
     claim_folder(folder, take, format.name);
     const std::uint64_t first = pulse_span_of(take).first;
     MomentReader reader(take);
@@ -92,7 +92,8 @@ ExportStats export_camera(const TakeReader& take, const TakePart& part,
     for (const CameraRecord& camera : take.cameras())
         if (camera.pulse >= part.from && camera.pulse < part.to && ticks++ % part.every == 0)
             cameras.push_back(camera);
-    if (cameras.empty()) fail("{} has no camera in that part", take.path().string());
+    if (cameras.empty())
+        fail("{} has no recorded camera in that range", take.path().string());
     claim_folder(folder, take, "camera");
     write_camera_csv(take, cameras, folder / "camera.csv");
     write_camera_freed(cameras, folder / "camera.freed");

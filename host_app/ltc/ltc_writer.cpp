@@ -10,11 +10,11 @@ namespace vantage {
 void LtcWriter::Deleter::operator()(LTCEncoder* encoder) const { ltc_encoder_free(encoder); }
 
 LtcWriter::LtcWriter(double rate_hz)
-    // libltc takes 29.97 for drop-frame code by its number.
+    // libltc selects drop-frame code by the rate 29.97.
     : encoder_(
           ltc_encoder_create(sound_rate_hz, rate_hz > 29 && rate_hz < 30 ? 30000.0 / 1001 : rate_hz,
                              rate_hz > 24.5 && rate_hz < 25.5 ? LTC_TV_625_50 : LTC_TV_525_60, 0)) {
-    if (!encoder_) fail("linear time code cannot be made: memory is short");
+    if (!encoder_) fail("cannot generate linear time code: out of memory");
     constexpr double level_dbfs = -12;
     ltc_encoder_set_volume(encoder_.get(), level_dbfs);
 }

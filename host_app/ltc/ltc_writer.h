@@ -9,14 +9,14 @@ struct LTCEncoder;
 
 namespace vantage {
 
-/// Time code as sound (SMPTE ST 12-1 linear time code), frame by frame, at 48000 samples a second
-/// and -12 dB, by libltc.
+/// Generates SMPTE ST 12-1 linear time code as sound at 48000 samples per second and -12 dB, by
+/// libltc. Not thread-safe.
 class LtcWriter {
   public:
-    /// `rate_hz`: 24, 25, 29.97 (drop-frame) or 30. Throws Error if memory is short.
+    /// `rate_hz`: 24, 25, 29.97 (drop-frame) or 30. Throws Error if memory runs out.
     explicit LtcWriter(double rate_hz);
 
-    /// The next frame: one channel. Of 29.97 a second 1601 and 1602 samples in turn.
+    /// The mono sound of the next frame; 1601 and 1602 samples in turn at 29.97.
     std::vector<float> frame(const SmpteCode& code);
 
   private:

@@ -9,24 +9,23 @@
 
 namespace vantage {
 
-/// Writes OpenMetrics text: a family of metrics at a time, then its samples.
+/// Writes OpenMetrics text: each family of metrics, followed by its samples.
 class MetricText {
   public:
     using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-    /// `name` without the ending that its kind gives to samples (_total, _info).
+    /// `name` is without the suffix of the kind (_total, _info).
     void gauge(std::string_view name, std::string_view help) { family(name, "gauge", help); }
     void counter(std::string_view name, std::string_view help) { family(name, "counter", help); }
     void summary(std::string_view name, std::string_view help) { family(name, "summary", help); }
     void info(std::string_view name, std::string_view help) { family(name, "info", help); }
 
-    /// Of the family that was begun last.
+    /// Adds a sample to the last family.
     void sample(double value, Labels labels = {});
-    /// Of a summary: its quantiles in seconds, and how many samples there ever were. Nothing of
-    /// none.
+    /// Adds the quantiles in seconds and the count of a summary; nothing if there are no samples.
     void percentiles(const Percentiles& ms, Labels labels = {});
 
-    /// All of it, with its end.
+    /// The whole text with its end marker.
     std::string whole() const { return text_ + "# EOF\n"; }
 
   private:

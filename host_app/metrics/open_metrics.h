@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-/// How a show stands in OpenMetrics 1.0 text, which Prometheus reads: what `--json` says of ticks,
-/// instants, latencies, rigs, outputs, takes and control. Times in seconds, names begin with
-/// vantage_.
+/// Formats the state of a show as OpenMetrics 1.0 text for Prometheus: what `--json` reports of
+/// ticks, instants, latencies, rigs, outputs, takes and control. Times are in seconds, names begin
+/// with vantage_.
 std::string to_open_metrics(const LiveReport& report);
 
 }  // namespace vantage

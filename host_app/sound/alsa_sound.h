@@ -7,10 +7,11 @@
 
 namespace vantage {
 
-/// A device of ALSA, with `channels=3,4` those of its channels. One that is missing or is unplugged
-/// is silent, named, and tried again until it is there. Throws Error for options that cannot be.
+/// Opens an ALSA device, with `channels=3,4` for some of its channels. A missing or unplugged
+/// device is silent, is logged, and is tried again until it is there. Throws Error for invalid
+/// options.
 std::shared_ptr<SoundSource> open_alsa_sound(const OutputUrl& url, SoundTap tap);
-/// Throws Error as that would, and opens nothing.
+/// Throws the same Error without opening the device.
 void check_alsa_sound(const OutputUrl& url);
 
 }  // namespace vantage

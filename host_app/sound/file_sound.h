@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// A file's sound from the programme's first tick on, `loop=yes`: again and again. Throws Error if
-/// it has none.
+/// Opens a sound file that starts with the programme's first tick; `loop=yes` repeats it. Throws
+/// Error if the file has no sound.
 std::shared_ptr<SoundSource> open_file_sound(const OutputUrl& url);
 
 }  // namespace vantage

@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// How long pictures are on their way, for sound that is to leave with them: the middle one of the
-/// latest, which changes only where it has moved by more than anybody sees.
+/// Estimates the pictures' delay, for sound that is output with them: the median of the latest
+/// delays, updated only when it has moved noticeably. Not thread-safe.
 class PictureDelay {
   public:
     void see(std::chrono::nanoseconds latency) {
@@ -21,14 +21,14 @@ class PictureDelay {
         const auto middle = sorted.begin() + (sorted_end - sorted.begin()) / 2;
         std::nth_element(sorted.begin(), middle, sorted_end);
         // A third of a picture at 30 Hz.
-        constexpr std::chrono::milliseconds unseen{10};
+        // A third of a picture at 30 Hz.
         if (seen_ == 1 || std::chrono::abs(*middle - now_) > unseen) now_ = *middle;
     }
     std::chrono::nanoseconds now() const { return now_; }
     std::size_t seen() const { return seen_; }
 
   private:
-    /// Some seconds of instants.
+    /// Enough for some seconds.
     static constexpr std::size_t most = 127;
     std::array<std::chrono::nanoseconds, most> latest_{};
     std::size_t seen_ = 0;

@@ -8,17 +8,18 @@
 
 namespace vantage {
 
-/// Makes sound of it, whatever rate and sample format it comes in.
+/// Converts sound of any rate, channel layout and sample format to the internal form. Not
+/// thread-safe.
 class SoundConverter {
   public:
-    /// Of one channel both are made, of more than two what a listener of two should hear. Throws
-    /// Error if FFmpeg cannot.
+    /// A single channel goes to both sides; more than two are mixed down. Throws Error if FFmpeg
+    /// cannot convert.
     SoundConverter(AVChannelLayout channels, AVSampleFormat format, int rate_hz);
 
-    /// Planes as FFmpeg has them, `count` samples. What the filter holds back comes with the next
-    /// ones. Throws Error if memory is short.
+    /// Converts `count` samples in FFmpeg's planes. The filter delays some samples to the next call.
+    /// Throws Error if memory runs out.
     std::vector<float> convert(const std::uint8_t* const* planes, int count);
-    /// What is held back.
+    /// The delayed samples at the end.
     std::vector<float> rest() { return convert(nullptr, 0); }
 
   private:

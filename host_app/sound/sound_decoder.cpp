@@ -49,7 +49,7 @@ void SoundDecoder::decode_some() {
         return;
     }
     if (code < 0) refuse(code);
-    // A damaged packet is silence, and what follows is sound again.
+    // A damaged packet is skipped, and decoding continues after it.
     if (packet_->stream_index == stream_->index) avcodec_send_packet(decoder_.get(), packet_.get());
     av_packet_unref(packet_.get());
     take_frames();

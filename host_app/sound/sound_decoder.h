@@ -8,14 +8,13 @@
 
 namespace vantage {
 
-/// Decodes the sound of a file, whatever FFmpeg reads, from its beginning on.
+/// Decodes the sound of any file that FFmpeg supports, from its beginning. Not thread-safe.
 class SoundDecoder {
   public:
-    /// Throws Error if it cannot be read, or has no sound.
+    /// Throws Error if the file cannot be read, or has no sound.
     explicit SoundDecoder(std::filesystem::path path);
 
-    /// The next samples; fewer than `count` at the end. Throws
-    /// Error if the file cannot be read on.
+    /// The next samples; fewer than `count` at the end. Throws Error if the file cannot be read.
     std::vector<float> next(std::size_t count);
 
   private:
@@ -30,7 +29,7 @@ class SoundDecoder {
     AvPacketPtr packet_;
     AvFramePtr frame_;
     std::optional<SoundConverter> converter_;
-    std::vector<float> decoded_;  ///< that nobody took yet
+    std::vector<float> decoded_;  ///< decoded, but not returned yet
     bool is_at_end_ = false;
 };
 

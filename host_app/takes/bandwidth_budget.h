@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// What may be asked for now so that no more than so many bytes a second come: a bucket that fills
-/// with time and holds a quarter of a second's worth. Clocks come in as arguments.
+/// Limits the rate of requested bytes: a token bucket that holds a quarter of a second's worth.
+/// Clock readings are arguments. Not thread-safe.
 class BandwidthBudget {
   public:
     explicit BandwidthBudget(double bytes_s) : bytes_s_(bytes_s) {}
@@ -17,10 +17,10 @@ class BandwidthBudget {
         fill(now);
         return bytes_ >= 0;
     }
-    /// It is known only when it comes how much it is: what is spent beyond is waited for. Below 0:
-    /// that was expected and did not come.
+    /// Takes bytes out of the bucket, which may become negative, since sizes are known on arrival
+    /// only. Negative: returns an estimate that did not arrive.
     void spend(double bytes) { bytes_ -= bytes; }
-    /// Until something may be spent.
+    /// The time until the bucket is not empty.
     std::chrono::nanoseconds wait(MonotonicTime now) {
         fill(now);
         return std::chrono::nanoseconds(

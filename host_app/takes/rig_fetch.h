@@ -15,36 +15,36 @@
 
 namespace vantage {
 
-/// What became of the fetch from one rig.
+/// The result of the fetch from one rig.
 struct FetchStats {
     std::string rig;
-    std::uint64_t wanted = 0;    ///< pulses that were asked of the rig
-    std::uint64_t frames = 0;    ///< that came
-    std::uint64_t not_kept = 0;  ///< pulses that the rig has no frame of either
-    std::uint64_t there = 0;     ///< pulses that were there already
+    std::uint64_t wanted = 0;    ///< pulses requested from the rig
+    std::uint64_t frames = 0;    ///< frames received
+    std::uint64_t not_kept = 0;  ///< pulses that the rig has not recorded
+    std::uint64_t there = 0;     ///< pulses that the folder or the take had already
     std::uint64_t bytes = 0;
-    std::uint64_t seen = 0;  ///< of `wanted`: came, or are known not to be kept
+    std::uint64_t seen = 0;  ///< of `wanted`: received, or known not to be recorded
     std::vector<std::filesystem::path> files;
-    std::string trouble;  ///< one sentence: why it came to an end; empty: all is here
+    std::string trouble;  ///< why it ended early, in one sentence; empty: complete
     bool is_done = false;
 };
 
-/// Brings the frames that one rig keeps and this host lacks, in the order of their pulses. A
-/// connection that breaks off is taken up where it was. Lives on one thread.
+/// Fetches the recorded frames of one rig that this host lacks, in the order of their pulses.
+/// Continues after a reconnect. Used by one thread.
 class RigFetch {
   public:
-    /// What of the rig is wanted and not here, in order, by what its clock is from UTC.
+    /// The pulses to fetch, in order, for a rig's TAI offset.
     using Plan = std::function<std::vector<PulseRange>(int tai_offset_s)>;
 
-    /// `patience`: with a rig that does not answer.
+    /// `patience`: the longest wait for a rig that does not answer.
     RigFetch(zmq::context_t& context, const StageConfig::Rig& rig,
              const std::optional<CurveKeys>& host_keys, double rate_hz, Plan plan,
              FetchedFiles files, std::chrono::nanoseconds patience);
 
     RigLink& link() { return link_; }
-    /// Takes in what came, and asks for more where `budget` allows. Throws Error if the disk fails.
+    /// Handles messages and requests more frames within `budget`. Throws Error if the disk fails.
     void turn(BandwidthBudget& budget, MonotonicTime now);
-    /// Closes the file at hand.
+    /// Closes the current file.
     void finish();
     const FetchStats& stats() const { return stats_; }
 
@@ -60,11 +60,11 @@ class RigFetch {
     Plan plan_;
     FetchedFiles files_;
     std::chrono::nanoseconds patience_;
-    std::optional<std::deque<PulseRange>> parts_;  ///< still to come, the first is under way
+    std::optional<std::deque<PulseRange>> parts_;  ///< still to fetch; the first is in progress
     std::optional<FetchRequest> request_;
-    std::uint64_t received_ = 0;  ///< for the wish
+    std::uint64_t received_ = 0;  ///< frames of the current request
     std::uint64_t next_pulse_ = 0;
-    double expected_bytes_ = 0;  ///< of a frame: the last one's
+    double expected_bytes_ = 0;  ///< size of the last frame
     std::optional<MonotonicTime> silent_since_;
     FetchStats stats_;
 };

@@ -33,7 +33,7 @@ FlightHabits habits_of(const TakeReader& take) {
             {reinterpret_cast<const char*>(stage->bytes.data()), stage->bytes.size()},
             take.path() / stage_attachment));
     } catch (const Error& error) {
-        log_warning("hands fly as usual, not as at the stage: {}", error.what());
+        log_warning("using the default flight settings instead of the take's: {}", error.what());
         return {};
     }
 }

@@ -6,13 +6,13 @@
 
 namespace vantage {
 
-/// The stage's file in a take that a host recorded.
+/// The name of the stage file attached to a take.
 inline constexpr const char* stage_attachment = "stage.toml";
 
-/// How hands fly, as a stage's file says.
+/// The limits and speeds of flying by hand from a stage file.
 FlightHabits habits_of(const StageConfig::Flight& flight);
-/// As the stage's file in a take says; the usual ones where it has none. One that cannot be read is
-/// told in the log, and the usual ones are taken: a take is played all the same.
+/// Those of the stage file in a take; the defaults if it has none, or, with a warning, if it cannot
+/// be read.
 FlightHabits habits_of(const TakeReader& take);
 
 }  // namespace vantage

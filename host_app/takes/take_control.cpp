@@ -63,7 +63,7 @@ TakeControl::TakeControl(const StageConfig& stage, const std::filesystem::path& 
       has_sound_(has_sound),
       recorder_(recorder_settings(stage, stage_file, pre_roll, has_sound)) {
     if (!folder_.empty() && !std::filesystem::is_directory(folder_))
-        fail("takes cannot go to {}: there is no such folder; make it", folder_.string());
+        fail("the folder {} for takes does not exist: create it", folder_.string());
 }
 
 FrameTap TakeControl::tap() {

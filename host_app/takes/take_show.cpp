@@ -51,7 +51,7 @@ nlohmann::ordered_json to_json(const TakeShow& show) {
 }
 
 TakeShow take_show_from(const nlohmann::ordered_json& json) {
-    // A rig's own take knows of no show.
+    // A rig's own recording has no show.
     if (!json.contains("view")) return {};
     try {
         TakeShow show;
@@ -80,7 +80,7 @@ TakeShow take_show_from(const nlohmann::ordered_json& json) {
         }
         return show;
     } catch (const nlohmann::json::exception&) {
-        fail("its take.json does not tell of the show as Vantage does");
+        fail("its take.json has no valid description of the show");
     }
 }
 

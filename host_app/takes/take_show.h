@@ -10,18 +10,18 @@
 
 namespace vantage {
 
-/// What a take tells of the show that it was recorded at, so that it can be played where neither
-/// the stage's file nor the rigs' colours are at hand.
+/// The settings of the show in a take, so that it can be played without the stage file and the
+/// rigs' colour files.
 struct TakeShow {
     std::string timecode_zone;
     StageConfig::View view;
-    std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others stay as they are
+    std::map<std::string, ColourCorrection> colours = {};  ///< by rig; others are not corrected
 };
 
-/// Loads the rigs' colour files. Throws Error if one cannot be.
+/// Loads the rigs' colour files. Throws Error if one is invalid.
 TakeShow take_show_of(const StageConfig& stage);
 nlohmann::ordered_json to_json(const TakeShow& show);
-/// Throws Error if it is not what to_json wrote.
+/// Throws Error if the JSON is not what to_json() wrote.
 TakeShow take_show_from(const nlohmann::ordered_json& json);
 
 }  // namespace vantage

@@ -13,7 +13,8 @@
 namespace vantage {
 namespace {
 
-/// The app and everything below it, with the words that lead there ("rigs status").
+/// Visits the app and every subcommand below it, with the command line that leads there ("rigs
+/// status").
 void visit(const CLI::App& app, const std::string& words,
            const std::function<void(const CLI::App&, const std::string&)>& action) {
     action(app, words);
@@ -22,7 +23,8 @@ void visit(const CLI::App& app, const std::string& words,
               action);
 }
 
-/// Plain text as roff takes it: nothing of it is a request, '-' stays a hyphen that can be typed.
+/// Escapes plain text for roff: no line is taken as a roff request, and '-' stays a hyphen that can
+/// be copied from the page.
 std::string roff(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
@@ -55,7 +57,7 @@ std::string roff_options(const CLI::App& app) {
     return text;
 }
 
-/// The words that an option's type names in braces, "{auto,best}": what its value may be.
+/// The values that an option's type lists in braces: "{auto,best}".
 std::vector<std::string> words_of(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     std::vector<std::string> words;
@@ -92,9 +94,9 @@ std::string man_page(const CLI::App& program, std::string_view version) {
         if (commands_of(app).empty()) text += roff_options(app);
     });
     return text +
-           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, or what was "
-           "checked is bad, said in a sentence. 2: words that do not fit. 3: what was asked cannot "
-           "be told from what there is. 130: ended by Ctrl\\-C.\n";
+           ".SH EXIT STATUS\n0: success. 1: a file, a device or the network caused a fault, or a "
+           "check failed; a sentence says which. 2: the command line cannot be parsed. 3: the "
+           "input does not decide the question. 130: ended by Ctrl\\-C.\n";
 }
 
 std::string bash_completion(const CLI::App& program) {

@@ -9,12 +9,12 @@ class App;
 
 namespace vantage {
 
-/// The program's page for man(1), section 1, in roff: every command with its options, from the
-/// parser's own tables.
+/// The program's manual page (section 1, roff) with every command and its options, generated from
+/// the parser's tables.
 std::string man_page(const CLI::App& program, std::string_view version);
 
-/// A script for bash that completes the program's commands and options, the values of options
-/// whose type names them in braces, and files elsewhere.
+/// A bash completion script for the program's commands and options. It completes the values that an
+/// option's type lists in braces, and file names for other values.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace vantage

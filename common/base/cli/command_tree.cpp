@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// The parser keeps a command's groups of options as commands without a name.
+/// CLI11 keeps an option group as a subcommand without a name.
 bool is_group(const CLI::App* app) { return app->get_name().empty(); }
 
 }  // namespace

@@ -9,10 +9,10 @@ class Option;
 
 namespace vantage {
 
-/// The subcommands of a command.
+/// The subcommands of a command, without option groups.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
-/// The options of a command, those of its groups of options too.
+/// The options of a command, including those in its option groups.
 std::vector<const CLI::Option*> options_of(const CLI::App& app);
 
 }  // namespace vantage

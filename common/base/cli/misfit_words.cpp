@@ -25,12 +25,12 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-/// Where the words lead.
+/// The command that the arguments name.
 struct Place {
     const CLI::App* command;
     std::string name;            ///< "vantage rigs status"
-    std::string unknown;         ///< a word where a command's name should be
-    std::size_t words_used = 0;  ///< up to the command's own
+    std::string unknown;         ///< an argument where a command's name is expected
+    std::size_t words_used = 0;  ///< number of arguments up to the command's name
 };
 
 Place place_of(const CLI::App& program, const std::vector<std::string>& words) {
@@ -53,7 +53,7 @@ Place place_of(const CLI::App& program, const std::vector<std::string>& words) {
     return place;
 }
 
-/// The first word that looks like an option and is none of the command's; empty if all are.
+/// The first argument that looks like an option and that the command does not have; empty if none.
 std::string unknown_option(const Place& place, const std::vector<std::string>& words) {
     for (std::size_t i = place.words_used; i < words.size() && words[i] != "--"; ++i) {
         if (words[i].size() < 2 || words[i][0] != '-') continue;
@@ -71,7 +71,7 @@ std::string unknown_command_sentence(const CLI::App& program,
                                      const std::vector<std::string>& words) {
     const Place place = place_of(program, words);
     if (place.unknown.empty()) return "";
-    return fmt::format("{} has no command '{}'; {}; {} --help says what they do", place.name,
+        return fmt::format("{} has no command '{}'; {}; {} --help lists the commands", place.name,
                        place.unknown, suggest_name(place.unknown, command_names(*place.command)),
                        place.name);
 }
@@ -82,9 +82,10 @@ std::string misfit_sentence(const CLI::App& program, const std::vector<std::stri
         return sentence;
     const Place place = place_of(program, words);
     const std::string option = unknown_option(place, words);
-    if (option.empty()) return fmt::format("{}; {} --help lists what fits", complaint, place.name);
+    if (option.empty())
+        return fmt::format("{}; {} --help lists the options", complaint, place.name);
     const std::string nearest = nearest_name(option, option_names(*place.command));
-    return fmt::format("{} has no option '{}'{}; {} --help lists what fits", place.name, option,
+    return fmt::format("{} has no option '{}'{}; {} --help lists the options", place.name, option,
                        nearest.empty() ? "" : fmt::format("; the nearest is '{}'", nearest),
                        place.name);
 }

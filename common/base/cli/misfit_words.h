@@ -9,13 +9,12 @@ class App;
 
 namespace vantage {
 
-/// One sentence on words that a program's parser did not take, with `complaint` as its word: names
-/// a command or an option that does not exist and the nearest that does, and the help of the
-/// command that the words lead to.
+/// One sentence about a command line that the parser refused with `complaint`. It names the unknown
+/// command or option, the nearest known one, and the --help of the command in question.
 std::string misfit_sentence(const CLI::App& program, const std::vector<std::string>& words,
                             const std::string& complaint);
 
-/// The same where a word stands for no command, whatever else is right; empty: all do.
+/// One sentence about an argument that names no command; empty if all commands are known.
 std::string unknown_command_sentence(const CLI::App& program,
                                      const std::vector<std::string>& words);
 

@@ -4,8 +4,8 @@
 
 namespace vantage {
 
-/// Writes a command's result to stdout: as one JSON object on one line for machines, else a line a
-/// key for people (nested values are left to machines).
+/// Prints a command's result to stdout: one JSON object on one line with `as_json`, otherwise one
+/// line per key, without nested values.
 void print_result(const nlohmann::ordered_json& result, bool as_json);
 
 }  // namespace vantage

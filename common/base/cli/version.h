@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// Of Vantage: "0.2.0".
+/// The version of Vantage: "0.2.0".
 std::string_view version();
 
 }  // namespace vantage

@@ -2,9 +2,9 @@
 
 namespace vantage {
 
-/// Waits until what was written to a file is on its disk. The system's reason why it is not
-/// (errno); 0: it is, or the file system cannot tell. A reason is told once: whoever throws it away
-/// has lost what was written without a word, for write() may go on well long after a disk is gone.
+/// Waits until the data written to a file is on disk. Returns 0, also where the file system cannot
+/// tell, or errno. The kernel reports a write error only once: a caller that ignores it loses data
+/// silently, since write() may keep succeeding after the disk is gone.
 int sync_data(int fd);
 
 }  // namespace vantage

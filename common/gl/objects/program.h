@@ -16,21 +16,21 @@ namespace vantage {
 
 inline void delete_program(GLuint name) { glDeleteProgram(name); }
 
-/// A linked program from files of the shader library, which must outlive it. When the library has
-/// noticed an edited shader (ShaderLibrary::poll), the next use() compiles anew; a shader that does
-/// not compile is reported and the last good one stays.
+/// A linked program from files of the shader library, which must outlive it. After the library has
+/// noticed an edited shader (ShaderLibrary::poll), the next use() compiles it again. If that fails,
+/// the error is logged and the last good program stays.
 class Program {
   public:
     /// Throws Error with the driver's log if a shader does not compile or link.
     static Program render(const ShaderLibrary& library, std::string vertex, std::string fragment,
                           ShaderDefines defines = {});
-    /// Throws too if the workgroup is larger than a Raspberry Pi takes (PiLimits).
+    /// Throws also if the workgroup is larger than PiLimits allow.
     static Program compute(const ShaderLibrary& library, std::string file,
                            ShaderDefines defines = {});
 
     void use();
 
-    // Uniforms of the program in use; names that the compiler removed are ignored.
+    // Uniforms of the program in use. Names that the compiler removed are ignored.
     void set(std::string_view name, int value);
     void set(std::string_view name, unsigned value);
     void set(std::string_view name, float value);
@@ -40,11 +40,11 @@ class Program {
     void set(std::string_view name, const Eigen::Vector4f& value);
     void set(std::string_view name, const Eigen::Matrix3f& value);
     void set(std::string_view name, const Eigen::Matrix4f& value);
-    /// An array of vec4 from its first element on.
+    /// An array of vec4, from its first element.
     void set(std::string_view name, std::span<const Eigen::Vector4f> values);
 
-    /// Launches enough workgroups to cover `width x height x depth` invocations; for compute
-    /// programs in use.
+    /// Dispatches enough workgroups to cover `width x height x depth` invocations, for a compute
+    /// program in use.
     void dispatch_over(int width, int height, int depth = 1) const;
 
     GLuint name() const { return handle_.name(); }
@@ -56,7 +56,7 @@ class Program {
     GLint location(std::string_view name);
 
     const ShaderLibrary* library_;
-    std::string first_, second_;  ///< vertex and fragment, or compute and nothing
+    std::string first_, second_;  ///< vertex and fragment shader, or compute shader and empty
     ShaderDefines defines_;
     GlHandle<delete_program> handle_;
     GLint workgroup_[3] = {1, 1, 1};

@@ -183,7 +183,7 @@ TEST_F(CalibrationFileTest, WritesNothingThatCannotBe) {
 TEST_F(CalibrationFileTest, RefusesAChangedNumber) {
     save();
     replace("width_px: 641", "width_px: 642");
-    EXPECT_TRUE(fault().starts_with("the checksum does not fit the numbers")) << fault();
+    EXPECT_TRUE(fault().starts_with("the checksum does not match the numbers")) << fault();
 }
 
 TEST_F(CalibrationFileTest, RefusesAChangedUncertaintyOrResidualAndAnUncertaintyThatIsGone) {
@@ -192,7 +192,7 @@ TEST_F(CalibrationFileTest, RefusesAChangedUncertaintyOrResidualAndAnUncertainty
         {0.25, 0.5, 0.125, 0.75, std::vector<double>(c.left.distortion.size(), 0.01)},
         {1, 2, 3, 4, std::vector<double>(c.right.distortion.size(), 0.02)}};
     record_.alpha = 0.5;
-    constexpr std::string_view contradiction = "the checksum does not fit the numbers";
+    constexpr std::string_view contradiction = "the checksum does not match the numbers";
     for (const auto& [key, value] :
          {std::pair("fx_px", "0.26"), std::pair("row_rms_px", "0.13"), std::pair("alpha", "0.6")}) {
         save();
@@ -242,7 +242,7 @@ TEST_F(CalibrationFileTest, OfTheFirstVersionIsReadAndStandsLevelWhereItHadNoPla
 TEST_F(CalibrationFileTest, RefusesAnotherVersionOrKind) {
     save();
     replace("version: 2", "version: 3");
-    EXPECT_EQ(fault(), "it is of version 3, and this program reads versions 1 to 2");
+    EXPECT_EQ(fault(), "it has version 3, but this program reads versions 1 to 2");
     replace("version: 3", "version: 2");
     replace("vantage stereo calibration", "shopping list");
     EXPECT_EQ(fault(), "this is not a calibration of Vantage");
@@ -260,7 +260,7 @@ TEST_F(CalibrationFileTest, NamesWhatIsMissingOrOfAnotherType) {
     EXPECT_EQ(fault(), "'left.height_px' must be an integer");
     save();
     replace("lens: pinhole", "lens: mirror");
-    EXPECT_EQ(fault(), "'left.lens' is 'mirror', and it must be pinhole or fisheye");
+    EXPECT_EQ(fault(), "'left.lens' is 'mirror', but must be pinhole or fisheye");
     save();
     replace("rows: 3", "rows: 2000000000");
     EXPECT_EQ(fault(), "'left.K' is 2000000000x3 and holds 9 numbers");

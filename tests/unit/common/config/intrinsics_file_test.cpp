@@ -61,20 +61,20 @@ TEST_F(IntrinsicsFileTest, SaysHowSureItIsUnderNamesThatOpenCvKnows) {
 TEST_F(IntrinsicsFileTest, RefusesAChangedNumber) {
     save();
     replace("image_width: 641", "image_width: 642");
-    EXPECT_THAT(fault(), testing::AllOf(testing::HasSubstr("left.yaml: the checksum does not fit"),
+    EXPECT_THAT(fault(), testing::AllOf(testing::HasSubstr("left.yaml: the checksum does not match"),
                                         testing::HasSubstr("last good file")));
 }
 
 TEST_F(IntrinsicsFileTest, RefusesAChangedUncertainty) {
     save();
     replace("cy_px: 2.", "cy_px: 3.");
-    EXPECT_THAT(fault(), testing::HasSubstr("the checksum does not fit"));
+    EXPECT_THAT(fault(), testing::HasSubstr("the checksum does not match"));
 }
 
 TEST_F(IntrinsicsFileTest, NamesWhatIsMissingOrCannotBe) {
     save();
     replace("cy_px: 2.", "cy_px: -2.");
-    EXPECT_THAT(fault(), testing::HasSubstr("'sigma.cy_px' is -2, and a deviation is 0 or more"));
+    EXPECT_THAT(fault(), testing::HasSubstr("'sigma.cy_px' is -2, but a deviation is 0 or more"));
     save();
     replace("camera_matrix", "camera_nothing");
     EXPECT_THAT(fault(), testing::HasSubstr("'camera_matrix' is missing"));

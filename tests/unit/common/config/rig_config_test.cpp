@@ -53,7 +53,7 @@ distance_m = 3
 baseline_m = 0.2
 field_of_view_deg = 60
 doffs_px = 12
-set = 7
+scene = 7
 [match]
 matcher = "gradient"
 preset = "fast"
@@ -93,7 +93,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.virtual_rig.baseline_m, 0.2);
     EXPECT_EQ(config.virtual_rig.field_of_view_deg, 60.0);
     EXPECT_EQ(config.virtual_rig.doffs_px, 12.0);
-    EXPECT_EQ(config.virtual_rig.set, 7);
+    EXPECT_EQ(config.virtual_rig.scene, 7);
     EXPECT_EQ(config.match.matcher, "gradient");
     EXPECT_EQ(config.match.preset, "fast");
     EXPECT_EQ(config.match.disparities, 32);
@@ -140,7 +140,7 @@ TEST_F(RigConfigTest, NamesTheWantedType) {
     EXPECT_EQ(fault(head + "[source]\nkind = true\n"),
               "config.toml:4: 'kind' in [source] must be a string, and it is true or false");
     EXPECT_EQ(fault(head + "[source]\nseed = -1\n"),
-              "config.toml:4: 'seed' in [source] is -1, and the least it may be is 0");
+              "config.toml:4: 'seed' in [source] is -1, but must be at least 0");
     EXPECT_EQ(
         fault(head + "[source.controls]\ngain = 1.5\n"),
         "config.toml:4: 'gain' in [source.controls] must be an integer, and it is a number with "
@@ -150,15 +150,15 @@ TEST_F(RigConfigTest, NamesTheWantedType) {
 TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[match]\ndisparities = 257\n"),
-              "config.toml:4: 'disparities' in [match] is 257, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 257, but must be 1 to 256");
     EXPECT_EQ(fault(head + "[match]\ndisparities = 99999999999\n"),
-              "config.toml:4: 'disparities' in [match] is 99999999999, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 99999999999, but must be 1 to 256");
     EXPECT_EQ(fault(head + "[source]\nfirst = -1\n"),
-              "config.toml:4: 'first' in [source] is -1, and the least it may be is 0");
+              "config.toml:4: 'first' in [source] is -1, but must be at least 0");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = inf\n"),
               "config.toml:4: 'rate_hz' in [source] must be a finite number");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 0\n"),
-              "config.toml:4: 'rate_hz' in [source] is 0, and it must be 0.01 to 1000");
+              "config.toml:4: 'rate_hz' in [source] is 0, but must be 0.01 to 1000");
     EXPECT_EQ(fault(head + "[match]\npreset = 'qualty'\n"),
               "config.toml:4: 'preset' in [match] must not be 'qualty'; the nearest is 'quality'");
     EXPECT_EQ(
@@ -173,7 +173,7 @@ TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
         "file");
     EXPECT_EQ(
         fault("version = 1\nname = 'a b'\n"),
-        "config.toml:2: 'name' is 'a b', and it must be 1 to 64 letters, digits, '-' and '_'");
+        "config.toml:2: 'name' is 'a b', but must be 1 to 64 letters, digits, '-' and '_'");
 }
 
 TEST_F(RigConfigTest, WantsItsVersion) {
@@ -206,8 +206,8 @@ TEST_F(RigConfigTest, WantsALineForATriggerThatUsesOne) {
     EXPECT_THAT(fault(top + "role = 'lead'\n"), testing::HasSubstr("needs 'chip'"));
     EXPECT_THAT(fault(top + "role = 'follow'\nchip = 'c'\n"), testing::HasSubstr("'line_offset'"));
     EXPECT_THAT(fault(top + "role = 'follow'\npretended = true\n"),
-                testing::HasSubstr("no edge to follow"));
-    EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("one way"));
+                testing::HasSubstr("needs the role 'lead'"));
+    EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("keep one"));
     EXPECT_THAT(fault(top + "role = 'led'\n"), testing::HasSubstr("lead"));
 }
 

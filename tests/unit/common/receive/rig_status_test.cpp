@@ -40,7 +40,7 @@ TEST(RigStatus, TakesTheRatesOfBroadcastAsTheyAreWritten) {
 TEST(RigStatus, SaysWhyARigIsNotConnected) {
     RigStatus rig = good_rig();
     rig.connected = false;
-    EXPECT_EQ(trouble_of(rig), "nothing was heard from tcp://north:5600");
+    EXPECT_EQ(trouble_of(rig), "tcp://north:5600 is silent");
     rig.unreachable = "the name north does not resolve";
     EXPECT_EQ(trouble_of(rig), "the name north does not resolve");
     rig.refused = "no more hosts";
@@ -53,14 +53,14 @@ TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
     EXPECT_THAT(trouble_of(rig), HasSubstr("counts pulses differently"));
     rig = good_rig();
     rig.lags = true;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("beyond the latency budget"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("after the latency budget"));
     rig = good_rig();
     rig.unsynchronized = 5;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("no trigger pulse"));
     rig.in_frame_sets = 100;
     EXPECT_EQ(trouble_of(rig), "") << "some pictures do";
     rig.names_no_pulse = true;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("no trigger pulse"));
 }
 
 TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {

@@ -88,7 +88,7 @@ TEST_F(StrangerWatchTest, TellsOfWhoLeavesBeforeItHasGreeted) {
     connection_to(server_->endpoint());
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(
-        eventually([] { return lines_with("left", "left before it had greeted").size() == 1; }));
+        eventually([] { return lines_with("left", "closed the connection before the handshake").size() == 1; }));
 }
 
 TEST_F(StrangerWatchTest, TellsOfWhoSpeaksAnotherProtocol) {
@@ -97,7 +97,7 @@ TEST_F(StrangerWatchTest, TellsOfWhoSpeaksAnotherProtocol) {
     say(browser, "GET / HTTP/1.1\r\nHost: rig\r\n\r\n");
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(
-        eventually([] { return lines_with("foreign", "says what no host says").size() == 1; }));
+        eventually([] { return lines_with("foreign", "does not speak Vantage's protocol").size() == 1; }));
 }
 
 TEST_F(StrangerWatchTest, TellsOfWhoHasNoKey) {
@@ -109,7 +109,7 @@ TEST_F(StrangerWatchTest, TellsOfWhoHasNoKey) {
     say(stranger, greeting);
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(
-        eventually([] { return lines_with("keyless", "comes without a key").size() == 1; }));
+        eventually([] { return lines_with("keyless", "connected without a key").size() == 1; }));
 }
 
 TEST_F(StrangerWatchTest, TellsOfWhoForgesAHandshake) {
@@ -117,7 +117,7 @@ TEST_F(StrangerWatchTest, TellsOfWhoForgesAHandshake) {
     const zmq::socket_t stranger = peer(host_, generate_curve_keys().public_key);
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(eventually(
-        [] { return lines_with("forged", "does not hold this rig's public key").size() == 1; }));
+        [] { return lines_with("forged", "does not have this rig's public key").size() == 1; }));
 }
 
 TEST_F(StrangerWatchTest, CountsAKeyThatIsNotListedAndLeavesItsLineToTheAdmission) {
@@ -140,7 +140,7 @@ TEST_F(StrangerWatchTest, HostsThatComeAndGoAreNoStrangers) {
         zmq::message_t welcome;
         ASSERT_TRUE(host.recv(welcome));
     }
-    EXPECT_TRUE(lines_with("hosts", "says what no host says").empty());
+    EXPECT_TRUE(lines_with("hosts", "does not speak Vantage's protocol").empty());
     EXPECT_TRUE(lines_with("hosts", "key").empty());
 }
 

@@ -269,7 +269,7 @@ TEST_F(TakeFileTest, EndsReadableWhereTheDiskIsFull) {
         const SmallDisk disk(300'000);
         sentence = thrown_sentence([&] { write_small_take(take_, two_rigs, 100, 1000); });
     }
-    EXPECT_NE(sentence.find("what was written until then opens"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("what was written until then can be opened"), std::string::npos) << sentence;
     const TakeReader reader(take_);
     EXPECT_TRUE(reader.damage().empty()) << "it ends with a whole cluster";
     EXPECT_GT(reader.frames(0).size(), 10u);
@@ -288,7 +288,7 @@ int fill_small_tmpfs(const std::filesystem::path& folder) {
     const std::filesystem::path take = folder / "take.mkv";
     const std::string sentence =
         thrown_sentence([&] { write_small_take(take, two_rigs, 100, 10'000); });
-    if (sentence.find("No space left on device; what was written until then opens") ==
+    if (sentence.find("No space left on device; what was written until then can be opened") ==
         std::string::npos)
         return 2;
     const TakeReader reader(take);
@@ -315,10 +315,10 @@ TEST_F(TakeFileTest, RefusesWhatIsNoTake) {
     };
     refused("cannot read");
     write_bytes(take_, {});
-    refused("no Matroska file");
+    refused("not a Matroska file");
     run("ffmpeg",
         {"-v", "error", "-y", "-f", "lavfi", "-i", "testsrc=d=1:s=64x48", take_.string()});
-    refused("no take.json");
+    refused("without take.json");
 }
 
 TEST_F(TakeFileTest, RefusesFramesThatDoNotFitItsTracks) {
@@ -327,7 +327,7 @@ TEST_F(TakeFileTest, RefusesFramesThatDoNotFitItsTracks) {
     larger.rig = "north";
     EXPECT_NE(thrown_sentence([&] {
                   storer.store(FrameEncoder(85).encode(larger));
-              }).find("80x60 and disparities of 80x60, and the take's tracks are for 62x46"),
+              }).find("80x60 and disparities of 80x60, but the take's tracks have 62x46"),
               std::string::npos);
 }
 
@@ -362,7 +362,7 @@ TEST_F(TakeFileTest, OpensAfterAnyKill) {
             EXPECT_NO_THROW(reader.load(0, frame));
         }
         for (const TakeDamage& damage : reader.damage())
-            EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+            EXPECT_NE(damage.words.find("are truncated"), std::string::npos) << damage.words;
     }
 }
 

@@ -40,7 +40,7 @@ TEST(TakeGapsTest, OneThatIsCountedLaterExplainsTheGapBefore) {
     std::vector<TakeReader::Frame> frames = frames_of({{4, 0}, {6, 0}, {7, 0}, {9, 0}, {10, 0}});
     for (std::size_t i = 2; i < frames.size(); ++i) frames[i].link.send_dropped = 1;
     frames[4].link.send_dropped = 2;
-    EXPECT_EQ(whys_of(frames), "5-5: 1 pushed out on the way; 8-8: 1 pushed out on the way; ");
+    EXPECT_EQ(whys_of(frames), "5-5: 1 dropped at the rig; 8-8: 1 dropped at the rig; ");
 }
 
 TEST(TakeGapsTest, AGapHasAsManyReasonsAsThereAre) {
@@ -48,7 +48,7 @@ TEST(TakeGapsTest, AGapHasAsManyReasonsAsThereAre) {
     frames[1].rig.late = 2;
     frames[1].dropped = 1;
     EXPECT_EQ(whys_of(frames),
-              "5-8: 1 missed by the rig, 2 late at the rig, 1 left out by the recording host; ");
+              "5-8: 1 missed by the rig, 2 late at the rig, 1 dropped by the recording host; ");
 }
 
 TEST(TakeGapsTest, WhatNobodyCountedHasNoReason) {
@@ -63,7 +63,7 @@ TEST(TakeGapsTest, WhatNobodyCountedHasNoReason) {
 TEST(TakeGapsTest, ARigThatWasStartedAnewCountsAnew) {
     std::vector<TakeReader::Frame> frames = frames_of({{4, 3}, {9, 0}, {11, 1}});
     frames[1].session = frames[2].session = 1;
-    EXPECT_EQ(whys_of(frames), "5-8: the rig was started anew; 10-10: 1 missed by the rig; ");
+    EXPECT_EQ(whys_of(frames), "5-8: the rig was restarted; 10-10: 1 missed by the rig; ");
 }
 
 }  // namespace

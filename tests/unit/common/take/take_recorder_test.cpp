@@ -184,7 +184,7 @@ TEST_F(TakeRecorderTest, RefusesADiskThatCannotKeepUpAndNamesTheNumbers) {
     recorder.finish();
     const TakeState state = recorder.state();
     EXPECT_EQ(state.phase, TakePhase::failed);
-    EXPECT_NE(state.failure.find("takes 0.1 MB a second, and these rigs' frames need"),
+    EXPECT_NE(state.failure.find("writes 0.1 MB/s, and these rigs' frames need"),
               std::string::npos)
         << state.failure;
     EXPECT_FALSE(std::filesystem::exists(take_));
@@ -212,7 +212,7 @@ TEST_F(TakeRecorderTest, RefusesWhatIsNoPlaceForATake) {
               std::string::npos);
     EXPECT_NE(thrown_sentence([&] {
                   recorder.begin(folder_.path() / "take.mp4");
-              }).find("whose name ends in .mkv"),
+              }).find("has to end in .mkv"),
               std::string::npos);
     EXPECT_NE(thrown_sentence([&] {
                   recorder.begin(folder_.path() / "no" / "take.mkv");

@@ -123,7 +123,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
 
 TEST(StageMesh, ChunksHoldTheirTrianglesAndSpheres) {
     for (const std::uint64_t seed : {0u, 1u, 2u}) {
-        const StageScene scene = make_frame_set(seed);
+        const StageScene scene = make_scene(seed);
         const auto& mesh = scene.mesh;
         std::uint32_t next = 0;
         for (const StageChunk& chunk : mesh.chunks()) {
@@ -194,7 +194,7 @@ TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
 
 TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
     for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u})
-        for (const PerformerStyle& style : make_frame_set(seed).performers) {
+        for (const PerformerStyle& style : make_scene(seed).performers) {
             EXPECT_GE(style.speed_m_per_s(), 0.5);
             EXPECT_LE(style.speed_m_per_s(), 1.5);
             for (const std::chrono::nanoseconds date : dates())
@@ -266,7 +266,7 @@ void for_each_background_point(const StageMeshBuilder& mesh, float farthest_m, f
 
 class EveryFrameSet : public testing::TestWithParam<std::uint64_t> {
   protected:
-    StageScene scene_ = make_frame_set(GetParam());
+    StageScene scene_ = make_scene(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Sets, EveryFrameSet, testing::Range<std::uint64_t>(0, 13));
 

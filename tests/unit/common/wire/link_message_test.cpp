@@ -121,10 +121,10 @@ TEST(LinkMessage, HostileHostMessagesAreRefused) {
         });
     };
     EXPECT_EQ(fetch(1, 5, 6), "");
-    EXPECT_THAT(fetch(0, 5, 6), HasSubstr("without id"));
+    EXPECT_THAT(fetch(0, 5, 6), HasSubstr("without an id"));
     EXPECT_THAT(fetch(1, 6, 6), HasSubstr("pulses from 6 to before 6"));
     EXPECT_THAT(fetch(1, 7, 6), HasSubstr("pulses from 7"));
-    EXPECT_THAT(fetch(1, 5, max_trigger_index + 1), HasSubstr("none up to"));
+    EXPECT_THAT(fetch(1, 5, max_trigger_index + 1), HasSubstr("not a range up to"));
     EXPECT_THAT(refusal_of(decode_host_message, std::vector<std::byte>(max_header_bytes + 1)),
                 HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal_of(decode_host_message, {std::byte{0x08}}), HasSubstr("truncated"));

@@ -89,7 +89,7 @@ TEST(PictureCodecs, ChromaIsKnownByNameAndNoOtherIsTaken) {
     for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
         EXPECT_EQ(parse_chroma(name_of(chroma)), chroma);
     EXPECT_EQ(thrown_sentence([] { parse_chroma("4:1:1"); }),
-              "chroma '4:1:1' is none of 4:4:4, 4:2:2 and 4:2:0");
+              "chroma '4:1:1' is not one of 4:4:4, 4:2:2 and 4:2:0");
 }
 
 TEST(PictureCodecs, SmoothDisparityShrinksManyTimes) {

@@ -421,13 +421,13 @@ TEST_F(TakeExportTest, MixesWithNothingElse) {
         EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
     };
     export_camera(take_, {}, path("flight"));
-    refused("ply", "flight", "holds another export already");
+    refused("ply", "flight", "contains another export");
     std::ofstream(path("other")) << "mine";
-    refused("views", "", "holds other files");
-    refused("fbx", "new", "there are camera, film, ply, glb, exr, training, views, mpeg");
+    refused("views", "", "contains other files");
+    refused("fbx", "new", "the formats are camera, film, ply, glb, exr, training, views, mpeg");
     EXPECT_NE(thrown_sentence([&] {
                   export_moments(take_, find_export_format("ply"), {5, 6, 1}, path("new"));
-              }).find("no frame is in that part"),
+              }).find("the range has no frames"),
               std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path("new")));
 }

@@ -233,7 +233,7 @@ TEST_F(KeptFetchTest, ARateThatIsNotTheStagesIsTold) {
     const auto north = start("north");
     StageConfig stage = stage_of({north.get()}, {"north"});
     stage.rate_hz = 30;
-    EXPECT_THAT(run(all(), stage)[0].trouble, HasSubstr("25 pulses a second"));
+    EXPECT_THAT(run(all(), stage)[0].trouble, HasSubstr("25 pulses per second"));
 }
 
 TEST_F(KeptFetchTest, ARigThatIsNotOfTheStageIsRefused) {

@@ -221,13 +221,13 @@ TEST_F(FilmExport, PartsAreOfOneExportAtATimeAndWhole) {
     {
         const FilmParts held(parts, rate_hz());
         EXPECT_EQ(held.pictures(), 5u);
-        EXPECT_NE(thrown_sentence([&] { film(pictures, "film.mkv"); }).find("let it end"),
+        EXPECT_NE(thrown_sentence([&] { film(pictures, "film.mkv"); }).find("wait until it has ended"),
                   std::string::npos);
     }
     std::ofstream(parts / "00000000.mp4") << "damaged";
     const std::string sentence = thrown_sentence([&] { film(pictures, "film.mkv"); });
     EXPECT_NE(sentence.find("00000000.mp4"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("take it away"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("delete it"), std::string::npos) << sentence;
 }
 
 }  // namespace

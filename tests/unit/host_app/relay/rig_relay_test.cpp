@@ -208,7 +208,7 @@ TEST_F(RigRelayTest, SaysWhyARigGivesNothingAndTakesItBackWhenItIsStartedAnew) {
     rig.reset();
     ASSERT_TRUE(eventually([&] { return !of(host).connected; }));
     ASSERT_TRUE(eventually([&] {
-        return of(host).unreachable.find("rig-a does not reach the relay") != std::string::npos;
+        return of(host).unreachable.find("the relay does not reach rig rig-a") != std::string::npos;
     }));
     EXPECT_EQ(of(host).refused, "") << "it comes back";
     EXPECT_EQ(of(host).restarts, 0u);
@@ -270,7 +270,7 @@ TEST_F(RigRelayTest, PassesReportsOnAndNoRawPairs) {
     const StageReceiver calibrating(behind(*relay, "second.key"),
                                     StageReceiver::Purpose::calibrate);
     ASSERT_TRUE(eventually([&] { return !of(calibrating).refused.empty(); }));
-    EXPECT_THAT(of(calibrating).refused, HasSubstr("no raw pairs"));
+    EXPECT_THAT(of(calibrating).refused, HasSubstr("not forward raw pairs"));
 }
 
 TEST_F(RigRelayTest, RefusesWhatWouldLetAnyoneIn) {

@@ -57,7 +57,7 @@ TEST_F(ClockTimeTest, ATimeCodeIsItsPulse) {
                     (void)pulse_of(clock_span("20:15:00:40", "20:16:00", evening + 30).from,
                                    PulseGrid(25), 37);
                 }),
-                testing::HasSubstr("no time code at 25 pulses"));
+                testing::HasSubstr("does not exist in time code at 25 pulses"));
 }
 
 TEST_F(ClockTimeTest, WhatIsNoneIsRefused) {

@@ -99,7 +99,7 @@ TEST_F(TakeFrameSetsTest, RefusesATakeWithoutFrames) {
         TakeWriter writer(file_, small_facts({"north"}, 100));
         writer.finish();
     }
-    EXPECT_NE(thrown_sentence([&] { TakeFrameSets sets(reader()); }).find("holds no frame"),
+    EXPECT_NE(thrown_sentence([&] { TakeFrameSets sets(reader()); }).find("has no frames"),
               std::string::npos);
 }
 
