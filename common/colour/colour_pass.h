@@ -6,6 +6,7 @@
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/texture.h"
+#include "common/gl/shader_library.h"
 
 namespace vantage {
 
@@ -21,6 +22,22 @@ class ColourPass {
 
   private:
     FullscreenPass pass_;
+};
+
+/// Uploads the frames of one camera and corrects their colours on the GPU, into a texture. The
+/// context that was current at construction must be current at every call.
+class ColourCorrector {
+  public:
+    ColourCorrector() : pass_(library_) {}
+
+    /// `stage` is rgba8 and of the frame's size; only its first mip level is written.
+    void upload(const ColourImage& picture, const ColourCorrection& correction,
+                const Texture& stage);
+
+  private:
+    ShaderLibrary library_;
+    ColourPass pass_;
+    std::optional<Texture> camera_;
 };
 
 }  // namespace vantage

@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "common/config/camera_yaml.h"
-#include "common/config/lens_name.h"
 #include "common/config/number_checksum.h"
 
 namespace vantage {

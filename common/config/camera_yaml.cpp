@@ -4,7 +4,6 @@
 #include <string>
 
 #include "common/base/error.h"
-#include "common/config/lens_name.h"
 
 namespace vantage {
 
@@ -41,6 +40,14 @@ CalibrationSigma::Camera read_lens_sigma(const YamlSection& section, std::size_t
         fail("'{}distortion' has {} numbers for {} coefficients", section.name,
              sigma.distortion.size(), coefficients);
     return sigma;
+}
+
+const char* lens_name(LensModel lens) { return lens == LensModel::fisheye ? "fisheye" : "pinhole"; }
+
+std::optional<LensModel> lens_named(std::string_view name) {
+    for (const LensModel lens : {LensModel::pinhole, LensModel::fisheye})
+        if (name == lens_name(lens)) return lens;
+    return {};
 }
 
 }  // namespace vantage

@@ -1,7 +1,6 @@
 #include "common/config/intrinsics_file.h"
 
 #include "common/config/camera_yaml.h"
-#include "common/config/lens_name.h"
 #include "common/config/number_checksum.h"
 
 namespace vantage {

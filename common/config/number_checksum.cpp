@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/config/lens_name.h"
+#include "common/config/camera_yaml.h"
 
 namespace vantage {
 

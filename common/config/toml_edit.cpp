@@ -9,7 +9,6 @@
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {
@@ -119,6 +118,24 @@ std::string without_toml_key(std::string_view text, std::string_view table, std:
     const std::size_t begin = previous_end == std::string_view::npos ? 0 : previous_end + 1;
     const std::size_t end = after_line(text, offset_of(text, node->source().end));
     return std::string(text.substr(0, begin)) + std::string(text.substr(end));
+}
+
+std::string toml_string(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+std::string fault_of_name(const std::string& name) {
+    constexpr std::size_t longest_name = 40;
+    if (name.size() > longest_name) return fmt::format("is longer than {} bytes", longest_name);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; };
+    if (std::any_of(name.begin(), name.end(), is_control))
+        return "has a character that cannot be shown";
+    return "";
 }
 
 }  // namespace vantage

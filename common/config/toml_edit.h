@@ -18,4 +18,10 @@ std::string with_toml_value(std::string_view text, std::string_view table, std::
 std::string without_toml_key(std::string_view text, std::string_view table, std::string_view key,
                              const std::filesystem::path& name);
 
+/// Formats a TOML string. Precondition: no control characters.
+std::string toml_string(const std::string& text);
+
+/// Why a text is not valid as a name given by a person: "is longer than 40 bytes"; empty if valid.
+std::string fault_of_name(const std::string& name);
+
 }  // namespace vantage

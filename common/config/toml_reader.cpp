@@ -6,6 +6,7 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/log.h"
 
 namespace vantage {
 namespace {

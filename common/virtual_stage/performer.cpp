@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/virtual_stage/tau.h"
+#include "common/virtual_stage/stage_mesh.h"
 
 namespace vantage {
 namespace {

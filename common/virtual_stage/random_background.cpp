@@ -5,7 +5,7 @@
 
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
-#include "common/virtual_stage/tau.h"
+#include "common/virtual_stage/stage_mesh.h"
 
 namespace vantage {
 namespace {

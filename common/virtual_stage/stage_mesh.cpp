@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {

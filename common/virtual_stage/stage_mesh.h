@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -115,5 +116,8 @@ class StageMeshBuilder {
     std::vector<StageChunk> chunks_;
     std::size_t chunk_first_vertex_ = 0;
 };
+
+/// A whole turn in radians.
+inline constexpr float tau = 2 * std::numbers::pi_v<float>;
 
 }  // namespace vantage

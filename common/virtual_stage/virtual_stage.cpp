@@ -32,7 +32,7 @@ constexpr double near_m = 0.1, far_m = 100;
 constexpr int max_bones = 40;
 constexpr int shadow_side_px = 1024;
 constexpr float shadow_half_size_m = 4.2f;
-constexpr std::size_t kept_targets = 4, kept_sets = 4;
+constexpr std::size_t max_kept_targets = 4, max_kept_scenes = 4;
 /// The reach of a shadow beyond its edge: shadow map look-ups are offset from the surface and lie
 /// between texels.
 constexpr float shadow_margin_m = 0.05f;
@@ -81,8 +81,8 @@ bool are_same(const StageCamera& a, const StageCamera& b) {
 }
 
 /// A camera's image of the scene, without performers (`still`) and with them (`moving`).
-struct KeptBackground {
-    KeptBackground(const StageCamera& from, int samples_per_side)
+struct KeptScene {
+    KeptScene(const StageCamera& from, int samples_per_side)
         : camera(from),
           still({from.width_px, from.height_px}, samples_per_side),
           moving({from.width_px, from.height_px}, samples_per_side),
@@ -326,7 +326,7 @@ struct VirtualStage::Impl {
         };
         const auto at = std::find_if(targets.begin(), targets.end(), same);
         if (at != targets.end()) return **at;
-        if (targets.size() == kept_targets) targets.erase(targets.begin());
+        if (targets.size() == max_kept_targets) targets.erase(targets.begin());
         targets.push_back(std::make_unique<StageTargets>(size, samples_per_side));
         return *targets.back();
     }
@@ -352,18 +352,18 @@ struct VirtualStage::Impl {
 
     /// The cached image of a camera without performers, rendered if missing. Replaces the least
     /// recently used one.
-    KeptBackground& kept_set(const StageCamera& camera, int samples_per_side) {
-        const auto at = std::find_if(sets.begin(), sets.end(), [&](const auto& kept) {
+    KeptScene& kept_scene(const StageCamera& camera, int samples_per_side) {
+        const auto at = std::find_if(kept_scenes.begin(), kept_scenes.end(), [&](const auto& kept) {
             return kept->still.samples_per_side() == samples_per_side &&
                    are_same(kept->camera, camera);
         });
-        if (at != sets.end()) {
-            std::rotate(at, at + 1, sets.end());
-            return *sets.back();
+        if (at != kept_scenes.end()) {
+            std::rotate(at, at + 1, kept_scenes.end());
+            return *kept_scenes.back();
         }
-        if (sets.size() == kept_sets) sets.erase(sets.begin());
-        sets.push_back(std::make_unique<KeptBackground>(camera, samples_per_side));
-        return *sets.back();
+        if (kept_scenes.size() == max_kept_scenes) kept_scenes.erase(kept_scenes.begin());
+        kept_scenes.push_back(std::make_unique<KeptScene>(camera, samples_per_side));
+        return *kept_scenes.back();
     }
 
     /// Collects the triangles of the scenery that receive shadows, and their shadow map texels.
@@ -439,7 +439,7 @@ struct VirtualStage::Impl {
     }
 
     /// The parts of the image that show performers or surfaces that they may shade.
-    PictureParts changing_parts(const KeptBackground& kept) const {
+    PictureParts changing_parts(const KeptScene& kept) const {
         const ScreenBounds bounds(kept.camera);
         PictureParts parts(kept.moving.size());
         for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
@@ -479,7 +479,7 @@ struct VirtualStage::Impl {
     }
 
     /// Draws performers and their shadows over the cached scenery.
-    void draw_colour_over(KeptBackground& kept, const std::vector<const StageChunk*>& chunks) {
+    void draw_colour_over(KeptScene& kept, const std::vector<const StageChunk*>& chunks) {
         const StageCamera& camera = kept.camera;
         const StageTargets& target = kept.moving;
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
@@ -534,7 +534,7 @@ struct VirtualStage::Impl {
             in_view(camera, clip_from_world(camera, near_m, far_m));
         const bool with_colour = options.pictures != StagePictures::depth,
                    with_depth = options.pictures != StagePictures::colour;
-        KeptBackground* kept = options.stands_still ? &kept_set(camera, samples_per_side) : nullptr;
+        KeptScene* kept = options.stands_still ? &kept_scene(camera, samples_per_side) : nullptr;
         const StageTargets& target =
             kept ? kept->moving
                  : targets_for({camera.width_px, camera.height_px}, samples_per_side);
@@ -593,7 +593,7 @@ struct VirtualStage::Impl {
     std::optional<Buffer> shaded_indices;  ///< their corners
     std::optional<std::chrono::nanoseconds> posed_time;
     std::vector<std::unique_ptr<StageTargets>> targets;
-    std::vector<std::unique_ptr<KeptBackground>> sets;
+    std::vector<std::unique_ptr<KeptScene>> kept_scenes;
 };
 
 VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t scene)

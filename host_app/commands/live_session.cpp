@@ -6,7 +6,7 @@
 #include "common/base/time/time.h"
 #include "common/base/time/time_zone.h"
 #include "common/colour/colour_file.h"
-#include "host_app/takes/stage_habits.h"
+#include "host_app/takes/take_show.h"
 
 namespace vantage {
 void run_live_session(const LiveOptions& options) {

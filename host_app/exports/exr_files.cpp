@@ -1,4 +1,4 @@
-#include "host_app/exports/exr_files.h"
+#include "host_app/exports/moment_files.h"
 
 #include <array>
 

@@ -1,9 +1,8 @@
-#include "host_app/exports/moment_folders.h"
+#include "host_app/exports/moment_files.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
-
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/image/image_file.h"
-#include "host_app/exports/point_files.h"
 #include "host_app/view_sets/view_set_writer.h"
 
 namespace vantage {

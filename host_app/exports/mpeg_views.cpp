@@ -1,4 +1,4 @@
-#include "host_app/exports/mpeg_views.h"
+#include "host_app/exports/moment_files.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host_app/exports/point_files.h"
+#include "host_app/exports/moment_files.h"
 
 #include <array>
 #include <bit>

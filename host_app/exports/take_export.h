@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "common/take/take_reader.h"
 
 namespace vantage {
@@ -44,5 +46,11 @@ ExportStats export_moments(const TakeReader& take, const ExportFormat& format, c
 /// Writes the recorded camera: `folder`/camera.csv and camera.freed. Throws Error likewise.
 ExportStats export_camera(const TakeReader& take, const TakePart& part,
                           const std::filesystem::path& folder);
+
+/// Creates the folder of an export, or resumes the export that was begun in it: export.json in the
+/// folder identifies the take and `what`. Throws Error if the folder contains something else.
+/// Several processes may call it at a time.
+void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
+                  const nlohmann::ordered_json& what);
 
 }  // namespace vantage

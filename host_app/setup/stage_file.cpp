@@ -8,7 +8,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/config/toml_edit.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/sound/sound_converter.h"
+#include "host_app/sound/sound_decoder.h"
 
 struct _snd_pcm;
 

@@ -1,4 +1,4 @@
-#include "host_app/sound/alsa_sound.h"
+#include "host_app/sound/sound_source.h"
 
 #include <atomic>
 #include <charconv>
@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "host_app/output/output_url.h"
 #include "host_app/sound/alsa_capture.h"
 #include "host_app/sound/sound_placer.h"
 #include "host_app/sound/sound_ring.h"

@@ -1,9 +1,10 @@
-#include "host_app/sound/file_sound.h"
+#include "host_app/sound/sound_source.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
+#include "host_app/output/output_url.h"
 #include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_decoder.h"
 

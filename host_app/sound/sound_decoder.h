@@ -2,11 +2,31 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "host_app/sound/sound_converter.h"
+#include "common/av/av_handles.h"
+#include "common/av/sound.h"
 
 namespace vantage {
+
+/// Converts sound of any rate, channel layout and sample format to the internal form. Not
+/// thread-safe.
+class SoundConverter {
+  public:
+    /// A single channel goes to both sides; more than two are mixed down. Throws Error if FFmpeg
+    /// cannot convert.
+    SoundConverter(AVChannelLayout channels, AVSampleFormat format, int rate_hz);
+
+    /// Converts `count` samples in FFmpeg's planes. The filter delays some samples to the next call.
+    /// Throws Error if memory runs out.
+    std::vector<float> convert(const std::uint8_t* const* planes, int count);
+    /// The delayed samples at the end.
+    std::vector<float> rest() { return convert(nullptr, 0); }
+
+  private:
+    SwrContextPtr context_;
+};
 
 /// Decodes the sound of any file that FFmpeg supports, from its beginning. Not thread-safe.
 class SoundDecoder {

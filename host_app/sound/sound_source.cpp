@@ -1,8 +1,6 @@
 #include "host_app/sound/sound_source.h"
 
 #include "common/base/error.h"
-#include "host_app/sound/alsa_sound.h"
-#include "host_app/sound/file_sound.h"
 
 namespace vantage {
 namespace {

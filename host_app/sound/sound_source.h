@@ -10,6 +10,8 @@
 
 namespace vantage {
 
+struct OutputUrl;
+
 enum class SoundPhase {
     opening,
     on,
@@ -62,5 +64,16 @@ class SoundSource {
 std::shared_ptr<SoundSource> open_sound(const std::string& url, SoundTap tap);
 /// Throws the same Error without opening a device.
 void check_sound(const std::string& url);
+
+/// Opens an ALSA device, with `channels=3,4` for some of its channels. A missing or unplugged
+/// device is silent, is logged, and is tried again until it is there. Throws Error for invalid
+/// options.
+std::shared_ptr<SoundSource> open_alsa_sound(const OutputUrl& url, SoundTap tap);
+/// Throws the same Error without opening the device.
+void check_alsa_sound(const OutputUrl& url);
+
+/// Opens a sound file that starts with the programme's first tick; `loop=yes` repeats it. Throws
+/// Error if the file has no sound.
+std::shared_ptr<SoundSource> open_file_sound(const OutputUrl& url);
 
 }  // namespace vantage

@@ -1,19 +1,65 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "common/base/time/time.h"
 #include "common/receive/rig_link.h"
-#include "host_app/takes/bandwidth_budget.h"
 #include "host_app/takes/fetched_files.h"
-#include "host_app/takes/pulse_range.h"
 
 namespace vantage {
+
+/// The pulses from `from` to before `to`.
+struct PulseRange {
+    std::uint64_t from = 0, to = 0;
+    std::uint64_t pulses() const { return to > from ? to - from : 0; }
+    bool operator==(const PulseRange&) const = default;
+};
+
+/// The parts of `whole` without the pulses `there`, which are sorted.
+std::vector<PulseRange> missing_parts(PulseRange whole, std::span<const std::uint64_t> there);
+
+/// Limits the rate of requested bytes: a token bucket that holds a quarter of a second's worth.
+/// Clock readings are arguments. Not thread-safe.
+class BandwidthBudget {
+  public:
+    explicit BandwidthBudget(double bytes_s) : bytes_s_(bytes_s) {}
+
+    bool may_spend(MonotonicTime now) {
+        fill(now);
+        return bytes_ >= 0;
+    }
+    /// Takes bytes out of the bucket, which may become negative, since sizes are known on arrival
+    /// only. Negative: returns an estimate that did not arrive.
+    void spend(double bytes) { bytes_ -= bytes; }
+    /// The time until the bucket is not empty.
+    std::chrono::nanoseconds wait(MonotonicTime now) {
+        fill(now);
+        return std::chrono::nanoseconds(
+            static_cast<std::int64_t>(std::max(0.0, -bytes_) / bytes_s_ * ns_per_s));
+    }
+
+  private:
+    static constexpr double ns_per_s = 1e9, most_s = 0.25;
+    void fill(MonotonicTime now) {
+        if (filled_ != MonotonicTime{})
+            bytes_ =
+                std::min(most_s * bytes_s_,
+                         bytes_ + bytes_s_ * std::chrono::duration<double>(now - filled_).count());
+        filled_ = now;
+    }
+
+    double bytes_s_, bytes_ = 0;
+    MonotonicTime filled_{};
+};
 
 /// The result of the fetch from one rig.
 struct FetchStats {

@@ -5,7 +5,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/output_path.h"
 #include "common/base/log.h"
-#include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {

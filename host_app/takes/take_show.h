@@ -7,6 +7,8 @@
 
 #include "common/colour/colour_correction.h"
 #include "common/config/stage_config.h"
+#include "common/take/take_reader.h"
+#include "host_app/flight/flight_habits.h"
 
 namespace vantage {
 
@@ -23,5 +25,14 @@ TakeShow take_show_of(const StageConfig& stage);
 nlohmann::ordered_json to_json(const TakeShow& show);
 /// Throws Error if the JSON is not what to_json() wrote.
 TakeShow take_show_from(const nlohmann::ordered_json& json);
+
+/// The name of the stage file attached to a take.
+inline constexpr const char* stage_attachment = "stage.toml";
+
+/// The limits and speeds of flying by hand from a stage file.
+FlightHabits habits_of(const StageConfig::Flight& flight);
+/// Those of the stage file in a take; the defaults if it has none, or, with a warning, if it cannot
+/// be read.
+FlightHabits habits_of(const TakeReader& take);
 
 }  // namespace vantage

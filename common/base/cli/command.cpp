@@ -8,7 +8,6 @@
 #include <malloc.h>
 
 #include "common/base/cli/command_documents.h"
-#include "common/base/cli/misfit_words.h"
 #include "common/base/cli/stop_signal.h"
 #include "common/base/cli/version.h"
 #include "common/base/error.h"

@@ -70,4 +70,9 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+int sync_data(int fd) {
+    if (::fdatasync(fd) == 0 || errno == EINVAL || errno == ENOSYS) return 0;
+    return errno;
+}
+
 }  // namespace vantage

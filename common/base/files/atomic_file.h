@@ -20,4 +20,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
 
+/// Waits until the data written to a file is on disk. Returns 0, also where the file system cannot
+/// tell, or errno. The kernel reports a write error only once: a caller that ignores it loses data
+/// silently, since write() may keep succeeding after the disk is gone.
+int sync_data(int fd);
+
 }  // namespace vantage

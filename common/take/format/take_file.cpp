@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/base/files/data_sync.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
-#include "common/config/toml_text.h"
+#include "common/config/toml_edit.h"
 #include "host_app/control/table/command_parts.h"
 
 namespace vantage {

@@ -110,6 +110,18 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.stream.authorized_hosts, "/etc/hosts.keys");
 }
 
+TEST_F(RigConfigTest, ReadsTheOldNameOfAKeyWithAWarning) {
+    const std::string top = "version = 1\nname = 'a'\ncalibration = 'none'\n[virtual_rig]\n";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(load(top + "set = 3\n").virtual_rig.scene, 3);  // old name
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                testing::HasSubstr("config.toml:5: 'set' in [virtual_rig] is now called 'scene'"));
+    EXPECT_EQ(fault(top + "set = -1\n"),
+              "config.toml:5: 'scene' in [virtual_rig] is -1, but must be 0 to 1000000");
+    EXPECT_EQ(fault(top + "scene = 3\nset = 3\n"),
+              "config.toml:6: 'set' in [virtual_rig] is the old name of 'scene': keep one");
+}
+
 TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[match]\nfill = true\nmathcer = 'x'\n"),
               "config.toml:5: there is no key 'mathcer' in [match]; the nearest is 'matcher'");
@@ -129,21 +141,21 @@ TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
 TEST_F(RigConfigTest, NamesTheWantedType) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 'fast'\n"),
-              "config.toml:4: 'rate_hz' in [source] must be a number, and it is a string");
+              "config.toml:4: 'rate_hz' in [source] must be a number, but is a string");
     EXPECT_EQ(fault(head + "[source]\nwidth_px = 320.5\n"),
-              "config.toml:4: 'width_px' in [source] must be an integer, and it is a number with a "
+              "config.toml:4: 'width_px' in [source] must be an integer, but is a number with a "
               "fraction");
     EXPECT_EQ(fault(head + "[source]\nloop = 1\n"),
-              "config.toml:4: 'loop' in [source] must be true or false, and it is an integer");
+              "config.toml:4: 'loop' in [source] must be true or false, but is an integer");
     EXPECT_EQ(fault(head + "match = 3\n"),
-              "config.toml:3: 'match' must be a table, and it is an integer");
+              "config.toml:3: 'match' must be a table, but is an integer");
     EXPECT_EQ(fault(head + "[source]\nkind = true\n"),
-              "config.toml:4: 'kind' in [source] must be a string, and it is true or false");
+              "config.toml:4: 'kind' in [source] must be a string, but is true or false");
     EXPECT_EQ(fault(head + "[source]\nseed = -1\n"),
               "config.toml:4: 'seed' in [source] is -1, but must be at least 0");
     EXPECT_EQ(
         fault(head + "[source.controls]\ngain = 1.5\n"),
-        "config.toml:4: 'gain' in [source.controls] must be an integer, and it is a number with "
+        "config.toml:4: 'gain' in [source.controls] must be an integer, but is a number with "
         "a fraction");
 }
 
@@ -180,9 +192,9 @@ TEST_F(RigConfigTest, WantsItsVersion) {
     EXPECT_EQ(fault("name = 'a'\n"),
               "config.toml: the key 'version' is missing; put `version = 1` at the top");
     EXPECT_EQ(fault("version = 2\nname = 'a'\n"),
-              "config.toml:1: 'version' is 2, and this program reads version 1");
+              "config.toml:1: 'version' is 2, but this program reads version 1");
     EXPECT_EQ(fault("version = '1'\nname = 'a'\n"),
-              "config.toml:1: 'version' must be an integer, and it is a string");
+              "config.toml:1: 'version' must be an integer, but is a string");
 }
 
 TEST_F(RigConfigTest, NamesTheLineThatIsNotToml) {

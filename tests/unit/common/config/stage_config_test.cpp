@@ -100,14 +100,14 @@ TEST_F(StageConfigTest, NamesLineAndMendOfAFault) {
               "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but has 2");
     EXPECT_EQ(
         fault(head + "[view]\ntarget_m = [1, 2, 'x']\n"),
-        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is a string");
+        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but is a string");
     EXPECT_EQ(
         fault(head + "[view]\ntarget_m = 1\n"),
-        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is an integer");
+        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = [1]\n"),
-              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is an integer");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], but is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = 'a'\n"),
-              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is a string");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], but is a string");
 }
 
 }  // namespace

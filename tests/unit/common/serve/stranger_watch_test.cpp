@@ -173,11 +173,11 @@ TEST(StrangerWatch, AFloodIsALineInTenSecondsThatSaysHowMany) {
         }));
     }
     ASSERT_EQ(lines_with("flood", "").size(), 1u);
-    EXPECT_EQ(lines_with("flood", "were refused: 1;").size(), 1u);
+    EXPECT_EQ(lines_with("flood", "not from a host: 1;").size(), 1u);
     watch.look(start + 9s);
     EXPECT_EQ(lines_with("flood", "").size(), 1u);
     watch.look(start + 10s);
-    EXPECT_EQ(lines_with("flood", "were refused: 199;").size(), 1u);
+    EXPECT_EQ(lines_with("flood", "not from a host: 199;").size(), 1u);
     watch.look(start + 30s);
     EXPECT_EQ(lines_with("flood", "").size(), 2u);
 }

@@ -281,7 +281,7 @@ TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
     for (const StageVertex& v : scene_.mesh.vertices())
         of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
     constexpr int instants = 96;
-    std::array<int, 2> touched = {};  // the set, each other
+    std::array<int, 2> touched = {};  // the scenery, each other
     for (int i = 0; i < instants; ++i) {
         std::vector<std::size_t> taken;
         for (std::size_t performer = 0; performer < scene_.performers.size(); ++performer) {
@@ -301,7 +301,7 @@ TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
         EXPECT_GT(taken.size(), 500u) << "they are among the cells";
         for (const std::size_t cell : taken) cells[cell] = nobody;
     }
-    EXPECT_EQ(touched[0], 0) << "points that were within the set";
+    EXPECT_EQ(touched[0], 0) << "points inside the scenery";
     EXPECT_EQ(touched[1], 0) << "points that were within another performer";
 }
 

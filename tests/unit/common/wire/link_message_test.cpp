@@ -148,7 +148,7 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.set_refusal("red\x1b[31m"); }),
                 HasSubstr("control characters"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_captured_hz(NAN); }),
-                HasSubstr("no number"));
+                HasSubstr("not finite"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_sync()->set_rate_hz(-1); }), HasSubstr("rate"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_id("a b"); }),
                 HasSubstr("calibration name"));

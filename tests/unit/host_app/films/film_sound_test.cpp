@@ -1,4 +1,4 @@
-#include "host_app/exports/film_sound.h"
+#include "host_app/exports/film_export.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/ltc/ltc_flywheel.h"
+#include "host_app/ltc/ltc_writer.h"
 
 namespace vantage {
 namespace {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host_app/metrics/metric_text.h"
 #include "tests/support/source_folder.h"
 
 namespace vantage {

@@ -1,8 +1,7 @@
-#include "host_app/takes/pulse_range.h"
+#include "host_app/takes/rig_fetch.h"
 
 #include <gtest/gtest.h>
 
-#include "host_app/takes/bandwidth_budget.h"
 
 namespace vantage {
 namespace {

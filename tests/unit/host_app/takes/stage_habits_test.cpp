@@ -1,4 +1,4 @@
-#include "host_app/takes/stage_habits.h"
+#include "host_app/takes/take_show.h"
 
 #include <numbers>
 
