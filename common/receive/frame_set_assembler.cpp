@@ -76,7 +76,7 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     if (set.frames[rig_number]) return FrameFate::duplicate;
     set.frames[rig_number] = std::move(frame);
     if (open_.size() > max_open_frame_sets) close_through(open_.begin()->first, arrival);
-    return FrameFate::in_background;
+    return FrameFate::in_frame_set;
 }
 
 void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {

@@ -316,7 +316,7 @@ struct StageReceiver::Impl {
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
-            case FrameFate::in_background:
+            case FrameFate::in_frame_set:
                 break;
             case FrameFate::late:
                 ++rig.status.late;

@@ -368,7 +368,7 @@ void TakeRecorder::store(Take& take, std::span<const Item> items) {
         coders.push_back(std::async(std::launch::async, [&, rig] {
             for (const std::size_t i : of_rig[rig]) {
                 try {
-                    coded[i].background_value(take.storers[rig]->store(*items[i].frame->packed));
+                    coded[i].set_value(take.storers[rig]->store(*items[i].frame->packed));
                 } catch (...) {
                     coded[i].set_exception(std::current_exception());
                 }

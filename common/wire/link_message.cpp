@@ -128,7 +128,7 @@ std::vector<std::byte> encode(const RigMessage& message) {
     out.set_offered(message.counters.offered);
     out.set_sent(message.counters.sent);
     out.set_send_dropped(message.counters.send_dropped);
-    out.set_thinned(message.counters.skipped);
+    out.set_skipped(message.counters.skipped);
     to_wire(message.rig_counters, *out.mutable_counters());
     to_wire(message.sync, *out.mutable_sync());
     to_wire(message.health, *out.mutable_health());

@@ -289,7 +289,7 @@ void InstantThread::tend_background(InstantPreparer* preparer) {
                      last_.synthesiser);
             Background set = memory ? memory->learnt() : Background();
             if (set.rigs.empty()) fail("nothing is known of the set: no rig has shown any yet");
-            one.background_value(std::move(set));
+            one.set_value(std::move(set));
         } catch (const ContextLost&) {
             one.set_exception(std::make_exception_ptr(
                 Error("the GPU was reset while the set was read from it; save it again")));

@@ -198,7 +198,7 @@ void RigDaemon::Impl::start() {
         guarded(publish_heart, [&] { publish(); });
         finished = true;
     });
-    all_stand.background_value();
+    all_stand.set_value();
     sync_thread = std::thread([this, facts = facts_of(config, calibration)] {
         guarded(sync_heart, [&] { keep_in_step(facts); });
     });
@@ -218,7 +218,7 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
         return;
     }
     capture_heart.beat();
-    ready.background_value({source->size(), source->specimens()});
+    ready.set_value({source->size(), source->specimens()});
     // Frames from before the GPU's programs are built would only be thrown away.
     while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) capture_heart.beat();
     while (!stopping && !source->ended()) {
@@ -344,7 +344,7 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
         return;
     }
     gpu_heart.beat();
-    ready.background_value();
+    ready.set_value();
     while (!(captured.closed() && captured.size() == 0)) {
         gpu_heart.beat();
         std::optional<CapturedFrame> next = captured.pop_for(wait_slice);

@@ -17,7 +17,7 @@ namespace vantage {
 struct BarDriver::Impl {
     void run(std::promise<std::vector<std::string>> realtime, int priority) {
         name_this_thread("bar");
-        realtime.background_value(become_realtime(priority, "steps"));
+        realtime.set_value(become_realtime(priority, "steps"));
         try {
             count();
             lines->set(0, ~0u);

@@ -27,7 +27,7 @@ class GpioPulseLine final : public PulseLine {
 
     void set(bool pulse) override {
         try {
-            request_.background_value(line_.offset,
+            request_.set_value(line_.offset,
                                pulse ? gpiod::line::value::ACTIVE : gpiod::line::value::INACTIVE);
         } catch (const std::exception& error) {
             fail("{} cannot be set any more: {}", line_.text(), error.what());

@@ -51,7 +51,7 @@ struct PulseSender::Impl {
 
     void run(std::promise<std::vector<std::string>> realtime) {
         name_this_thread("pulses");
-        realtime.background_value(become_realtime(priority));
+        realtime.set_value(become_realtime(priority));
         try {
             send_all();
         } catch (...) {

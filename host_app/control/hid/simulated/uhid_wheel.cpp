@@ -87,9 +87,9 @@ void UhidWheel::answer(const std::stop_token& stop) const {
             write_event(fd_.get(), reply);
         } else if (asked.type == UHID_SET_REPORT) {
             reply.type = UHID_SET_REPORT_REPLY;
-            reply.u.set_report_reply.id = asked.u.background_report.id;
+            reply.u.set_report_reply.id = asked.u.set_report.id;
             if (kind_.set_feature)
-                kind_.set_feature({asked.u.background_report.data, asked.u.background_report.size});
+                kind_.set_feature({asked.u.set_report.data, asked.u.set_report.size});
             write_event(fd_.get(), reply);
         }
     }

@@ -51,7 +51,7 @@ DrawnPicture drawn_elsewhere(const EglContext& context) {
     std::thread([&] {
         try {
             const CurrentContext current(sharing);
-            promise.background_value(draw_places());
+            promise.set_value(draw_places());
         } catch (...) {
             promise.set_exception(std::current_exception());
         }

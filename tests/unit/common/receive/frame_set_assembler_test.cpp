@@ -89,7 +89,7 @@ TEST(FrameSetAssembler, RigsAtAnotherRateTakeNothingFromTheRigAtTheStages) {
         one_at_the_rate_of_three(stage, index);
         EXPECT_THAT(stage.closed_indices(), testing::Contains(index));
     }
-    EXPECT_EQ(stage.count(FrameFate::in_background), 11 + 2) << "the first ones came before any other";
+    EXPECT_EQ(stage.count(FrameFate::in_frame_set), 11 + 2) << "the first ones came before any other";
     EXPECT_EQ(stage.count(FrameFate::out_of_step), 2 * 10);
 }
 
@@ -99,7 +99,7 @@ TEST(FrameSetAssembler, RigsThatAreAllAtAnotherRateAreJoined) {
     for (std::uint64_t index = 1000; index < 1010; ++index) {
         stage.at(3 * index, 10ms);
         for (const std::size_t rig : {0, 1})
-            EXPECT_EQ(stage.frame(rig, index), FrameFate::in_background) << index;
+            EXPECT_EQ(stage.frame(rig, index), FrameFate::in_frame_set) << index;
         EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
     }
 }
@@ -137,7 +137,7 @@ TEST(FrameSetAssembler, ARigThatLagsIsWaitedForAgainOnceItComesWithinTheBudget) 
     stage.frame(0, index);
     EXPECT_THAT(stage.closed_indices(), IsEmpty());
     stage.pass(50ms);
-    EXPECT_EQ(stage.frame(1, index), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(1, index), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
 }
 
@@ -463,7 +463,7 @@ TEST_P(JumpTest, TheOnlyRigIsFollowedWhereverItGoes) {
     start(stage, 1, begin);
     stage.at(begin + 3, 10ms);
     const auto index = static_cast<std::uint64_t>(begin + GetParam());
-    EXPECT_EQ(stage.frame(0, index, 2), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, index, 2), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
 }
 
@@ -478,7 +478,7 @@ TEST(FrameSetAssembler, TheOnlyRigIsFollowedWhenARestartTakesItBackALittle) {
         stage.closed();
     }
     stage.at(31, 10ms);
-    EXPECT_EQ(stage.frame(0, 1, 2), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, 1, 2), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(1));
 }
 
@@ -486,7 +486,7 @@ TEST(FrameSetAssembler, UnsynchronizedFramesAreNeverJoinedWithOthers) {
     Stage stage(2);
     stage.at(1, 10ms);
     EXPECT_EQ(stage.frame(0, 1, 1, false), FrameFate::unsynchronized);
-    EXPECT_EQ(stage.frame(1, 1, 1, true), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(1, 1, 1, true), FrameFate::in_frame_set);
     const auto sets = stage.closed();
     ASSERT_EQ(sets.size(), 1u);
     EXPECT_EQ(sets[0].slots[0].absence, Absence::unsynchronized);
@@ -505,7 +505,7 @@ TEST(FrameSetAssembler, ARigWhoseWireIsPulledIsNamedUntilItsFramesNamePulsesAgai
     }
     EXPECT_EQ(index, 111u) << "a few may lack theirs";
     stage.at(index, 10ms);
-    EXPECT_EQ(stage.frame(0, index), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, index), FrameFate::in_frame_set);
     EXPECT_FALSE(stage.assembler().names_no_pulse(0));
 }
 
@@ -513,7 +513,7 @@ TEST(FrameSetAssembler, OnAStageOfOneRigUnsynchronizedFramesAreTakenAsTheyCome) 
     Stage stage(1);
     for (std::uint64_t k = 1; k < 4; ++k) {
         stage.at(k, 10ms);
-        EXPECT_EQ(stage.frame(0, k, 1, false), FrameFate::in_background);
+        EXPECT_EQ(stage.frame(0, k, 1, false), FrameFate::in_frame_set);
         EXPECT_THAT(stage.closed_indices(), ElementsAre(k));
     }
 }
@@ -540,8 +540,8 @@ TEST(FrameSetAssembler, EveryFrameHasExactlyOneFate) {
     stage.pass(budget);
     collect();
     EXPECT_EQ(stage.assembler().open_frame_sets(), 0u);
-    EXPECT_EQ(in_closed_frame_sets, stage.count(FrameFate::in_background));
-    EXPECT_EQ(given, stage.count(FrameFate::in_background) + stage.count(FrameFate::late) +
+    EXPECT_EQ(in_closed_frame_sets, stage.count(FrameFate::in_frame_set));
+    EXPECT_EQ(given, stage.count(FrameFate::in_frame_set) + stage.count(FrameFate::late) +
                          stage.count(FrameFate::duplicate) +
                          stage.count(FrameFate::unsynchronized) +
                          stage.count(FrameFate::out_of_step));

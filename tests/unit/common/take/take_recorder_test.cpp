@@ -123,7 +123,7 @@ TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
     wanted.queue_bytes = 40'000;
     // The disk is looked at for so long that the queue overflows after the first frames.
     wanted.disk_mb_s = [&looked_at, gate = release.get_future().share()](const auto&) {
-        looked_at.background_value();
+        looked_at.set_value();
         gate.wait();
         return 1000.0;
     };
@@ -132,7 +132,7 @@ TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
     offer_both(recorder, 1000, 1000);
     looked_at.get_future().wait();
     offer_both(recorder, 1001, 1060);
-    release.background_value();
+    release.set_value();
     recorder.finish();
     const TakeState state = recorder.state();
     const TakeReader reader(take_);
@@ -165,7 +165,7 @@ TEST_F(TakeRecorderTest, ARecorderThatWasHeldUpHandsOverAllThatWaitedAndSaysHowL
     offer_both(recorder, 1000, 1099);
     while (MonotonicClock::now() - begun < 50ms) std::this_thread::sleep_for(1ms);
     const double held_ms = ms_since(begun);
-    release.background_value();
+    release.set_value();
     while (recorder.state().frames < 200) std::this_thread::sleep_for(1ms);
     const TakeReader take(take_);
     ASSERT_EQ(take.frames(0).size(), 100u);
@@ -243,7 +243,7 @@ TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
         thrown_sentence([&] { recorder.begin(folder_.path() / "next.mkv"); });
     EXPECT_NE(sentence.find(take_.string() + " is still being written"), std::string::npos)
         << sentence;
-    release.background_value();
+    release.set_value();
     recorder.finish();
     EXPECT_EQ(frames_of(0), 2u);
     recorder.begin(folder_.path() / "next.mkv");
