@@ -19,7 +19,7 @@ class BoundedQueue {
   public:
     explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
 
-/// Adds an item; returns the item that was dropped to make room, if any.
+    /// Adds an item; returns the item that was dropped to make room, if any.
     std::optional<T> push(T item) {
         std::optional<T> dropped;
         {
@@ -36,7 +36,7 @@ class BoundedQueue {
         return dropped;
     }
 
-/// Waits for an item. Empty after the timeout, or once the queue is closed and drained.
+    /// Waits for an item. Empty after the timeout, or once the queue is closed and drained.
     std::optional<T> pop_for(std::chrono::nanoseconds timeout) {
         std::unique_lock lock(mutex_);
         ready_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
@@ -48,7 +48,7 @@ class BoundedQueue {
         return item;
     }
 
-/// Waits until a push would drop nothing. False after the timeout, or when the queue is closed.
+    /// Waits until a push would drop nothing. False after the timeout, or when the queue is closed.
     bool wait_for_room(std::chrono::nanoseconds timeout) {
         std::unique_lock lock(mutex_);
         return room_.wait_for(lock, timeout, [&] {

@@ -41,9 +41,9 @@ struct CalibrationRecord {
 /// The record of a calibration file. Throws like load_calibration().
 CalibrationRecord load_calibration_record(const std::filesystem::path& path);
 
-/// The id of a calibration: 16 hexadecimal digits of the checksum (FNV-1a, 64 bits) over the numbers
-/// of its geometry in the order of the file. Equal geometry has equal ids. (A file's own checksum
-/// also covers residuals and uncertainties.)
+/// The id of a calibration: 16 hexadecimal digits of the checksum (FNV-1a, 64 bits) over the
+/// numbers of its geometry in the order of the file. Equal geometry has equal ids. (A file's own
+/// checksum also covers residuals and uncertainties.)
 std::string calibration_checksum(const StereoCalibration& calibration);
 
 /// Writes the file atomically, with the id of its content. A valid earlier file is kept as

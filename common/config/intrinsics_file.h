@@ -22,8 +22,8 @@ struct IntrinsicsRecord {
 /// can read it. Throws Error naming file and value if anything is missing or invalid.
 CameraModel load_intrinsics(const std::filesystem::path& path);
 
-/// Writes the file atomically. A valid earlier file is kept as PATH.last. Throws Error if the camera
-/// is invalid, or the file cannot be written.
+/// Writes the file atomically. A valid earlier file is kept as PATH.last. Throws Error if the
+/// camera is invalid, or the file cannot be written.
 void save_intrinsics(const std::filesystem::path& path, const CameraModel& camera,
                      const IntrinsicsRecord& record);
 

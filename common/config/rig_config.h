@@ -74,7 +74,7 @@ struct RigConfig {
 
     struct Match {
         std::string
-        matcher;  ///< empty: the preset's default; "exact": the virtual stage's true depth
+            matcher;  ///< empty: the preset's default; "exact": the virtual stage's true depth
         std::string preset = "balanced";
         int disparities = 64;
         bool fill = true;
@@ -85,8 +85,7 @@ struct RigConfig {
         std::string bind = "tcp://127.0.0.1:5600";
         int jpeg_quality = 82;         ///< 1..100; 0: lossless colour
         std::string chroma = "4:2:0";  ///< of JPEG: 4:4:4 | 4:2:2 | 4:2:0
-        int queue_frames =
-            4;  ///< frames that may wait for one host before the oldest is dropped
+        int queue_frames = 4;  ///< frames that may wait for one host before the oldest is dropped
         std::filesystem::path key_file;  ///< this rig's CURVE key pair; needed beyond loopback
         std::filesystem::path
             authorized_hosts;  ///< public keys of the admitted hosts, one per line

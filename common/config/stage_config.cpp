@@ -89,7 +89,7 @@ StageConfig load_stage_config(const std::filesystem::path& path) {
         top.require("rigs");
         top.read_tables("rigs", [&](TomlTable& t) { read_rig(t, config.rigs); });
         if (top.has("rigs") && config.rigs.empty())
-        top.refuse("rigs", "is empty: a stage needs at least one rig");
+            top.refuse("rigs", "is empty: a stage needs at least one rig");
         top.read("key_file", config.key_file);
         top.read("rate_hz", config.rate_hz, {0.01, 1000});
         top.read("latency_budget_ms", config.latency_budget_ms, {1, 60000});

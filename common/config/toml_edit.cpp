@@ -102,7 +102,7 @@ std::string with_toml_value(std::string_view text, std::string_view table, std::
     }
     const std::optional<std::size_t> place = place_in(text, *in, table.empty());
     if (!place)
-            fail("{}: the table '{}' has no header [{}] below which '{}' could be put; write one",
+        fail("{}: the table '{}' has no header [{}] below which '{}' could be put; write one",
              name.string(), table, table, key);
     return inserted(text, *place, line_of(key, value));
 }

@@ -50,7 +50,8 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 void TomlTable::rename(std::string_view old_name, std::string_view name) {
     if (!table_->contains(old_name)) return;
-    if (table_->contains(name)) refuse(old_name, fmt::format("is the old name of '{}': keep one", name));
+    if (table_->contains(name))
+        refuse(old_name, fmt::format("is the old name of '{}': keep one", name));
     log_warning("{}: '{}'{} is now called '{}'; the old name will be removed", place(old_name),
                 old_name, in_table(name_), name);
     known_.emplace_back(old_name);
@@ -283,7 +284,7 @@ void read_toml_text(std::string_view text, const std::filesystem::path& path, in
              version);
     if (given != version)
         table.refuse("version",
-                   fmt::format("is {}, but this program reads version {}", given, version));
+                     fmt::format("is {}, but this program reads version {}", given, version));
     read_members(table);
     table.finish();
 }

@@ -51,8 +51,8 @@ class TomlTable {
     void read_choice(std::string_view key, std::string& value,
                      std::initializer_list<std::string> choices);
 
-    /// Reads `old_name` as `name` from now on, with a warning if the file has it. For keys that were
-    /// renamed. Throws Error if the file has both. Call it before read().
+    /// Reads `old_name` as `name` from now on, with a warning if the file has it. For keys that
+    /// were renamed. Throws Error if the file has both. Call it before read().
     void rename(std::string_view old_name, std::string_view name);
     /// Requires a key. Call it after read().
     void require(std::string_view key);
@@ -97,8 +97,8 @@ class TomlTable {
     std::vector<std::string> missing_;
 };
 
-/// Reads a TOML file with `version = VERSION` at its top. Throws Error if it is missing, larger than
-/// 1 MiB, not TOML, of another version, or has a key that read_members does not read.
+/// Reads a TOML file with `version = VERSION` at its top. Throws Error if it is missing, larger
+/// than 1 MiB, not TOML, of another version, or has a key that read_members does not read.
 void read_toml_file(const std::filesystem::path& path, int version,
                     const std::function<void(TomlTable&)>& read_members);
 

@@ -70,8 +70,8 @@ auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read rea
     }
 }
 
-/// Writes atomically. An earlier file is kept as PATH.last unless `load` throws Error for it. Throws
-/// Error if the file cannot be written.
+/// Writes atomically. An earlier file is kept as PATH.last unless `load` throws Error for it.
+/// Throws Error if the file cannot be written.
 void write_yaml_keeping_last(const std::filesystem::path& path, const std::string& yaml,
                              const std::function<void(const std::filesystem::path&)>& load);
 

@@ -11,6 +11,7 @@ namespace vantage {
 enum class LensModel {
     pinhole,  ///< polynomial/rational/thin-prism/tilted: 0, 4, 5, 8, 12 or 14 coefficients
     fisheye,  ///< Kannala-Brandt: 4 coefficients
+};
 
 /// One camera's intrinsics in OpenCV's conventions: x right, y down, z forward; pixel centres at
 /// integer coordinates; origin at the top left. `distortion` holds the coefficients in OpenCV's

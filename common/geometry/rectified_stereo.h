@@ -16,7 +16,8 @@ struct RectifiedStereo {
     double doffs_px() const { return cx_right_px - cx_left_px; }
     Eigen::Matrix3d K_left() const;
 
-    /// Depth from disparity: z = f * baseline / (d + doffs) in metres; 0 (unknown) if d + doffs <= 0.
+    /// Depth from disparity: z = f * baseline / (d + doffs) in metres; 0 (unknown) if d + doffs <=
+    /// 0.
     double depth_m(double disparity_px) const;
     /// Disparity from depth: d = f * baseline / z - doffs; precondition: z > 0.
     double disparity_px(double depth_m) const;

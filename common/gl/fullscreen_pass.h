@@ -20,8 +20,9 @@ class FullscreenPass {
     /// Draws with a shader that writes gl_FragDepth into the target's depth texture.
     void draw_depth(const Framebuffer& target);
     /// Draws only the pixels whose value in the target's depth texture compares with `depth`
-    /// (GL_LESS, GL_GREATER, ...). With `writes`, stores `depth` for each pixel that the shader does
-    /// not discard. Saves an expensive shader on pixels that do not need it.
+    /// (GL_LESS, GL_GREATER, ...). With `writes`, stores `depth` for each pixel that the shader
+    /// does not discard. Saves an expensive shader on pixels that do not need it.
+    void draw_where(const Framebuffer& target, GLenum comparison, float depth, bool writes);
 
   private:
     void draw_triangle(const Framebuffer& target);

@@ -89,7 +89,7 @@ void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>
         const double share =
             std::chrono::duration<double>(time) / std::chrono::duration<double>(slice_);
         y += height;
-    // Halfway to the height that would have filled the slice, since one band's time is noisy.
+        // Halfway to the height that would have filled the slice, since one band's time is noisy.
         const double fitting = height / std::max(share, 0.05);
         rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
                           std::max(target.height, fewest_rows));

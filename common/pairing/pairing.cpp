@@ -34,8 +34,8 @@ void Pairing::take_proof(const PairConfirm& confirm) {
     if (!same_bytes(confirm.proof,
                     pair_proof(other_end, digest_, own_secret_key_, other_public_key_)))
         fail(
-             "the other end confirmed something else than what this end sent: somebody may stand "
-             "between the two computers; nothing is trusted");
+            "the other end confirmed something else than what this end sent: somebody may stand "
+            "between the two computers; nothing is trusted");
     is_proven_ = true;
 }
 

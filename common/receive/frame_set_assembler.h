@@ -17,9 +17,9 @@ namespace vantage {
 
 /// The fate of a frame that was given to the assembler.
 enum class FrameFate {
-        in_frame_set,  ///< joined the open frame set of its pulse
-        late,          ///< its frame set was closed
-        duplicate,     ///< the frame set already has a frame of the rig
+    in_frame_set,  ///< joined the open frame set of its pulse
+    late,          ///< its frame set was closed
+    duplicate,     ///< the frame set already has a frame of the rig
     unsynchronized,
     out_of_step,
 };
@@ -92,7 +92,8 @@ class FrameSetAssembler {
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;
     bool in_play(std::size_t rig, std::uint64_t index, MonotonicTime now) const;
-    bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set, MonotonicTime now) const;
+    bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set,
+                                MonotonicTime now) const;
     Absence absence(std::size_t rig, std::uint64_t index) const;
     void close_through(std::uint64_t index, MonotonicTime now);
 

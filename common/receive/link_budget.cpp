@@ -70,8 +70,8 @@ LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
                       const LinkLimits& limits) {
     LinkBudget budget = budget_at(weights, rate_hz, limits, at_quality(std::nullopt));
     if (budget.fits() || weights.empty()) return budget;
-        // Each divisor once, with the best quality that fits: a lower quality at a lower rate is
-        // worse in both respects.
+    // Each divisor once, with the best quality that fits: a lower quality at a lower rate is
+    // worse in both respects.
     std::vector<std::optional<int>> qualities{std::nullopt};
     for (const RigWeight::AtQuality& step : weights.front().ladder)
         qualities.emplace_back(step.quality);

@@ -51,12 +51,12 @@ std::string why_unreachable(const Endpoint& endpoint, std::chrono::milliseconds 
         if (error = try_address(*address, limit); error == 0) return {};
     if (error == ECONNREFUSED)
         return fmt::format(
-                "connection refused at {}: the computer is up, but vantage-rig does not run "
-                "there, or uses another port",
+            "connection refused at {}: the computer is up, but vantage-rig does not run "
+            "there, or uses another port",
             endpoint.text());
     if (error == ETIMEDOUT)
         return fmt::format(
-                "nothing answers at {}: check that its computer is on, the cable and the firewall "
+            "nothing answers at {}: check that its computer is on, the cable and the firewall "
             "open?",
             endpoint.text());
     return fmt::format("{} cannot be reached: {}", endpoint.text(), std::strerror(error));

@@ -121,7 +121,8 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     RigMessage message = decode_rig_message(bytes_of(parts.front()));
     if (message.refusal.empty() && message.rig != rig_.name)
         message.refusal = fmt::format(
-            "the rig at {} calls itself {}, but the stage calls it {}; make name and endpoint agree",
+            "the rig at {} calls itself {}, but the stage calls it {}; make name and endpoint "
+            "agree",
             rig_.endpoint, message.rig, rig_.name);
     if (!message.refusal.empty()) {
         view_.refused = message.refusal;
@@ -135,7 +136,6 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
                       parts[1].size() > max_report_bytes))
         fail("rig {} sent a report of {} bytes that this host did not request", rig_.name,
              parts[1].size());
-             rig_.name);
     const bool with_frame = parts.size() == 1 + frame_parts;
     account_.hear(message, with_frame);
     view_.heard = now;
@@ -186,7 +186,7 @@ void RigLink::watch(MonotonicTime now) {
             case ZMQ_EVENT_DISCONNECTED:
                 gone_ = true;
                 if (std::exchange(view_.refusal_passes, false)) view_.refused.clear();
-            view_.last_error = fmt::format("the connection to {} broke", rig_.endpoint);
+                view_.last_error = fmt::format("the connection to {} broke", rig_.endpoint);
                 break;
             case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
                 next_heartbeat_ = now;
@@ -202,10 +202,10 @@ void RigLink::watch(MonotonicTime now) {
             case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
             case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
                 refuse(rig_.public_key.empty()
-                       ? fmt::format("rig {} at {} accepts only hosts with keys, or is not a "
+                           ? fmt::format("rig {} at {} talks only to hosts with keys, or is no "
                                          "rig; set its public_key and the stage's key_file",
                                          rig_.name, rig_.endpoint)
-                       : fmt::format("rig {} at {} does not have the key that the stage states "
+                           : fmt::format("rig {} at {} does not have the key that the stage states "
                                          "as its public_key; compare with: vantage-rig keys show "
                                          "FILE",
                                          rig_.name, rig_.endpoint),

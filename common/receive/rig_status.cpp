@@ -14,8 +14,7 @@ namespace {
 std::string trouble_of_link(const RigStatus& rig) {
     if (!rig.refused.empty()) return rig.refused;
     if (rig.connected) return {};
-    return rig.unreachable.empty() ? fmt::format("{} is silent", rig.endpoint)
-                                   : rig.unreachable;
+    return rig.unreachable.empty() ? fmt::format("{} is silent", rig.endpoint) : rig.unreachable;
 }
 
 std::string trouble_of_pulses(const RigStatus& rig) {
@@ -46,25 +45,25 @@ std::string clock_text(const RigStatus& rig) {
                            clocks_not_disciplined);
     else
         text = fmt::format("{} (ptp4l is {})", clocks_not_disciplined, sync.ptp_state);
-    if (const std::string worry = tai_worry(rig); !worry.empty()) text += "; " + worry;
+    if (const std::string worry = tai_warning(rig); !worry.empty()) text += "; " + worry;
     if (const std::string step = clock_step_text(sync); !step.empty()) text += "; " + step;
     return text;
 }
 
 std::string clock_step_text(const RigSync& sync) {
     if (sync.clock_steps == 0) return {};
-    return fmt::format("its clock was set {}, last by {:+.1f} ms",
-                       counted_times(sync.clock_steps), sync.clock_step_ms);
+    return fmt::format("its clock was set {}, last by {:+.1f} ms", counted_times(sync.clock_steps),
+                       sync.clock_step_ms);
 }
 
-std::string tai_worry(const RigStatus& rig) {
+std::string tai_warning(const RigStatus& rig) {
     if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
     return fmt::format(
         "its TAI offset from UTC is {} s and this computer's is {} s: set the same on both",
         rig.sync.tai_offset_s, rig.own_tai_offset_s);
 }
 
-std::string rate_worry(const RigStatus& rig) {
+std::string rate_warning(const RigStatus& rig) {
     if (rig.sync.rate_hz == 0 || rig.stage_rate_hz == 0) return {};
     // PulseGrid makes 29.97 and 30000/1001 equal.
     const double of_rig = PulseGrid(rig.sync.rate_hz).rate_hz();
@@ -76,14 +75,14 @@ std::string rate_worry(const RigStatus& rig) {
 }
 
 std::string trouble_of(const RigStatus& rig) {
-    for (std::string trouble : {trouble_of_link(rig), rate_worry(rig)})
+    for (std::string trouble : {trouble_of_link(rig), rate_warning(rig)})
         if (!trouble.empty()) return trouble;
     return trouble_of_pulses(rig);
 }
 
 bool gives_pictures(const RigStatus& rig, const std::vector<RigStatus>& rigs) {
     if (!trouble_of_link(rig).empty() || !trouble_of_pulses(rig).empty()) return false;
-    return rate_worry(rig).empty() ||
+    return rate_warning(rig).empty() ||
            std::none_of(rigs.begin(), rigs.end(), [](const RigStatus& other) {
                return trouble_of(other).empty() && other.health.published_hz > 0;
            });

@@ -33,12 +33,12 @@ struct RigStatus {
     std::uint64_t received = 0;  ///< frames decoded
     std::uint64_t undecodable =
         0;  ///< messages that the decoder refused; the last reason is in last_error
-    std::uint64_t lost = 0;  ///< sent by the rig, not received: the connection broke
-    std::uint64_t in_frame_sets = 0;          ///< frames in closed frame sets
+    std::uint64_t lost = 0;           ///< sent by the rig, not received: the connection broke
+    std::uint64_t in_frame_sets = 0;  ///< frames in closed frame sets
     std::uint64_t in_dropped_frame_sets = 0;  ///< of those: in frame sets dropped by next()
-    std::uint64_t late = 0;            ///< frames that came after their frame set was closed
-    std::uint64_t duplicate = 0;       ///< further frames of the same pulse
-    std::uint64_t unsynchronized = 0;  ///< frames without a pulse of the stage
+    std::uint64_t late = 0;                   ///< frames that came after their frame set was closed
+    std::uint64_t duplicate = 0;              ///< further frames of the same pulse
+    std::uint64_t unsynchronized = 0;         ///< frames without a pulse of the stage
     /// Frames that came while the rig counted pulses differently from the rest.
     std::uint64_t out_of_step = 0;
     bool is_out_of_step = false;      ///< whether it does so now
@@ -79,13 +79,13 @@ std::string clock_text(const RigStatus& rig);
 /// below the latency budget shows nowhere else: frames still join frame sets, of the wrong pulses.
 std::string clock_step_text(const RigSync& sync);
 
-/// A warning if rig and host have different offsets of CLOCK_TAI from UTC; empty if they agree. They
-/// then number the same pulse differently, however well PTP synchronises their clocks.
-std::string tai_worry(const RigStatus& rig);
+/// A warning if rig and host have different offsets of CLOCK_TAI from UTC; empty if they agree.
+/// They then number the same pulse differently, however well PTP synchronises their clocks.
+std::string tai_warning(const RigStatus& rig);
 
 /// A warning if the rig's configured rate differs from the stage's; empty if they agree. Its frames
 /// then never join another rig's.
-std::string rate_worry(const RigStatus& rig);
+std::string rate_warning(const RigStatus& rig);
 
 /// Why the rig contributes no frames, as far as the host knows: refused, unreachable, silent, or
 /// out of step. Empty for a rig that contributes.

@@ -20,7 +20,7 @@
 #include "common/base/time/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
-#include "common/receive/outage_book.h"
+#include "common/receive/outage_counter.h"
 #include "common/receive/reachability.h"
 #include "common/receive/rig_link.h"
 #include "common/receive/take_starter.h"
@@ -93,7 +93,7 @@ struct StageReceiver::Impl {
         RigLink link;
         BoundedQueue<RigLink::Delivery> inbox;
         std::atomic<std::uint64_t> unhandled = 0;
-        std::atomic<bool> is_looked_at = true;
+        std::atomic<bool> is_decoded = true;
         std::thread decoder;
 
         // Used by the decoder's thread only: the newest right image, and the session it is from.
@@ -106,7 +106,7 @@ struct StageReceiver::Impl {
         std::uint64_t undecodable_frames = 0;
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
-        OutageBook outages;
+        OutageCounter outages;
         LogLimiter complaints{complaint_period};
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
@@ -170,7 +170,7 @@ struct StageReceiver::Impl {
         for (std::size_t number = 0; number < rigs.size(); ++number) {
             const auto& rig = rigs[number];
             rig->link.watch(now);
-        // One frame at a time, so that a rig that floods this host does not delay the others.
+            // One frame at a time, so that a rig that floods this host does not delay the others.
             if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now)) {
                 if (tap)
                     tap({number, delivery->frame, delivery->message.counters, delivery->arrival,
@@ -190,9 +190,9 @@ struct StageReceiver::Impl {
         for (std::size_t i = 0; i < rigs.size(); ++i) {
             Rig& rig = *rigs[i];
             show(rig, rig.link.view(now), now);
-        // Frames that arrived before the rig disconnected still join their frame sets.
+            // Frames that arrived before the rig disconnected still join their frame sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
-            assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
+            assembler.set_at_stage_rate(i, rate_warning(rig.status).empty());
             assembler.set_asked(i, rig.request.streaming ? rig.request.rate_divisor : 0);
             note_step(rig, i);
         }
@@ -244,9 +244,10 @@ struct StageReceiver::Impl {
     void probe(Rig& rig) {
         std::string reason = why_unreachable(rig.endpoint, probe_limit);
         if (reason.empty())
-            reason = fmt::format("something at {} accepts connections but does not speak Vantage's "
-                                 "protocol",
-                                 rig.endpoint.text());
+            reason = fmt::format(
+                "something at {} accepts connections but does not speak Vantage's "
+                "protocol",
+                rig.endpoint.text());
         const std::lock_guard lock(mutex);
         if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
@@ -296,8 +297,8 @@ struct StageReceiver::Impl {
         const MonotonicTime start = MonotonicClock::now();
         const PackedFrame& packed = *delivery.frame;
         auto frame = std::make_shared<RigFrame>(
-            rig.is_looked_at ? decoder.decode(packed.header, packed.colour, packed.disparity)
-                             : decode_frame_head(packed.header).frame);
+            rig.is_decoded ? decoder.decode(packed.header, packed.colour, packed.disparity)
+                           : decode_frame_head(packed.header).frame);
         frame->packed = delivery.frame;
         if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
             fail("a frame of rig {} came over the link of rig {}", frame->rig,
@@ -369,10 +370,11 @@ struct StageReceiver::Impl {
         status.outages = rig.outages.outages();
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
         status.restarts = view.restarts;
-        const std::string rate_before = rate_worry(status);
+        const std::string rate_before = rate_warning(status);
         if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
             log_warning(
-                "rig {}: {}; its frames are, or were, off the other rigs' by as much: check that its "
+                "rig {}: {}; its frames are, or were, off the other rigs' by as much: check that "
+                "its "
                 "clock follows the stage's, and verify the timing by light (vantage-calib sync)",
                 rig.name, clock_step_text(view.sync));
         status.connected = view.connected;
@@ -385,7 +387,7 @@ struct StageReceiver::Impl {
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
-        if (const std::string rate = rate_worry(status);
+        if (const std::string rate = rate_warning(status);
             warns && rate != rate_before && !rate.empty())
             log_warning("rig {}: {}", rig.name, rate);
         rig.report = std::move(view.report);
@@ -396,8 +398,8 @@ struct StageReceiver::Impl {
     static void complain(Rig& rig, std::uint64_t undecodable, MonotonicTime now) {
         const std::uint64_t more = undecodable - std::exchange(rig.status.undecodable, undecodable);
         if (const auto times = rig.complaints.count(more, now))
-        log_warning("invalid messages of rig {} at {}: {}; the last fault: {}",
-                        rig.name, rig.status.endpoint, *times, rig.status.last_error);
+            log_warning("invalid messages of rig {} at {}: {}; the last fault: {}", rig.name,
+                        rig.status.endpoint, *times, rig.status.last_error);
     }
 
     const Purpose purpose;
@@ -430,7 +432,7 @@ std::optional<FrameSet> StageReceiver::next(std::chrono::nanoseconds timeout) {
     std::optional<FrameSet> set = impl_->closed_frame_sets.pop_for(timeout);
     if (!set) {
         const std::lock_guard lock(impl_->mutex);
-    if (!impl_->failure.empty()) fail("receiving ended: {}", impl_->failure);
+        if (!impl_->failure.empty()) fail("receiving ended: {}", impl_->failure);
     }
     return set;
 }
@@ -463,8 +465,8 @@ void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t
     impl_->wake.notify();
 }
 
-void StageReceiver::look_at(std::string_view rig_name, bool is_looked_at) {
-    impl_->named(rig_name).is_looked_at = is_looked_at;
+void StageReceiver::set_decoded(std::string_view rig_name, bool is_decoded) {
+    impl_->named(rig_name).is_decoded = is_decoded;
 }
 
 void StageReceiver::ask_for_reports() {

@@ -15,15 +15,15 @@
 namespace vantage {
 
 /// Connects to all rigs of a stage, decodes their frames on threads of its own, and joins them into
-/// frame sets by trigger index. Rigs may come, go and return at any time. If the host is slower than
-/// its rigs, the rigs drop frames, oldest first, before they cross the network. Thread-safe.
+/// frame sets by trigger index. Rigs may come, go and return at any time. If the host is slower
+/// than its rigs, the rigs drop frames, oldest first, before they cross the network. Thread-safe.
 class StageReceiver {
   public:
     enum class Purpose {
         film,       ///< asks every rig for its frames and starts the stage's trigger pulses
         calibrate,  ///< like film, but for raw pairs instead of views
-        look_on,    ///< asks for no frames until ask(), and starts no pulses
-        report      ///< like look_on, and logs no warnings, for callers that report faults
+        observe,    ///< asks for no frames until ask(), and starts no pulses
+        report      ///< like observe, and logs no warnings, for callers that report faults
     };
 
     /// Throws Error if a key or an endpoint is invalid. `tap` is called on the I/O thread.
@@ -40,9 +40,9 @@ class StageReceiver {
     /// Error for an unknown rig or a divisor outside 1..max_rate_divisor.
     void ask(std::string_view rig, bool streaming, std::uint32_t rate_divisor);
 
-    /// Sets whether a rig's images are decoded, which is the default. If not, frame sets contain its
-    /// frames in packed form (RigFrame::has_pictures()), for recording. Throws Error for an unknown
-    /// rig.
+    /// Sets whether a rig's images are decoded, which is the default. If not, frame sets contain
+    /// its frames in packed form (RigFrame::has_pictures()), for recording. Throws Error for an
+    /// unknown rig.
     void set_decoded(std::string_view rig, bool is_decoded);
 
     /// Asks every rig for a report for bug reports (JSON).

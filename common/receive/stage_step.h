@@ -11,11 +11,11 @@
 namespace vantage {
 
 /// Determines which rigs count pulses in step. Every frame measures its rig's lead: index times
-/// period minus the time of its arrival. The leads of one stage are equal up to the rigs' latencies;
-/// a rig with another epoch or a free-running clock differs. The stage's step is the lead on which
-/// most active rigs agree within the tolerance (ties: the current one), so that the jump of one rig
-/// does not affect the others, and a jump of all is followed. Rigs at another rate than the
-/// stage's count only if no rig is at the stage's rate. Clock readings are arguments; not
+/// period minus the time of its arrival. The leads of one stage are equal up to the rigs'
+/// latencies; a rig with another epoch or a free-running clock differs. The stage's step is the
+/// lead on which most active rigs agree within the tolerance (ties: the current one), so that the
+/// jump of one rig does not affect the others, and a jump of all is followed. Rigs at another rate
+/// than the stage's count only if no rig is at the stage's rate. Clock readings are arguments; not
 /// thread-safe.
 class StageStep {
   public:

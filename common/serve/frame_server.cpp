@@ -156,7 +156,7 @@ bool FrameServer::receive() {
     const std::string route = parts.front().to_string();
     const MonotonicTime now = MonotonicClock::now();
     try {
-    if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
+        if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
         const HostMessage message = decode_host_message(bytes_of(parts[1]));
         const std::lock_guard lock(mutex_);
         links_.hear(route, host_key_of(parts[1]), message, now);

@@ -86,8 +86,7 @@ bool HostAdmission::admits(const std::string& key, const std::string& address) {
                     key, path_.string());
         told_[key] = now;
     } else if (const auto times = others_.count(1, now)) {
-        log_warning("refused hosts with further keys: {}; the last is at {}", *times,
-                    address);
+        log_warning("refused hosts with further keys: {}; the last is at {}", *times, address);
     }
     return false;
 }

@@ -258,7 +258,7 @@ void HostLinks::undelivered(const Outgoing& outgoing) {
             ++dropped_here_;
         }
         if (link.attached && link.route == outgoing.route) {
-        log_info("{} disconnected", display_name(link.host_key));
+            log_info("{} disconnected", display_name(link.host_key));
             let_go(link);
         }
     }

@@ -60,8 +60,8 @@ class HostLinks {
 
     /// Queues a frame that came from the rig over the relay's own link.
     void pass_on(const std::shared_ptr<const PackedFrame>& frame);
-    /// Takes in the rig's message to the relay. Waiting frames of an earlier session are dropped and
-    /// counted.
+    /// Takes in the rig's message to the relay. Waiting frames of an earlier session are dropped
+    /// and counted.
     void relay(std::uint64_t session, const RigCounters& counters, RigSync sync, RigHealth health);
     /// Counts frames that the rig published but the relay did not get: dropped on the way, or
     /// skipped at the relay's request. They are added to the account of every attached host.
@@ -81,7 +81,8 @@ class HostLinks {
     /// Whether an attached host asks for the raw pair of this pulse.
     bool wants_raw_pair(std::uint64_t trigger_index) const;
 
-    /// From now on refuses hosts that ask for views, with this reason, and publishes raw pairs only.
+    /// From now on refuses hosts that ask for views, with this reason, and publishes raw pairs
+    /// only.
     void serve_raw_pairs_only(std::string reason) { no_views_ = std::move(reason); }
     bool serves_raw_pairs_only() const { return !no_views_.empty(); }
 

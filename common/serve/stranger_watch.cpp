@@ -85,8 +85,8 @@ void StrangerWatch::look(MonotonicTime now) {
         Complaint& complaint = complaints_[kind];
         if (const auto times = complaint.limiter.count(std::exchange(complaint.fresh, 0), now))
             log_warning(
-            "rig {}: refused connections that are not from a host: {}; the last, from {}, "
-            "{}",
+                "rig {}: refused connections that are not from a host: {}; the last, from {}, "
+                "{}",
                 rig_, *times, complaint.address.empty() ? "an unknown address" : complaint.address,
                 reason(static_cast<Kind>(kind)));
     }

@@ -12,7 +12,8 @@ namespace vantage {
 /// for larger k. Step 0 begins at 1970-01-01T00:00:00 TAI and at every whole period after it.
 class SyncBar {
   public:
-    /// Throws Error unless `leds` is within least_leds to most_leds and the step within 10 us to 1 s.
+    /// Throws Error unless `leds` is within least_leds to most_leds and the step within 10 us to 1
+    /// s.
     SyncBar(int leds, std::chrono::nanoseconds step);
 
     static constexpr int least_leds = 5, most_leds = 20;

@@ -31,9 +31,9 @@ nlohmann::json to_json(const TakePictures& pictures) {
 
 TakePictures pictures_from(const nlohmann::json& json) {
     const auto number = [&](const nlohmann::json& value, int most) {
-    if (!value.is_number_integer()) fail("its tracks have an invalid number");
+        if (!value.is_number_integer()) fail("its tracks have an invalid number");
         const auto found = value.get<std::int64_t>();
-    if (found < 0 || found > most) fail("its tracks have {} where 0..{} is valid", found, most);
+        if (found < 0 || found > most) fail("its tracks have {} where 0..{} is valid", found, most);
         return static_cast<int>(found);
     };
     TakePictures pictures;

@@ -38,8 +38,8 @@ std::vector<TakeRig> rigs_of(const std::vector<const TakeReader*>& takes) {
                 rigs.push_back(rig);
             else if (*known != rig && !take->frames(i).empty())
                 fail(
-                        "rig {} of {} has images of another size or codec than in the take before "
-                        "it: such takes cannot be joined",
+                    "rig {} of {} has images of another size or codec than in the take before "
+                    "it: such takes cannot be joined",
                     rig.name, take->path().string());
         }
     }

@@ -17,8 +17,8 @@ struct TakeCopy {
 
 /// Copies the frames of the takes with pulses from `from` to before `to` to a new take, without
 /// re-encoding. A rig may be in several takes: of each pulse the first undamaged frame is copied,
-/// and sound likewise per sample. The file appears when it is complete. Throws Error if the takes do
-/// not fit together, there is nothing to write, or the file exists.
+/// and sound likewise per sample. The file appears when it is complete. Throws Error if the takes
+/// do not fit together, there is nothing to write, or the file exists.
 TakeCopy copy_takes(const std::vector<const TakeReader*>& takes, std::uint64_t from,
                     std::uint64_t to, const std::filesystem::path& path,
                     const std::function<void(double)>& progress = {});

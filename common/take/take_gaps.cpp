@@ -70,7 +70,7 @@ std::vector<TakeGap> gaps_between(const std::string& rig,
         if (after.pulse > before.pulse + 1) {
             gaps.push_back({{rig, before.pulse + 1, after.pulse - 1, ""}, i, 0});
             if (is_anew) {
-            gaps.back().gap.why = "the rig was restarted";
+                gaps.back().gap.why = "the rig was restarted";
                 first_open = gaps.size();
             } else {
                 gaps.back().unexplained = gaps.back().gap.pulses();

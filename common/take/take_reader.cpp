@@ -200,7 +200,7 @@ void TakeReader::read_clusters(std::uint64_t at) {
             at = element->end;
             continue;
         }
-    // An end without a cluster's identifier is a truncation between two clusters.
+        // An end without a cluster's identifier is a truncation between two clusters.
         if (element && !element->is_open) {
             is_ended_ = is_ended_ || element->id == id::cues;
             at = element->end;
@@ -208,8 +208,9 @@ void TakeReader::read_clusters(std::uint64_t at) {
         }
         const auto next = file_.find(static_cast<std::uint32_t>(id::cluster), at + 1);
         const std::uint64_t until = std::min(next.value_or(segment_end_), segment_end_);
-    add_damage(at, next ? fmt::format("{} bytes are not part of a take", until - at)
-                        : fmt::format("the last {} bytes are truncated or damaged", until - at));
+        add_damage(at, next
+                           ? fmt::format("{} bytes are not part of a take", until - at)
+                           : fmt::format("the last {} bytes are truncated or damaged", until - at));
         at = until;
     }
 }
@@ -255,9 +256,8 @@ void TakeReader::take_block(std::uint64_t at, std::uint64_t end, std::int64_t cl
     }
     const auto found = tracks_.find(number->value);
     if (found == tracks_.end()) {
-        add_damage(at,
-                   fmt::format("a block belongs to track {}, which the take does not have",
-                               number->value));
+        add_damage(at, fmt::format("a block belongs to track {}, which the take does not have",
+                                   number->value));
         return;
     }
     const auto byte = [&](std::size_t i) {
@@ -358,7 +358,8 @@ void TakeReader::take_sound(std::uint64_t at, std::int64_t time_ms, const Block&
 
 void TakeReader::sort_sounds() {
     std::erase_if(sounds_, [&](const Sound& sound) {
-        if (sound.samples.size == 0) add_damage(sound.record.at, "the sound of a record is missing");
+        if (sound.samples.size == 0)
+            add_damage(sound.record.at, "the sound of a record is missing");
         return sound.samples.size == 0;
     });
     std::stable_sort(sounds_.begin(), sounds_.end(),

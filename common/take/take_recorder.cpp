@@ -155,7 +155,7 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
     {
         const std::lock_guard lock(mutex_);
         if (is_ending_)
-        fail("cannot begin {} yet: {} is still being written", path.string(), state_.path);
+            fail("cannot begin {} yet: {} is still being written", path.string(), state_.path);
         if (is_taking_) return;
         is_taking_ = true;
         is_ending_ = false;
@@ -244,7 +244,7 @@ void TakeRecorder::run() {
         const std::string failure = std::move(take->failure);
         take.reset();
         {
-    // In one step, since a caller that sees the phase may begin the next take.
+            // In one step, since a caller that sees the phase may begin the next take.
             const std::lock_guard lock(mutex_);
             state_.phase = failure.empty() ? TakePhase::none : TakePhase::failed;
             state_.failure = failure;
@@ -267,7 +267,7 @@ void TakeRecorder::work(Take& take, std::vector<Item> items) {
                take.held_sound.back().end() - take.held_sound.front().first > sound_before)
             take.held_sound.pop_front();
         if (!item.frame) {
-        // Before the first frame the take has no origin.
+            // Before the first frame the take has no origin.
             if (!item.sound && take.first_arrival) take.held.push_back(std::move(item));
             continue;
         }
@@ -415,10 +415,10 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
         stored.record.dropped = rig.dropped + rig.refused;
     }
     if (!take.writer->add(frame.rig, std::move(stored))) {
-            refuse(take, frame, "its pulse is not later than that of the frame before it");
+        refuse(take, frame, "its pulse is not later than that of the frame before it");
         return;
     }
-        // The pre-roll was in memory on purpose until the take was requested.
+    // The pre-roll was in memory on purpose until the take was requested.
     const std::chrono::nanoseconds unwritten =
         MonotonicClock::now() - std::max(frame.arrival, take.asked);
     take.longest_unwritten = std::max(take.longest_unwritten, unwritten);

@@ -52,8 +52,8 @@ struct TakeState {
 };
 
 /// Records the rigs' frames on a thread of its own, independently of the programme. If data comes
-/// faster than it can be written, the oldest frames are dropped and counted, and the take has a gap.
-/// Thread-safe.
+/// faster than it can be written, the oldest frames are dropped and counted, and the take has a
+/// gap. Thread-safe.
 class TakeRecorder {
   public:
     struct Settings {

@@ -41,7 +41,7 @@ TakeWriter::TakeWriter(std::filesystem::path path, TakeFacts facts)
     try {
         open();
     } catch (...) {
-    // The bytes belong to TakeFile.
+        // The bytes belong to TakeFile.
         if (output_) output_->pb = nullptr;
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);
@@ -277,11 +277,9 @@ void require_new_take(const std::filesystem::path& path, const char* done) {
     require_writable_output(path, {});
     if (path.extension() != ".mkv")
         fail("{} cannot be {}: a take is a Matroska file, so its name has to end in .mkv",
-             path.string(),
-             done);
+             path.string(), done);
     if (std::filesystem::exists(path))
-        fail("{} exists, and a take never replaces a file: choose another name",
-             path.string());
+        fail("{} exists, and a take never replaces a file: choose another name", path.string());
 }
 
 }  // namespace vantage

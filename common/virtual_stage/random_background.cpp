@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/virtual_stage/stage_mesh.h"
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
-#include "common/virtual_stage/stage_mesh.h"
 
 namespace vantage {
 namespace {

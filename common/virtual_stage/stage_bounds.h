@@ -15,8 +15,8 @@ class ScreenBounds {
   public:
     explicit ScreenBounds(const StageCamera& camera);
 
-    /// The rectangle of all pixels that show anything of the points' convex hull; the whole image if
-    /// a point is nearer than 10 cm or behind the camera.
+    /// The rectangle of all pixels that show anything of the points' convex hull; the whole image
+    /// if a point is nearer than 10 cm or behind the camera.
     cv::Rect of(std::span<const Eigen::Vector3f> points_m) const;
 
   private:

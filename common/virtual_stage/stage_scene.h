@@ -21,7 +21,8 @@ struct StageLighting {
 /// Everything on a virtual stage.
 struct StageScene {
     StageMeshBuilder mesh;
-    std::vector<PerformerStyle> performers;  ///< performer i has bones from 1 + i * bones_of_performer
+    std::vector<PerformerStyle>
+        performers;  ///< performer i has bones from 1 + i * bones_of_performer
     StageLighting lighting;
     std::uint64_t texture_seed = 1;
 };

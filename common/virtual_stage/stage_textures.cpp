@@ -199,7 +199,7 @@ Picture draw_flowers(cv::RNG& random) {
             const cv::Point centre(random.uniform(0, n), random.uniform(0, n));
             const int petal = random.uniform(n / 60, n / 22);
             const cv::Scalar colour = vivid(random) * 255;
-    // Drawn once for every neighbouring tile, so that the pattern tiles.
+            // Drawn once for every neighbouring tile, so that the pattern tiles.
             for (int dy = -n; dy <= n; dy += n)
                 for (int dx = -n; dx <= n; dx += n) {
                     const cv::Point at = centre + cv::Point(dx, dy);

@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "common/virtual_stage/stage_mesh.h"
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
-#include "common/virtual_stage/stage_mesh.h"
 
 namespace vantage {
 namespace {

@@ -105,8 +105,8 @@ VirtualRig::Sensor VirtualRig::make_sensor(const CameraModel& model,
     for (int axis = 0; axis < 2; ++axis) {
         if (!cv::checkRange(channels[axis], true, nullptr, -widest_slope, widest_slope))
             fail(
-             "the lens sees further than 75 degrees off its axis, or its distortion folds the "
-             "image: the virtual stage cannot be filmed through it");
+                "the lens sees further than 75 degrees off its axis, or its distortion folds the "
+                "image: the virtual stage cannot be filmed through it");
         cv::minMaxLoc(channels[axis], &low[axis], &high[axis]);
     }
     // As fine as the sample points, up to the GPU's limit; a margin of two pixels for filtering.

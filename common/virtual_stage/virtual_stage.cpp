@@ -177,7 +177,7 @@ void validate(const StageCamera& camera) {
     if (!camera.K.allFinite() || !(camera.K(0, 0) > 0) || !(camera.K(1, 1) > 0) ||
         camera.K(2, 0) != 0 || camera.K(2, 1) != 0 || camera.K(2, 2) != 1)
         fail(
-             "the virtual camera's K needs focal lengths above 0 and the last row 0 0 1, but has "
+            "the virtual camera's K needs focal lengths above 0 and the last row 0 0 1, but has "
             "fx {} and fy {}",
             camera.K(0, 0), camera.K(1, 1));
     if (!camera.world_from_camera.matrix().allFinite())
@@ -303,12 +303,12 @@ struct VirtualStage::Impl {
         const Eigen::Vector3f eye_m = camera.world_from_camera.translation().cast<float>();
         std::vector<std::pair<float, const StageChunk*>> seen;
         for (const StageChunk& chunk : scene.mesh.chunks()) {
-        // Performers move within a sphere around the middle of the stage.
+            // Performers move within a sphere around the middle of the stage.
             const Eigen::Vector3f centre_m =
                 chunk.kind.animated ? Eigen::Vector3f(0, 1, 0) : chunk.centre_m;
             const float radius_m = chunk.kind.animated ? 2.9f : chunk.radius_m;
             if (!may_see_sphere(frustum, centre_m, radius_m)) continue;
-        // Large chunks mostly lie behind small ones.
+            // Large chunks mostly lie behind small ones.
             seen.emplace_back((centre_m - eye_m).norm() + (chunk.kind.animated ? 0 : radius_m),
                               &chunk);
         }

@@ -56,8 +56,8 @@ class VirtualStage {
     VirtualStage(VirtualStage&&) noexcept;
     VirtualStage& operator=(VirtualStage&&) noexcept;
 
-    /// Throws Error for a size that the GPU cannot draw, or an invalid K or pose. Waits for the GPU.
-    /// The context that was current at construction must be current.
+    /// Throws Error for a size that the GPU cannot draw, or an invalid K or pose. Waits for the
+    /// GPU. The context that was current at construction must be current.
     StageRendering render(const StageCamera& camera, std::chrono::nanoseconds stage_time,
                           const StageOptions& options = {});
 

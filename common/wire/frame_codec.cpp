@@ -101,13 +101,13 @@ Pose check_header(const wire::FrameHeader& header) {
         return Pose::Identity();
     }
     if (header.content() != wire::FrameHeader::VIEW)
-            fail("a frame has the unknown content {}", static_cast<int>(header.content()));
+        fail("a frame has the unknown content {}", static_cast<int>(header.content()));
     check_geometry(geometry);
     if (header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE) {
         check_size("disparity", header.disparity_width_px(), header.disparity_height_px());
         if (header.disparity_width_px() > header.geometry().width_px() ||
             header.disparity_height_px() > header.geometry().height_px())
-        fail("a disparity image of {}x{} does not fit a colour image of {}x{}",
+            fail("a disparity image of {}x{} does not fit a colour image of {}x{}",
                  header.disparity_width_px(), header.disparity_height_px(),
                  header.geometry().width_px(), header.geometry().height_px());
     } else if (header.colour_codec() == wire::FrameHeader::COLOUR_NONE) {

@@ -46,8 +46,8 @@ class FrameEncoder {
     explicit FrameEncoder(int jpeg_quality, Chroma chroma = Chroma::quarter);
     ~FrameEncoder();
 
-    /// Uses packed_colour if present. Fills in frame.times.pack_ms and frame.published. Throws Error
-    /// naming the first invalid value: decoders accept everything that it returns.
+    /// Uses packed_colour if present. Fills in frame.times.pack_ms and frame.published. Throws
+    /// Error naming the first invalid value: decoders accept everything that it returns.
     PackedFrame encode(RigFrame& frame);
 
   private:

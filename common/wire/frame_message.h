@@ -23,11 +23,12 @@ struct RigStageTimes {
 /// every captured frame is in the end either late or published. LinkCounters count the fate of
 /// published frames per host.
 struct RigCounters {
-    std::uint64_t captured = 0;      ///< delivered by the frame source
-    std::uint64_t missed = 0;        ///< pulses or sequence numbers without a frame
-    std::uint64_t late = 0;          ///< dropped because a stage was still busy
-    std::uint64_t published = 0;     ///< given to the publisher, which counts this
-    std::uint64_t send_dropped = 0;  ///< dropped for slow hosts, summed over hosts, by the publisher
+    std::uint64_t captured = 0;   ///< delivered by the frame source
+    std::uint64_t missed = 0;     ///< pulses or sequence numbers without a frame
+    std::uint64_t late = 0;       ///< dropped because a stage was still busy
+    std::uint64_t published = 0;  ///< given to the publisher, which counts this
+    std::uint64_t send_dropped =
+        0;  ///< dropped for slow hosts, summed over hosts, by the publisher
 
     bool operator==(const RigCounters&) const = default;
 };
@@ -85,8 +86,8 @@ struct RigFrame {
     std::string calibration_id;
     RectifiedStereo geometry;                   ///< of the colour image
     Pose world_from_camera = Pose::Identity();  ///< of the rectified left camera
-    bool place_is_assumed = false;  ///< see StereoCalibration
-    ColourImage colour;             ///< rectified left image, may be empty; or the raw left one
+    bool place_is_assumed = false;              ///< see StereoCalibration
+    ColourImage colour;  ///< rectified left image, may be empty; or the raw left one
     /// Of the colour's size. At a rig: the rectified right image of a view that is to be sent,
     /// beside a JPEG only, or the raw right image. At a host: the raw right image.
     ColourImage right;

@@ -94,8 +94,7 @@ RigSync from_wire(const wire::Sync& sync) {
     if (sync.rate_hz() != 0 && (sync.rate_hz() < 0.001 || sync.rate_hz() > 1e6))
         fail("a rig's rate of {} Hz is outside 0.001..1000000", sync.rate_hz());
     if (sync.role() < wire::Sync::FREE || sync.role() > wire::Sync::FOLLOW)
-        fail("a rig's sync state has the unknown role {}",
-             static_cast<int>(sync.role()));
+        fail("a rig's sync state has the unknown role {}", static_cast<int>(sync.role()));
     if (sync.first_pulse() > max_trigger_index)
         fail("a first pulse of {} is beyond {}", sync.first_pulse(), max_trigger_index);
     if (!sync.ptp_state().empty()) check_name("PTP state", sync.ptp_state());

@@ -1,5 +1,3 @@
-#include "host_app/exports/moment_files.h"
-
 #include <array>
 
 #include <ImfChannelList.h>
@@ -13,6 +11,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/colour/colour_correction.h"
+#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {

@@ -44,8 +44,8 @@ constexpr std::size_t most_pictures = 10'000'000;
 std::size_t pictures_of(double duration_s, double rate_hz) {
     const double count = std::max(1.0, std::round(duration_s * rate_hz));
     if (count > most_pictures)
-        fail("a film of {:.0f} s at {:g} fps is too long: the limit is {} pictures",
-             duration_s, rate_hz, most_pictures);
+        fail("a film of {:.0f} s at {:g} fps is too long: the limit is {} pictures", duration_s,
+             rate_hz, most_pictures);
     return static_cast<std::size_t>(count);
 }
 
@@ -231,7 +231,7 @@ std::vector<FilmPicture> film_of(const Move& move, const TakeReader& take, const
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const double time_s = static_cast<double>(i) / rate_hz;
         pictures[i].camera = move.at(time_s).camera();
-    // A time within rounding errors of a pulse is that pulse.
+        // A time within rounding errors of a pulse is that pulse.
         constexpr double rounding = 1e-6;
         pictures[i].pulse =
             first + move.take_s_at(time_s).value_or(time_s) * pulse_rate_hz + rounding;
@@ -317,7 +317,7 @@ std::vector<std::optional<TaiTime>> even_times(const std::vector<FilmPicture>& p
     std::vector<std::optional<TaiTime>> times(pictures.size());
     for (std::size_t begin = 0; begin < pictures.size();) {
         std::size_t end = begin;
-    // The smallest delay of the run's first picture behind its pulse.
+        // The smallest delay of the run's first picture behind its pulse.
         double first = pictures[begin].pulse;
         while (end < pictures.size() &&
                is_at_normal_speed(pictures, end, around, pulses_a_picture)) {

@@ -20,8 +20,8 @@ struct FilmPicture {
     CameraState camera;
 };
 
-/// The pictures of a camera move over a part of a take at `rate_hz`. If the move defines the time in
-/// the take, its own duration is the film's; otherwise the part plays at normal speed, and the
+/// The pictures of a camera move over a part of a take at `rate_hz`. If the move defines the time
+/// in the take, its own duration is the film's; otherwise the part plays at normal speed, and the
 /// camera stays where the move ends. Throws Error if there are no pictures.
 std::vector<FilmPicture> film_of(const Move& move, const TakeReader& take, const TakePart& part,
                                  double rate_hz);
@@ -38,10 +38,10 @@ struct FilmSettings {
 };
 
 /// Renders the pictures at the best quality level into a film (see VideoWriter), which appears when
-/// it is complete. Until then its parts are in FILE.parts (see FilmParts), and an export of the same
-/// take, pictures and settings resumes there. `is_wanted` is called before every picture and while
-/// the background is learnt; false ends the export. The background is learnt from 20 s before the
-/// first picture to render, and if the take has less, from after it. Throws Error if the file
+/// it is complete. Until then its parts are in FILE.parts (see FilmParts), and an export of the
+/// same take, pictures and settings resumes there. `is_wanted` is called before every picture and
+/// while the background is learnt; false ends the export. The background is learnt from 20 s before
+/// the first picture to render, and if the take has less, from after it. Throws Error if the file
 /// exists.
 ExportStats export_film(std::shared_ptr<const TakeReader> take,
                         const std::vector<FilmPicture>& pictures, const FilmSettings& settings,

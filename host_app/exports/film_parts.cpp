@@ -64,8 +64,7 @@ class PartReader {
 
   private:
     [[noreturn]] void refuse(int code) const {
-        fail("{} cannot be resumed ({}): delete it",
-             file_.string(), av_reason(code));
+        fail("{} cannot be resumed ({}): delete it", file_.string(), av_reason(code));
     }
 
     std::filesystem::path file_;

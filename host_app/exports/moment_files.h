@@ -10,7 +10,8 @@ namespace vantage {
 // Exports of one moment in the formats of other programs. Files are written atomically; a `folder`
 // is created. All throw Error if a file cannot be written.
 
-/// Coloured points in Stanford's polygon format (PLY), binary, in metres in the stage's world frame (y up): points only...
+/// Coloured points in Stanford's polygon format (PLY), binary, in metres in the stage's world frame
+/// (y up): points only...
 void write_ply(const std::vector<SurfacePoint>& points, const std::filesystem::path& file);
 /// ...and points with surfaces.
 void write_ply(const Moment& moment, const std::filesystem::path& file);

@@ -1,8 +1,7 @@
-#include "host_app/exports/moment_files.h"
-
 #include <cmath>
 #include <limits>
 #include <string>
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/image/image_file.h"
+#include "host_app/exports/moment_files.h"
 #include "host_app/view_sets/view_set_writer.h"
 
 namespace vantage {
@@ -41,7 +41,7 @@ constexpr double half_px = 0.5;
 
 nlohmann::ordered_json transform_of(const MomentView& view, const std::string& picture) {
     Eigen::Matrix4d pose = view.world_from_camera.matrix();
-        // OpenGL's camera axes: y up and z backward.
+    // OpenGL's camera axes: y up and z backward.
     pose.col(1) *= -1;
     pose.col(2) *= -1;
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();

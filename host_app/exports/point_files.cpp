@@ -1,5 +1,3 @@
-#include "host_app/exports/moment_files.h"
-
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/colour/colour_correction.h"
+#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {
@@ -63,7 +62,7 @@ void write_glb(const Moment& moment, const std::filesystem::path& file) {
     Eigen::Vector3f least = points.front().position_m, most = least;
     for (const SurfacePoint& point : points) {
         append(positions, point.position_m.data(), 3 * sizeof(float));
-    // glTF's vertex colours are linear light, and each element is aligned to four bytes.
+        // glTF's vertex colours are linear light, and each element is aligned to four bytes.
         for (int i = 0; i < 3; ++i) {
             constexpr double most_8_bit = 255, most_16_bit = 65535;
             const auto linear = static_cast<std::uint16_t>(

@@ -91,8 +91,7 @@ ExportStats export_camera(const TakeReader& take, const TakePart& part,
     for (const CameraRecord& camera : take.cameras())
         if (camera.pulse >= part.from && camera.pulse < part.to && ticks++ % part.every == 0)
             cameras.push_back(camera);
-    if (cameras.empty())
-        fail("{} has no recorded camera in that range", take.path().string());
+    if (cameras.empty()) fail("{} has no recorded camera in that range", take.path().string());
     claim_folder(folder, take, "camera");
     write_camera_csv(take, cameras, folder / "camera.csv");
     write_camera_freed(cameras, folder / "camera.freed");
@@ -131,8 +130,8 @@ void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
     constexpr std::size_t most_bytes = 1 << 16;
     if (read_text_file(file, most_bytes) != text)
         fail(
-             "{} contains another export, of another take or format: choose a new name, or delete "
-             "it",
+            "{} contains another export, of another take or format: choose a new name, or delete "
+            "it",
             folder.string());
 }
 

@@ -24,7 +24,8 @@ class LtcReader {
   public:
     LtcReader();
 
-    /// Returns the codes that ended in this block, which starts at or after the end of the last one.
+    /// Returns the codes that ended in this block, which starts at or after the end of the last
+    /// one.
     std::vector<LtcReading> hear(const SoundBlock& sound);
 
     std::uint64_t malformed() const { return malformed_; }

@@ -19,8 +19,8 @@ struct SmpteCode {
 };
 
 /// Converts between time codes and frame counts at a rate: 24, 25 or 30 per second, or 50 or 60 for
-/// fields or pictures; 30 and 60 also as drop-frame code, which skips numbers in every minute except
-/// each tenth.
+/// fields or pictures; 30 and 60 also as drop-frame code, which skips numbers in every minute
+/// except each tenth.
 struct SmpteCount {
     int numbers_a_second = 25;
     bool is_drop_frame = false;

@@ -59,8 +59,10 @@ MetricsServer::MetricsServer(const std::string& text)
         MHD_OPTION_CONNECTION_LIMIT, most_peers, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_a_peer, MHD_OPTION_END));
     if (!daemon_)
-        fail("metrics {}: cannot listen on port {} ({}); choose another, or end the program using it",
-             url.shown, place.port, std::strerror(errno));
+        fail(
+            "metrics {}: cannot listen on port {} ({}); choose another, or end the program using "
+            "it",
+            url.shown, place.port, std::strerror(errno));
 }
 
 MetricsServer::~MetricsServer() = default;

@@ -107,7 +107,8 @@ void write_rigs(const LiveReport& report, MetricText& text) {
                  "Connections that are not from a host, at the rig and at relays.");
     for (const RigAccount& rig : report.rigs)
         text.sample(number(rig.status.health.refused_connections), {{"rig", rig.status.rig}});
-    text.gauge("rig_clock_disciplined", "1 while PTP disciplines the rig's clock, or it is this one's.");
+    text.gauge("rig_clock_disciplined",
+               "1 while PTP disciplines the rig's clock, or it is this one's.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.same_clock || rig.status.sync.disciplined ? 1 : 0,
                     {{"rig", rig.status.rig}});

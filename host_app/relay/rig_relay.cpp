@@ -69,15 +69,17 @@ struct RigRelay::Impl {
               link(context, config, keys),
               server(settings, config.name, random_id()) {
             server.change([&](HostLinks& links) {
-            links.set_away(fmt::format("the relay has not reached rig {} yet", name));
-                links.serve_views_only(fmt::format(
-                "rig {} is reached through a relay, which does not forward raw pairs; calibrate "
-                    "with the rig's own endpoint",
-                    name));
-                links.serve_no_kept(fmt::format(
-                "rig {} is reached through a relay, which does not forward rigs' recordings; fetch "
-                    "from the rig's own endpoint",
-                    name));
+                links.set_away(fmt::format("the relay has not reached rig {} yet", name));
+                links.serve_views_only(
+                    fmt::format("rig {} is reached through a relay, which does not forward raw "
+                                "pairs; calibrate "
+                                "with the rig's own endpoint",
+                                name));
+                links.serve_no_kept(
+                    fmt::format("rig {} is reached through a relay, which does not forward rigs' "
+                                "recordings; fetch "
+                                "from the rig's own endpoint",
+                                name));
             });
         }
         const std::string name;
@@ -228,7 +230,7 @@ std::vector<RigRelay::Rig> RigRelay::status() const {
     std::vector<Rig> all;
     {
         const std::lock_guard lock(impl_->mutex);
-    if (!impl_->failure.empty()) fail("relaying ended: {}", impl_->failure);
+        if (!impl_->failure.empty()) fail("relaying ended: {}", impl_->failure);
         for (const auto& rig : impl_->rigs) all.push_back(rig->shown);
     }
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -46,8 +46,8 @@ void PairingCall::turn(MonotonicTime now) {
     if (!pairing_.code()) {
         socket_.set(zmq::sockopt::linger, 0);
         fail(
-             "nothing pairs at {}; open the rig for pairing with: sudo vantage-rig pair (and let "
-             "TCP port {} through its firewall)",
+            "nothing pairs at {}; open the rig for pairing with: sudo vantage-rig pair (and let "
+            "TCP port {} through its firewall)",
             endpoint_, parse_endpoint(endpoint_, "--rig").port);
     }
     refuse("the codes were not compared in time");

@@ -35,7 +35,7 @@ struct Found {
         FoundRig& rig = rigs[name];
         rig.name = name;
         const bool is_v6 = address.proto == AVAHI_PROTO_INET6;
-    // IPv4 is preferred, since it is readable and needs no interface.
+        // IPv4 is preferred, since it is readable and needs no interface.
         if (rig.host.empty() || !is_v6)
             rig.host = is_v6 ? "[" + std::string(text.data()) + "]" : std::string(text.data());
         (type == pairing_service ? rig.pairing_port : rig.stream_port) = port;
@@ -79,13 +79,13 @@ std::vector<FoundRig> find_rigs(std::chrono::milliseconds time,
         avahi_client_new(avahi_simple_poll_get(poll.get()), {}, on_client, nullptr, &error));
     if (!client)
         fail(
-             "cannot browse for rigs ({}): install and start avahi-daemon, or give every rig with "
-             "--rig HOST",
+            "cannot browse for rigs ({}): install and start avahi-daemon, or give every rig with "
+            "--rig HOST",
             avahi_strerror(error));
     for (const char* type : {pairing_service, stream_service})
         if (!avahi_service_browser_new(client.get(), AVAHI_IF_UNSPEC, AVAHI_PROTO_UNSPEC, type,
                                        nullptr, {}, on_browsed, &found))
-        fail("avahi-daemon refuses to browse for rigs: {}",
+            fail("avahi-daemon refuses to browse for rigs: {}",
                  avahi_strerror(avahi_client_errno(client.get())));
     constexpr int turn_ms = 50;
     const MonotonicTime end = MonotonicClock::now() + time;

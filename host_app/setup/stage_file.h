@@ -19,8 +19,8 @@ class StageFile {
     bool is_there() const { return is_there_; }
     /// The configuration; without rigs if the file does not exist.
     const StageConfig& config() const { return config_; }
-    /// This host's keys, from the file that the stage names, or host.key beside it, which is created
-    /// if missing.
+    /// This host's keys, from the file that the stage names, or host.key beside it, which is
+    /// created if missing.
     CurveKeys host_keys() const;
 
     /// Adds a rig and writes the file atomically. Throws Error if the result would be invalid.

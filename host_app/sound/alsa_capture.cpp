@@ -60,7 +60,7 @@ AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right)
     device_.reset(device);
     choose_format();
     if (std::max(left, right) > channels_)
-            fail("the sound device {} has {} channels, but no channel {}", name, channels_,
+        fail("the sound device {} has {} channels, but no channel {}", name, channels_,
              std::max(left, right));
     left_ = left == 0 ? 0 : left - 1;
     right_ = right == 0 ? std::min(channels_, 2U) - 1 : right - 1;
@@ -81,7 +81,8 @@ void AlsaCapture::choose_format() {
     snd_pcm_hw_params_t* request = nullptr;
     snd_pcm_hw_params_alloca(&request);
     int code = snd_pcm_hw_params_any(device, request);
-    if (code >= 0) code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
+    if (code >= 0)
+        code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
     if (code < 0) refuse("it supports no access mode", code);
     const auto format = std::find_if(formats.begin(), formats.end(), [&](snd_pcm_format_t each) {
         return snd_pcm_hw_params_set_format(device, request, each) == 0;
@@ -97,7 +98,8 @@ void AlsaCapture::choose_format() {
     snd_pcm_hw_params_set_channels_near(device, request, &channels_);
     snd_pcm_hw_params_set_buffer_time_near(device, request, &buffer, nullptr);
     snd_pcm_hw_params_set_period_time_near(device, request, &period, nullptr);
-    if (code = snd_pcm_hw_params(device, request); code < 0) refuse("it refuses the settings", code);
+    if (code = snd_pcm_hw_params(device, request); code < 0)
+        refuse("it refuses the settings", code);
 }
 
 AlsaCapture::Piece AlsaCapture::read(std::chrono::milliseconds most) {

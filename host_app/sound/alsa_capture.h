@@ -14,8 +14,8 @@ namespace vantage {
 /// Captures from an ALSA device, including PulseAudio's and PipeWire's. Not thread-safe.
 class AlsaCapture {
   public:
-    /// `left`, `right`: channels, counted from 1; 0: the first two, or the only one for both. Throws
-    /// Error if the device cannot be opened or lacks a channel.
+    /// `left`, `right`: channels, counted from 1; 0: the first two, or the only one for both.
+    /// Throws Error if the device cannot be opened or lacks a channel.
     AlsaCapture(const std::string& name, unsigned left, unsigned right);
     ~AlsaCapture();
     AlsaCapture(const AlsaCapture&) = delete;

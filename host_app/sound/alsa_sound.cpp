@@ -1,5 +1,3 @@
-#include "host_app/sound/sound_source.h"
-
 #include <atomic>
 #include <charconv>
 #include <mutex>
@@ -11,6 +9,7 @@
 #include "host_app/sound/alsa_capture.h"
 #include "host_app/sound/sound_placer.h"
 #include "host_app/sound/sound_ring.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {
@@ -43,8 +42,7 @@ ChannelPair channels_of(const OutputUrl& url) {
     if (error != std::errc() || at != end || pair.left < 1 || pair.right < 1 ||
         std::max(pair.left, pair.right) > most)
         fail("the {} {}: give one or two channels from 1 to {}, such as channels=3,4", url.kind,
-             url.shown,
-             most);
+             url.shown, most);
     return pair;
 }
 
@@ -97,7 +95,7 @@ class AlsaSound final : public SoundSource {
             state_.removed = stats.removed;
             state_.drift_ppm = stats.drift_ppm();
         }
-            // Virtual devices such as ALSA's null plugin deliver as fast as they are read.
+        // Virtual devices such as ALSA's null plugin deliver as fast as they are read.
         const std::chrono::nanoseconds early =
             time_of_sound(block.end()) - TaiClock::now() - device_look / 5;
         if (early > 0ns)

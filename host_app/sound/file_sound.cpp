@@ -1,5 +1,3 @@
-#include "host_app/sound/sound_source.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "host_app/output/output_url.h"
 #include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_decoder.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {

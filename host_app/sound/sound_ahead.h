@@ -16,6 +16,7 @@ class SoundAhead {
   public:
     /// Fetches up to `count` samples from `first`; fewer mean the end of the sound. Called by one
     /// thread. An exception ends the reading.
+    using Fetch = std::function<std::vector<float>(std::int64_t first, std::size_t count)>;
     /// Fetches the first part before it returns. Throws what `fetch` throws.
     SoundAhead(Fetch fetch, std::int64_t first);
     ~SoundAhead();

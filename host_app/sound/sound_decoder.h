@@ -18,8 +18,8 @@ class SoundConverter {
     /// cannot convert.
     SoundConverter(AVChannelLayout channels, AVSampleFormat format, int rate_hz);
 
-    /// Converts `count` samples in FFmpeg's planes. The filter delays some samples to the next call.
-    /// Throws Error if memory runs out.
+    /// Converts `count` samples in FFmpeg's planes. The filter delays some samples to the next
+    /// call. Throws Error if memory runs out.
     std::vector<float> convert(const std::uint8_t* const* planes, int count);
     /// The delayed samples at the end.
     std::vector<float> rest() { return convert(nullptr, 0); }

@@ -6,8 +6,9 @@
 
 namespace vantage {
 
-/// Assigns times to the blocks of a device. A device has a clock of its own: blocks are shortened or
-/// lengthened by a sample now and then to follow the computer's clock, inaudibly. Not thread-safe.
+/// Assigns times to the blocks of a device. A device has a clock of its own: blocks are shortened
+/// or lengthened by a sample now and then to follow the computer's clock, inaudibly. Not
+/// thread-safe.
 class SoundPlacer {
   public:
     /// Places the next block, whose last sample was heard at about `heard_until`. Empty: the block

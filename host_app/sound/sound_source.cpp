@@ -8,7 +8,7 @@ namespace {
 OutputUrl url_of(const std::string& text) {
     OutputUrl url = OutputUrl::parse(text, "audio");
     if (url.scheme != "alsa" && url.scheme != "file")
-    fail("the audio source {} is unknown: give alsa:DEVICE or a file", url.shown);
+        fail("the audio source {} is unknown: give alsa:DEVICE or a file", url.shown);
     return url;
 }
 

@@ -25,9 +25,8 @@ struct SoundState {
     SoundPhase phase = SoundPhase::opening;
     std::string failure;  ///< empty: none
     std::uint64_t failures = 0;
-    std::uint64_t heard = 0;  ///< received from the source
-    std::uint64_t lost =
-        0;  ///< came too late and are silent
+    std::uint64_t heard = 0;     ///< received from the source
+    std::uint64_t lost = 0;      ///< came too late and are silent
     std::uint64_t dropped = 0;   ///< came faster than real time
     std::uint64_t inserted = 0;  ///< where the device's clock is slower than the programme's...
     std::uint64_t removed = 0;   ///< ...or faster

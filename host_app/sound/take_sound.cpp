@@ -50,7 +50,7 @@ class TakeSoundReading {
             decoded_ = sound_from_stored(take_->load(sound));
         } catch (const TakeDamaged& error) {
             if (!std::exchange(is_told_, true))
-            log_warning("{}; vantage take check lists all damage", error.what());
+                log_warning("{}; vantage take check lists all damage", error.what());
         }
         return decoded_;
     }

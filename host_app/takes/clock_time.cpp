@@ -48,7 +48,8 @@ Words read(const std::string& text) {
            (!words.has_date || (whole.tm_mday == told.tm_mday && whole.tm_mon == told.tm_mon)) &&
            told.tm_hour >= 0 && told.tm_hour < 24 && told.tm_min >= 0 && told.tm_min < 60 &&
            told.tm_sec >= 0 && told.tm_sec < 60;
-    if (!fits) fail("'{}' is not a time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00", text);
+    if (!fits)
+        fail("'{}' is not a time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00", text);
     return words;
 }
 

@@ -29,7 +29,7 @@ void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
     link_.watch(now);
     while (const std::optional<RigLink::Delivery> delivery = link_.receive(now))
         if (!stats_.is_done) take_in(*delivery, budget);
-    if (!stats_.is_done) look_at(link_.view(now), now);
+    if (!stats_.is_done) check_link(link_.view(now), now);
     if (request_ && !stats_.is_done) {
         const std::uint64_t most = std::min(window, request_->to_pulse - next_pulse_);
         while (request_->granted < received_ + most && budget.may_spend(now)) {
@@ -45,7 +45,7 @@ void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
 
 void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget) {
     if (!delivery.kept || !request_ || delivery.message.fetch->id != request_->id) return;
-        // Some were lost, or the rig was restarted and begins again.
+    // Some were lost, or the rig was restarted and begins again.
     if (delivery.message.fetch->sent != received_ + 1) {
         ask_anew();
         return;
@@ -77,7 +77,7 @@ void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budge
     stats_.bytes += delivery.kept->bytes();
 }
 
-void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
+void RigFetch::check_link(const RigLink::View& view, MonotonicTime now) {
     if (view.connected) {
         silent_since_.reset();
     } else {
@@ -85,8 +85,8 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
         if (now - *silent_since_ > patience_)
             end(!view.refused.empty()
                     ? view.refused
-                     : fmt::format("rig {} does not answer; repeat the command when it does, to "
-                                   "continue from here",
+                    : fmt::format("rig {} does not answer; repeat the command when it does, to "
+                                  "continue from here",
                                   stats_.rig));
         return;
     }
@@ -94,7 +94,7 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
         if (view.sync.rate_hz != 0 &&
             PulseGrid(view.sync.rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz()) {
             end(
-            fmt::format("rig {} has {:g} pulses per second and the stage has {:g}: make "
+                fmt::format("rig {} has {:g} pulses per second and the stage has {:g}: make "
                             "rate_hz agree",
                             stats_.rig, view.sync.rate_hz, rate_hz_));
             return;

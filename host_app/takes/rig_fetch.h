@@ -96,7 +96,7 @@ class RigFetch {
 
   private:
     void take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget);
-    void look_at(const RigLink::View& view, MonotonicTime now);
+    void check_link(const RigLink::View& view, MonotonicTime now);
     void ask_anew();
     void next_part();
     void end(std::string trouble);

@@ -54,8 +54,8 @@ class CameraSink final : public PictureSink {
 }  // namespace
 
 TakeControl::TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
-                   std::filesystem::path path, std::filesystem::path folder,
-                   std::chrono::nanoseconds pre_roll, bool has_sound)
+                         std::filesystem::path path, std::filesystem::path folder,
+                         std::chrono::nanoseconds pre_roll, bool has_sound)
     : path_(std::move(path)),
       folder_(std::move(folder)),
       has_pre_roll_(pre_roll.count() > 0),

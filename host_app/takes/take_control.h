@@ -14,16 +14,16 @@
 
 namespace vantage {
 
-/// Begins and ends the takes of a live session. During a take, and always with a pre-roll, every rig
-/// is asked for its frames, including those that the programme does not need. Thread-safe.
+/// Begins and ends the takes of a live session. During a take, and always with a pre-roll, every
+/// rig is asked for its frames, including those that the programme does not need. Thread-safe.
 class TakeControl {
   public:
     /// `stage_file` and the rigs' colour files are attached to every take. Without a `path`, takes
-    /// are named by their time and go to `folder`, which must exist; with a path, the second take is
-    /// PATH-2. Throws Error if the folder does not exist.
+    /// are named by their time and go to `folder`, which must exist; with a path, the second take
+    /// is PATH-2. Throws Error if the folder does not exist.
     TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
-             std::filesystem::path path, std::filesystem::path folder,
-             std::chrono::nanoseconds pre_roll, bool has_sound = false);
+                std::filesystem::path path, std::filesystem::path folder,
+                std::chrono::nanoseconds pre_roll, bool has_sound = false);
 
     /// For the receiver. This object must outlive it.
     FrameTap tap();

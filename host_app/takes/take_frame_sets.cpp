@@ -101,7 +101,7 @@ FrameSet TakeFrameSets::decode(std::uint64_t pulse, const Unwanted& unwanted) co
 }
 
 std::shared_ptr<const RigFrame> TakeFrameSets::decode(std::size_t number, std::uint64_t pulse,
-                                                 const Unwanted& unwanted) const {
+                                                      const Unwanted& unwanted) const {
     const std::vector<TakeReader::Frame>& frames = take_->frames(number);
     const auto frame = std::lower_bound(
         frames.begin(), frames.end(), pulse,

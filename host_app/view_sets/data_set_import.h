@@ -25,8 +25,9 @@ ImportedViews import_msr3dvideo(const std::filesystem::path& folder,
 
 /// Imports a Middlebury stereo scene as a ViewSet. The kind follows from the folder's files:
 /// calib.txt (third evaluation and 2014), view0 .. view6 (2005 and 2006), im0 .. im8 with disp2 and
-/// disp6 (2001 and 2003), im3 and im4 with disp3 (Tsukuba). Where no camera was published, a nominal
-/// one is used: views between and beside the given ones do not depend on it. Throws Error likewise.
+/// disp6 (2001 and 2003), im3 and im4 with disp3 (Tsukuba). Where no camera was published, a
+/// nominal one is used: views between and beside the given ones do not depend on it. Throws Error
+/// likewise.
 ImportedViews import_middlebury(const std::filesystem::path& folder,
                                 const std::filesystem::path& view_set);
 

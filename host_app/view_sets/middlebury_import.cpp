@@ -147,7 +147,8 @@ ImportedViews import_middlebury(const fs::path& folder, const fs::path& view_set
         return write_row(folder, view_set, {"im", f_px, 0.1, 0, {{3, 4}}, 1 / 16.0});
     }
     fail(
-         "{} is not a Middlebury scene: it has neither calib.txt, nor view1 with dmin.txt, nor im2 or "
+        "{} is not a Middlebury scene: it has neither calib.txt, nor view1 with dmin.txt, nor im2 "
+        "or "
         "im3",
         folder.string());
 }

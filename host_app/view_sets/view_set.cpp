@@ -107,7 +107,7 @@ struct Entry {
     void warn_of_unknown_keys(const std::set<std::string>& known) const {
         for (const auto& [key, value] : object.items())
             if (!known.contains(key))
-            log_warning("{}: the key '{}' is unknown and ignored", where, key);
+                log_warning("{}: the key '{}' is unknown and ignored", where, key);
     }
 };
 
@@ -232,7 +232,8 @@ ViewSet load_view_set(const std::filesystem::path& folder) {
     const Entry top{document, path.string()};
     const json& version = top.at("version");
     if (!version.is_number_integer() || version.get<std::int64_t>() != 1)
-        fail("{}: 'version' is {}, but this program reads version 1", path.string(), version.dump());
+        fail("{}: 'version' is {}, but this program reads version 1", path.string(),
+             version.dump());
     top.warn_of_unknown_keys({"version", "views"});
     const json& entries = top.at("views");
     if (!entries.is_array() || entries.empty() || entries.size() > max_views)

@@ -182,7 +182,7 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     beat(beats_beside);
     nothing_was_noticed();
     // Who is welcome still comes in.
-    const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::look_on);
+    const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::observe);
     EXPECT_TRUE(eventually([&] { return second.status().rigs[0].connected; }));
     is_in_the_log("from 127.0.0.1, did not finish the handshake within 5 s");
     EXPECT_TRUE(eventually([&] { return rig_->status().refused_connections == 1000; }));
@@ -279,7 +279,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
     const UniqueFd road = listening_socket(road_place);
     auto second = std::make_unique<StageReceiver>(
         stage_at(fmt::format("tcp://127.0.0.1:{}", ntohs(road_place.sin_port))),
-        StageReceiver::Purpose::look_on);
+        StageReceiver::Purpose::observe);
     const UniqueFd to_host(::accept(road.get(), nullptr, nullptr)), to_rig = connected_socket();
     ASSERT_TRUE(to_host && to_rig);
     std::vector<char> written_down;

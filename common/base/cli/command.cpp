@@ -48,8 +48,8 @@ void bound_heap(bool returns_large_blocks) {
     mallopt(M_ARENA_MAX, arenas);
     if (!returns_large_blocks) return;
     mallopt(M_MMAP_THRESHOLD, large_bytes);
-        // Setting a limit stops glibc from adapting it; at the default of 128 KiB the memory of
-        // every frame would go back to the system and be requested again.
+    // Setting a limit stops glibc from adapting it; at the default of 128 KiB the memory of
+    // every frame would go back to the system and be requested again.
     mallopt(M_TRIM_THRESHOLD, kept_bytes);
 }
 

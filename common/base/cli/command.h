@@ -22,7 +22,9 @@ struct ProgramFacts {
     std::string_view commit{};     ///< of the sources; empty: unknown
     std::string_view libraries{};  ///< "ZeroMQ 4.3.4, OpenCV 4.6.0"; empty: not printed
     /// Return large freed blocks to the system at once. For programs that allocate and free large
-    /// blocks beside small long-lived ones for hours. It costs a page fault per 4 KiB of each block.
+    /// blocks beside small long-lived ones for hours. It costs a page fault per 4 KiB of each
+    /// block.
+    bool returns_large_blocks = false;
 };
 
 /// Parses the command line and runs the command. Results go to stdout, the log to stderr. Returns

@@ -225,7 +225,7 @@ std::string unknown_command_sentence(const CLI::App& program,
                                      const std::vector<std::string>& words) {
     const Place place = place_of(program, words);
     if (place.unknown.empty()) return "";
-        return fmt::format("{} has no command '{}'; {}; {} --help lists the commands", place.name,
+    return fmt::format("{} has no command '{}'; {}; {} --help lists the commands", place.name,
                        place.unknown, suggest_name(place.unknown, command_names(*place.command)),
                        place.name);
 }

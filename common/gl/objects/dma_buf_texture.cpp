@@ -80,7 +80,7 @@ DmaBufTexture::DmaBufTexture(const EglContext& context, const DmaBufPlane& plane
                                       static_cast<EGLint>(plane.offset),
                                       EGL_DMA_BUF_PLANE0_PITCH_EXT,
                                       static_cast<EGLint>(plane.bytes_per_line)};
-        // Without a modifier some drivers assume a tiled layout; 0 means linear rows.
+    // Without a modifier some drivers assume a tiled layout; 0 means linear rows.
     if (context.has_extension(modifiers_extension))
         attributes.insert(attributes.end(), {EGL_DMA_BUF_PLANE0_MODIFIER_LO_EXT, 0,
                                              EGL_DMA_BUF_PLANE0_MODIFIER_HI_EXT, 0});

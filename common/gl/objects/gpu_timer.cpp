@@ -59,7 +59,7 @@ double GpuTimer::wait_ms() {
             load<PFNGLGETQUERYOBJECTUI64VEXTPROC>("glGetQueryObjectui64vEXT");
         GLuint64 ns = 0;
         get_result(query_.name(), GL_QUERY_RESULT, &ns);
-    // The GPU's clock frequency changed during the span, so the count is no time.
+        // The GPU's clock frequency changed during the span, so the count is no time.
         GLint is_disjoint = GL_FALSE;
         glGetIntegerv(GL_GPU_DISJOINT_EXT, &is_disjoint);
         if (!is_disjoint) last_ms_ = static_cast<double>(ns) * 1e-6;

@@ -20,8 +20,7 @@ constexpr int buffer_bytes = 256 * 1024;
 TakeFile::TakeFile(const std::filesystem::path& path)
     : fd_(::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644)) {
     if (!fd_ && errno == EEXIST)
-        fail("{} exists, and a take never replaces a file: choose another name",
-             path.string());
+        fail("{} exists, and a take never replaces a file: choose another name", path.string());
     if (!fd_) fail("cannot write {}: {}", path.string(), std::strerror(errno));
     auto* buffer = static_cast<std::uint8_t*>(av_malloc(buffer_bytes));
     io_ = avio_alloc_context(buffer, buffer_bytes, 1, this, nullptr, write, seek);

@@ -89,7 +89,7 @@ struct FrameRecord {
     RigCounters rig;
     LinkCounters link;
     std::optional<std::uint32_t> colour_crc, depth_crc;  ///< CRC-32 of the tracks' data
-    std::vector<std::byte> header;                       ///< as received: FrameHeader of frame.proto
+    std::vector<std::byte> header;  ///< as received: FrameHeader of frame.proto
 };
 /// One line of JSON that ends with its own CRC-32.
 std::string to_text(const FrameRecord& record);

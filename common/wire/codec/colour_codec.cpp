@@ -88,7 +88,7 @@ Chroma JpegDecoder::chroma_of(std::span<const std::byte> payload) {
         fail("the colour payload is not a JPEG picture: {}", trouble());
     for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
         if (subsampling == sampling_of(chroma)) return chroma;
-        fail("the colour payload is a JPEG whose chroma is not 4:4:4, 4:2:2 or 4:2:0");
+    fail("the colour payload is a JPEG whose chroma is not 4:4:4, 4:2:2 or 4:2:0");
 }
 
 std::vector<std::byte> LosslessColourEncoder::encode(const ColourImage& colour) {

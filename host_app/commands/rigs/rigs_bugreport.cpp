@@ -105,7 +105,7 @@ class ReportFolder {
 
 /// Asks every rig, and waits until each has answered, is known not to, or the time is up.
 ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolder& folder) {
-    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
+    StageReceiver receiver(stage, StageReceiver::Purpose::observe);
     StopSignal stop;
     receiver.ask_for_reports();
     constexpr std::chrono::seconds to_connect(3);

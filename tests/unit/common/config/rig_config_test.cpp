@@ -10,7 +10,7 @@ namespace {
 
 using RigConfigTest = ConfigText<load_rig_config>;
 
-TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
+TEST_F(RigConfigTest, UsesDefaultsForMissingKeys) {
     const RigConfig config = load("version = 1\nname = 'a'\n");
     EXPECT_EQ(config.name, "a");
     EXPECT_EQ(config.source.kind, "virtual");
@@ -20,7 +20,7 @@ TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
     EXPECT_FALSE(config.uncalibrated);
 }
 
-TEST_F(RigConfigTest, TakesNoneForACalibrationThatIsStillToBeMade) {
+TEST_F(RigConfigTest, AcceptsNoneAsCalibration) {
     const RigConfig config = load("version = 1\nname = 'a'\ncalibration = 'none'\n");
     EXPECT_TRUE(config.uncalibrated);
     EXPECT_TRUE(config.calibration.empty());
@@ -122,7 +122,7 @@ TEST_F(RigConfigTest, ReadsTheOldNameOfAKeyWithAWarning) {
               "config.toml:6: 'set' in [virtual_rig] is the old name of 'scene': keep one");
 }
 
-TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
+TEST_F(RigConfigTest, NamesTheLineAndTheNearestKeyOfAnUnknownKey) {
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[match]\nfill = true\nmathcer = 'x'\n"),
               "config.toml:5: there is no key 'mathcer' in [match]; the nearest is 'matcher'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[sauce]\n"),
@@ -132,7 +132,7 @@ TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
               "calibration, source, virtual_rig, trigger, match, stream, keep");
 }
 
-TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
+TEST_F(RigConfigTest, ReportsAMistypedKeyBeforeTheMissingOne) {
     EXPECT_EQ(fault("version = 1\nnaem = 'a'\n"),
               "config.toml:2: there is no key 'naem'; the nearest is 'name'");
     EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'name' is missing");
@@ -153,13 +153,12 @@ TEST_F(RigConfigTest, NamesTheWantedType) {
               "config.toml:4: 'kind' in [source] must be a string, but is true or false");
     EXPECT_EQ(fault(head + "[source]\nseed = -1\n"),
               "config.toml:4: 'seed' in [source] is -1, but must be at least 0");
-    EXPECT_EQ(
-        fault(head + "[source.controls]\ngain = 1.5\n"),
-        "config.toml:4: 'gain' in [source.controls] must be an integer, but is a number with "
-        "a fraction");
+    EXPECT_EQ(fault(head + "[source.controls]\ngain = 1.5\n"),
+              "config.toml:4: 'gain' in [source.controls] must be an integer, but is a number with "
+              "a fraction");
 }
 
-TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
+TEST_F(RigConfigTest, NamesTheLimit) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[match]\ndisparities = 257\n"),
               "config.toml:4: 'disparities' in [match] is 257, but must be 1 to 256");
@@ -183,12 +182,11 @@ TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
         fault(head + "calibration = ''\n"),
         "config.toml:3: 'calibration' must not be empty: leave the key out if there is no such "
         "file");
-    EXPECT_EQ(
-        fault("version = 1\nname = 'a b'\n"),
-        "config.toml:2: 'name' is 'a b', but must be 1 to 64 letters, digits, '-' and '_'");
+    EXPECT_EQ(fault("version = 1\nname = 'a b'\n"),
+              "config.toml:2: 'name' is 'a b', but must be 1 to 64 letters, digits, '-' and '_'");
 }
 
-TEST_F(RigConfigTest, WantsItsVersion) {
+TEST_F(RigConfigTest, RequiresItsVersion) {
     EXPECT_EQ(fault("name = 'a'\n"),
               "config.toml: the key 'version' is missing; put `version = 1` at the top");
     EXPECT_EQ(fault("version = 2\nname = 'a'\n"),
@@ -204,13 +202,13 @@ TEST_F(RigConfigTest, NamesTheLineThatIsNotToml) {
     EXPECT_NE(fault(std::string("version = 1\nname = '\xff\xfe'\n")), "");
 }
 
-TEST_F(RigConfigTest, RefusesWhatIsNoFile) {
+TEST_F(RigConfigTest, RefusesAMissingFileAndAFolder) {
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path() / "none.toml"); }), "");
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path()); }), "");
     EXPECT_NE(fault("#" + std::string(2 << 20, 'x')), "");
 }
 
-TEST_F(RigConfigTest, WantsALineForATriggerThatUsesOne) {
+TEST_F(RigConfigTest, RequiresALineForATriggerThatUsesOne) {
     const std::string top = "version = 1\nname = 'a'\n[trigger]\n";
     EXPECT_EQ(load(top + "role = 'lead'\nchip = 'c'\nline = 'GPIO17'\n").trigger.line, "GPIO17");
     EXPECT_EQ(load(top + "role = 'follow'\nchip = 'c'\nline_offset = 4\n").trigger.line_offset, 4);

@@ -26,18 +26,18 @@ TEST(RigStatus, NamesARigAtAnotherRateWithBoth) {
               "it runs at 2 Hz and the stage at 25 Hz: give both the same rate_hz");
 }
 
-TEST(RigStatus, TakesTheRatesOfBroadcastAsTheyAreWritten) {
+TEST(RigStatus, TreatsNotationsOfBroadcastRatesAsEqual) {
     RigStatus rig = good_rig();
     rig.stage_rate_hz = 29.97;
     rig.sync.rate_hz = 30000.0 / 1001;
-    EXPECT_EQ(rate_worry(rig), "");
+    EXPECT_EQ(rate_warning(rig), "");
     rig.sync.rate_hz = 30;
-    EXPECT_THAT(rate_worry(rig), HasSubstr("30 Hz and the stage at 29.97 Hz"));
+    EXPECT_THAT(rate_warning(rig), HasSubstr("30 Hz and the stage at 29.97 Hz"));
     rig.sync.rate_hz = 0;
-    EXPECT_EQ(rate_worry(rig), "") << "an older rig does not say";
+    EXPECT_EQ(rate_warning(rig), "") << "an older rig does not say";
 }
 
-TEST(RigStatus, SaysWhyARigIsNotConnected) {
+TEST(RigStatus, ReportsWhyARigIsNotConnected) {
     RigStatus rig = good_rig();
     rig.connected = false;
     EXPECT_EQ(trouble_of(rig), "tcp://north:5600 is silent");
@@ -47,7 +47,7 @@ TEST(RigStatus, SaysWhyARigIsNotConnected) {
     EXPECT_EQ(trouble_of(rig), "no more hosts");
 }
 
-TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
+TEST(RigStatus, ReportsWhyAConnectedRigContributesNothing) {
     RigStatus rig = good_rig();
     rig.is_out_of_step = true;
     EXPECT_THAT(trouble_of(rig), HasSubstr("counts pulses differently"));
@@ -63,7 +63,7 @@ TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
     EXPECT_THAT(trouble_of(rig), HasSubstr("no trigger pulse"));
 }
 
-TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {
+TEST(RigStatus, AFaultyRigContributesNoFrames) {
     const RigStatus good = good_rig();
     EXPECT_TRUE(gives_pictures(good, {good}));
     RigStatus rig = good;
@@ -77,7 +77,7 @@ TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {
     EXPECT_FALSE(gives_pictures(rig, {rig, good}));
 }
 
-TEST(RigStatus, ARigAtAnotherRateGivesPicturesWhileNoneAtTheStagesFilms) {
+TEST(RigStatus, ARigAtAnotherRateContributesIfNoneIsAtTheStagesRate) {
     RigStatus other = good_rig();
     other.sync.rate_hz = 5;
     EXPECT_TRUE(gives_pictures(other, {other, other}));

@@ -40,7 +40,7 @@ class TakeFileTest : public testing::Test {
     std::filesystem::path take_ = folder_.path() / "take.mkv";
 };
 
-TEST_F(TakeFileTest, GivesBackEveryFrameBitForBit) {
+TEST_F(TakeFileTest, RoundTripsEveryFrameBitForBit) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 40, {first_pulse + 7});
     const TakeReader reader(take_);
     EXPECT_TRUE(reader.is_ended());
@@ -90,7 +90,7 @@ TEST_F(TakeFileTest, KeepsLosslessColourBitForBit) {
         same_pixels(then.colour, decoded(sent_frame("north", first_pulse, lossless)).colour));
 }
 
-TEST_F(TakeFileTest, IsReadByTheToolsThatEverybodyHas) {
+TEST_F(TakeFileTest, IsReadableByFfmpeg) {
     constexpr int frames = 12;
     write_small_take(take_, two_rigs, first_pulse, first_pulse + frames - 1);
     const auto streams =
@@ -130,7 +130,7 @@ TEST_F(TakeFileTest, IsReadByTheToolsThatEverybodyHas) {
     EXPECT_NE(text.find(fmt::format("\"pulse\":{}", first_pulse + 3)), std::string::npos) << text;
 }
 
-TEST_F(TakeFileTest, KeepsTheCameraOfEveryTick) {
+TEST_F(TakeFileTest, RoundTripsTheCameraOfEveryTick) {
     {
         TakeWriter writer(take_, small_facts({"north"}, first_pulse));
         CameraRecord camera;
@@ -163,7 +163,7 @@ TEST_F(TakeFileTest, ReplacesNoFile) {
     EXPECT_EQ(free_path(take_).filename(), "take-2.mkv");
 }
 
-TEST_F(TakeFileTest, KeepsWhatWasWrittenWhenItsProcessIsKilled) {
+TEST_F(TakeFileTest, SurvivesAKilledProcess) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
@@ -193,7 +193,7 @@ TEST_F(TakeFileTest, OpensFromItsFirstFrameOn) {
     run("ffprobe", {"-v", "error", take_.string()});
 }
 
-TEST_F(TakeFileTest, IsReadUpToWhereItIsCutOff) {
+TEST_F(TakeFileTest, ReadsATruncatedFile) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 60);
     const std::vector<std::byte> whole = bytes_of_file(take_);
     const std::size_t frames = TakeReader(take_).frames(0).size();
@@ -214,7 +214,7 @@ TEST_F(TakeFileTest, IsReadUpToWhereItIsCutOff) {
     EXPECT_GE(most, frames - 13);
 }
 
-TEST_F(TakeFileTest, NamesEveryBitThatIsDamaged) {
+TEST_F(TakeFileTest, DetectsEveryDamagedBit) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 30);
     const std::vector<std::byte> whole = bytes_of_file(take_);
     const TakeReader before(take_);
@@ -269,7 +269,8 @@ TEST_F(TakeFileTest, EndsReadableWhereTheDiskIsFull) {
         const SmallDisk disk(300'000);
         sentence = thrown_sentence([&] { write_small_take(take_, two_rigs, 100, 1000); });
     }
-    EXPECT_NE(sentence.find("what was written until then can be opened"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("what was written until then can be opened"), std::string::npos)
+        << sentence;
     const TakeReader reader(take_);
     EXPECT_TRUE(reader.damage().empty()) << "it ends with a whole cluster";
     EXPECT_GT(reader.frames(0).size(), 10u);
@@ -308,7 +309,7 @@ TEST_F(TakeFileTest, EndsReadableOnAFullTmpfs) {
     EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-TEST_F(TakeFileTest, RefusesWhatIsNoTake) {
+TEST_F(TakeFileTest, RefusesFilesThatAreNotTakes) {
     const auto refused = [&](const std::string& words) {
         const std::string sentence = thrown_sentence([&] { TakeReader reader(take_); });
         EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
@@ -366,7 +367,7 @@ TEST_F(TakeFileTest, OpensAfterAnyKill) {
     }
 }
 
-TEST_F(TakeFileTest, RefusesNumbersThatNoRecordHolds) {
+TEST_F(TakeFileTest, RefusesInvalidNumbersInRecords) {
     const std::string text = to_text(CameraRecord{});
     const std::string open = text.substr(0, text.rfind(",\"crc32\""));
     EXPECT_NO_THROW(camera_record_from(seal_record(open)));
@@ -388,7 +389,7 @@ TEST_F(TakeFileTest, RefusesNumbersThatNoRecordHolds) {
     }
 }
 
-TEST_F(TakeFileTest, ReadsATakeOfVersion1ForEver) {
+TEST_F(TakeFileTest, ReadsATakeOfVersion1) {
     const TakeReader reader(source_folder() / "tests" / "takes" / "version_1.mkv");
     EXPECT_TRUE(reader.is_ended());
     EXPECT_TRUE(reader.damage().empty());

@@ -60,7 +60,7 @@ cv::Mat1b performers(const DepthImage& depth_m, const DepthImage& set_m) {
     return depth_m < set_m - 0.03;
 }
 
-TEST_F(StageMotion, PerformersMoveAtEveryDateAndTheSetStandsStill) {
+TEST_F(StageMotion, PerformersMoveAndSceneryStandsStillAtAnyDate) {
     const DepthImage set_m = this->set_m();
     // Performers' shadows do not reach the walls.
     const cv::Mat1b walls = set_m > 7.5;
@@ -124,7 +124,7 @@ std::optional<Vector3d> middle_of_performers(const StageCamera& camera, const De
     return sum / pixels;
 }
 
-TEST_F(StageMotion, WhatIsSeenOfAPerformerWalksAsFastAsItsWaySays) {
+TEST_F(StageMotion, VisiblePerformersWalkAtTheirSpeed) {
     std::uint64_t seed = 1;
     while (make_random_background(seed).performers.size() != 1) ++seed;
     const PerformerStyle alone = make_random_background(seed).performers.front();
@@ -172,7 +172,7 @@ double agreeing(const StageCamera& a, const DepthImage& depth_a, const cv::Mat1b
     return static_cast<double>(agreeing) / seen;
 }
 
-TEST_F(StageMotion, RigsSeeOneInstantWhateverTheyFilmedBefore) {
+TEST_F(StageMotion, RigsSeeTheSameInstantWhateverTheyFilmedBefore) {
     const DepthImage set_m = this->set_m();
     const StageCamera other = small_camera({0.4, 1.8, 4.45});
     for (const nanoseconds date : {a_day, years_later}) {

@@ -143,7 +143,7 @@ TEST_F(VirtualStageTest, TheSameTimeGivesTheSamePixels) {
     EXPECT_GT(cv::countNonZero(moved > 0.05f), 100) << "the performers move";
 }
 
-TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
+TEST_F(VirtualStageTest, AStationaryCameraSeesTheSameImages) {
     for (const std::uint64_t scene : {0, 3}) {
         VirtualStage stage(library_, scene);
         // Six, of which four are kept; the last stands among the performers.
@@ -174,7 +174,7 @@ TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
     }
 }
 
-TEST_F(VirtualStageTest, EverySeedIsAnotherSet) {
+TEST_F(VirtualStageTest, EverySeedIsAnotherScene) {
     const StageCamera camera = camera_at({1, 1.6, 4}, {0, 1, 0}, {61, 47}, 50);
     const StageRendering a = VirtualStage(library_, 11).render(camera, 1s);
     const StageRendering same = VirtualStage(library_, 11).render(camera, 1s);
@@ -202,7 +202,7 @@ TEST_F(VirtualStageTest, AntiAliasingKeepsTheMeanAndSmoothsEdges) {
     EXPECT_LT(roughness(smooth), 0.97 * roughness(rough));
 }
 
-TEST_F(VirtualStageTest, DrawsOnlyWhatIsAskedFor) {
+TEST_F(VirtualStageTest, DrawsOnlyTheRequestedImages) {
     VirtualStage stage(library_);
     const StageCamera camera = camera_at({1, 1.6, 4}, {0, 1, 0}, {31, 23}, 30);
     const StageRendering depth = stage.render(camera, 1s, {.pictures = StagePictures::depth});
@@ -213,7 +213,7 @@ TEST_F(VirtualStageTest, DrawsOnlyWhatIsAskedFor) {
     EXPECT_EQ(colour.colour.size(), cv::Size(31, 23));
 }
 
-TEST_F(VirtualStageTest, RefusesCamerasThatCannotBe) {
+TEST_F(VirtualStageTest, RefusesInvalidCameras) {
     VirtualStage stage(library_);
     const StageCamera good = camera_at({1, 1.6, 4}, {0, 1, 0}, {31, 23}, 30);
     StageCamera bad = good;

@@ -29,7 +29,7 @@ std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
     return thrown_sentence([&] { decode(bytes); });
 }
 
-TEST(LinkMessage, HostMessageComesBackWhole) {
+TEST(LinkMessage, HostMessageRoundTrips) {
     HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
     sent.fetch = {21, 22, 23, 24};
@@ -38,7 +38,7 @@ TEST(LinkMessage, HostMessageComesBackWhole) {
 }
 
 /// Protobuf itself writes a line for each name that is no UTF-8, however many a peer sends.
-TEST(LinkMessage, NamesThatAreNoTextAreRefusedAndNothingIsWrittenToTheLog) {
+TEST(LinkMessage, RefusesInvalidUtf8WithoutALogLine) {
     RigMessage sent;
     sent.rig = "rig-a";
     sent.link = 2;
@@ -54,7 +54,7 @@ TEST(LinkMessage, NamesThatAreNoTextAreRefusedAndNothingIsWrittenToTheLog) {
     EXPECT_NE(refusal, "");
 }
 
-TEST(LinkMessage, RigMessageComesBackWhole) {
+TEST(LinkMessage, RigMessageRoundTrips) {
     RigMessage sent;
     sent.rig = "rig-a";
     sent.session = 1;

@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(StatusReport, TellsOfStrangersWhereThereWereAny) {
+TEST(StatusReport, ReportsRefusedConnections) {
     RigHealth health;
     EXPECT_THAT(health_text(health), Not(HasSubstr("strangers")));
     EXPECT_EQ(to_json(health)["refused_connections"], 0);

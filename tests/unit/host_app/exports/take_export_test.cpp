@@ -62,7 +62,7 @@ Pose turned(double pan_rad, double tilt_rad, double roll_rad) {
     return pose;
 }
 
-TEST(CameraFilesTest, SayPanTiltAndRoll) {
+TEST(CameraFilesTest, ContainPanTiltAndRoll) {
     for (const auto& [pan, tilt, roll] :
          {std::tuple(0.0, 0.0, 0.0), {30.0, 0.0, 0.0}, {-120.0, 20.0, 0.0}, {15.0, -40.0, 5.0}}) {
         const PanTiltRoll turn = pan_tilt_roll_of(turned(pan * rad, tilt * rad, roll * rad));
@@ -111,7 +111,7 @@ TEST_F(TakeExportTest, WritesTheFlight) {
     EXPECT_EQ(export_camera(take_, {0, ~std::uint64_t{0}, 4}, path("few")).written, 4u);
 }
 
-TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
+TEST_F(TakeExportTest, PlacesEveryPixelWithDepth) {
     Moment moment = first_moment();
     ASSERT_EQ(moment.views.size(), 2u);
     moment.views.pop_back();
@@ -152,7 +152,7 @@ TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
     EXPECT_NE(info.out.find("| triangle]"), std::string::npos) << info.out;
 }
 
-TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
+TEST_F(TakeExportTest, WritesValidGltf) {
     const Moment moment = first_moment();
     write_glb(moment, path("one.glb"));
     const std::string glb = text("one.glb");
@@ -180,7 +180,7 @@ TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
 }
 
 /// As a trainer reads it: by the text of the COLMAP model alone.
-TEST_F(TakeExportTest, WritesAColmapModelWhosePointsMeetItsPictures) {
+TEST_F(TakeExportTest, WritesAConsistentColmapModel) {
     const Moment moment = first_moment();
     write_training_folder(moment, path("model"));
     struct Camera {
@@ -245,7 +245,7 @@ TEST_F(TakeExportTest, WritesAColmapModelWhosePointsMeetItsPictures) {
     }
 }
 
-TEST_F(TakeExportTest, WritesAViewSetThatIsReadBack) {
+TEST_F(TakeExportTest, WritesAReadableViewSet) {
     const Moment moment = first_moment();
     write_view_set(moment, path("views"));
     const ViewSet set = load_view_set(path("views"));
@@ -269,7 +269,7 @@ std::vector<float> decoded(const std::filesystem::path& file, const std::string&
     return values;
 }
 
-TEST_F(TakeExportTest, WritesOpenExrThatOthersReadPixelForPixel) {
+TEST_F(TakeExportTest, WritesOpenExrThatFfmpegReadsPixelForPixel) {
     const Moment moment = first_moment();
     write_exr_folder(moment, path("exr"));
     const MomentView& view = moment.views[1];
@@ -321,7 +321,7 @@ TEST_F(TakeExportTest, WritesOpenExrThatOthersReadPixelForPixel) {
                   expected(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width));
 }
 
-TEST_F(TakeExportTest, WritesAnMpegViewSetWhosePicturesDepthAndCamerasAreRight) {
+TEST_F(TakeExportTest, WritesACorrectMpegViewSet) {
     const Moment moment = first_moment();
     write_mpeg_views(moment, path("mpeg"));
     const std::string words = text("mpeg/sequence.json");
@@ -358,7 +358,7 @@ TEST_F(TakeExportTest, WritesAnMpegViewSetWhosePicturesDepthAndCamerasAreRight) 
     }
 }
 
-TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
+TEST_F(TakeExportTest, ResumesAnInterruptedExport) {
     const ExportFormat& ply = find_export_format("ply");
     const TakePart part{first_pulse(), first_pulse() + 10, 3};
     EXPECT_EQ(export_moments(take_, ply, part, path("points")).written, 4u);
@@ -379,7 +379,7 @@ TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
     EXPECT_EQ(export_moments(take_, ply, {}, path("points")).written, 11u);
 }
 
-TEST_F(TakeExportTest, IsTheSameByteForByteFromTwoProcessesAtATime) {
+TEST_F(TakeExportTest, TwoProcessesWriteTheSameBytes) {
     const std::string take = take_.path().string();
     const auto arguments = [&](const std::string& folder) {
         return std::vector<std::string>{
@@ -410,7 +410,7 @@ TEST_F(TakeExportTest, IsTheSameByteForByteFromTwoProcessesAtATime) {
     EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(parts), end(parts))), files);
 }
 
-TEST_F(TakeExportTest, MixesWithNothingElse) {
+TEST_F(TakeExportTest, RefusesAFolderWithOtherContent) {
     const auto refused = [&](const std::string& form, const std::string& folder,
                              const std::string& words) {
         const std::string sentence = thrown_sentence(
@@ -429,7 +429,7 @@ TEST_F(TakeExportTest, MixesWithNothingElse) {
     EXPECT_FALSE(std::filesystem::exists(path("new")));
 }
 
-TEST_F(TakeExportTest, LeavesDamagedFramesOutAndCountsThem) {
+TEST_F(TakeExportTest, SkipsAndCountsDamagedFrames) {
     const std::filesystem::path file = path("damaged.mkv");
     write_small_take(file, {"north", "south"}, 100, 103);
     std::vector<std::byte> bytes = bytes_of_file(file);

@@ -9,7 +9,7 @@
 namespace vantage {
 
 /// Counts the outages of a rig and their total time. Clock readings are arguments. Not thread-safe.
-class OutageBook {
+class OutageCounter {
   public:
     /// Call it periodically. `heard`: the rig's last message, from which an outage counts.
     void note(bool connected, std::optional<MonotonicTime> heard);
