@@ -202,7 +202,7 @@ void RigLink::watch(MonotonicTime now) {
             case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
             case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
                 refuse(rig_.public_key.empty()
-                           ? fmt::format("rig {} at {} talks only to hosts with keys, or is no "
+                           ? fmt::format("rig {} at {} accepts only hosts with keys, or is not a "
                                          "rig; set its public_key and the stage's key_file",
                                          rig_.name, rig_.endpoint)
                            : fmt::format("rig {} at {} does not have the key that the stage states "
